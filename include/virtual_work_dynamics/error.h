@@ -1,0 +1,38 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace virtual_work_dynamics {
+
+/// Base of everything this library throws on bad input; what() is one line that names the culprit.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The robot description is broken or asks for something unsupported.
+class UrdfError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// The scene is malformed, or names what the mechanism does not have.
+class SceneError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A motion has the wrong size, order of times or content.
+class MotionError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A file cannot be read, parsed or written.
+class FileError : public Error {
+ public:
+  using Error::Error;
+};
+
+}  // namespace virtual_work_dynamics

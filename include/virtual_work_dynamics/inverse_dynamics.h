@@ -1,0 +1,120 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/motion.h"
+#include "virtual_work_dynamics/scene.h"
+
+namespace virtual_work_dynamics {
+
+/// Force and moment that the parent exerts on the child, moment about the joint origin O_k.
+struct Wrench {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m
+};
+
+/// Pose of a joint frame (the child link's frame) in the root link.
+struct Pose {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< m
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< R_0K
+};
+
+/// Velocity of a joint frame in root axes.
+struct Twist {
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< of the point O_k, m/s
+  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< rad/s
+};
+
+/// What a consumer wants computed; what it does not name costs nothing. Names are joints or
+/// "ground"; the order is the order of the results.
+struct Request {
+  bool efforts = true;
+  std::vector<std::string> child_axes;  ///< reactions in the child link's axes
+  std::vector<std::string> root_axes;   ///< reactions in root axes, (4.3)
+  bool poses = false;                   ///< poses of the `root_axes` joints
+  bool twists = false;                  ///< twists of the `root_axes` joints
+};
+
+class Workspace;
+
+/// Inverse dynamics of a tree by the recursive virtual-work model (2.5)-(2.7), (3.5)-(3.8), (4.3):
+/// a mechanism, a scene and a request compiled into one plan. Immutable: one instance may serve any
+/// number of threads, each with a workspace of its own.
+class InverseDynamics {
+ public:
+  /// Compiles. Fixed joints are lumped into their parents unless their reaction is requested, and
+  /// branches that reach no requested result are left out.
+  /// @throws SceneError when scene or request name a joint or link that the mechanism lacks, or
+  /// when
+  ///   the scene is strict about inertias and the mechanism has doubtful ones.
+  InverseDynamics(const Mechanism& mechanism, const Scene& scene, const Request& request);
+  /// Everything the scene asks for: efforts, and its reactions in both axes.
+  InverseDynamics(const Mechanism& mechanism, const Scene& scene);
+  ~InverseDynamics();
+  InverseDynamics(InverseDynamics&&) noexcept;
+  InverseDynamics& operator=(InverseDynamics&&) noexcept;
+
+  /// Number of generalized coordinates: the length of q, qd, qdd and of the effort.
+  Eigen::Index coordinates() const;
+  const Request& request() const;
+
+  /// Memory for compute(). Allocates; compute() then does not.
+  Workspace makeWorkspace() const;
+
+  /// Efforts and reactions of one sample, into the workspace. Does not allocate.
+  /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is
+  /// another
+  ///   plan's.
+  void compute(const Motion& motion, Workspace& workspace) const;
+
+ private:
+  struct Impl;
+  friend class Workspace;
+  std::unique_ptr<const Impl> impl_;
+};
+
+/// Results and scratch memory of one thread's computations; made by
+/// InverseDynamics::makeWorkspace(), whose maker must outlive it.
+class Workspace {
+ public:
+  ~Workspace();
+  Workspace(Workspace&&) noexcept;
+  Workspace& operator=(Workspace&&) noexcept;
+
+  /// Effort of each generalized coordinate, N m or N; (3.7), mimic joints included. Empty when the
+  /// request leaves efforts out.
+  const Eigen::VectorXd& effort() const { return effort_; }
+  /// Reactions in the order of Request::child_axes and Request::root_axes.
+  const std::vector<Wrench>& childAxes() const { return child_axes_; }
+  const std::vector<Wrench>& rootAxes() const { return root_axes_; }
+  /// In the order of Request::root_axes; empty unless requested.
+  const std::vector<Pose>& poses() const { return poses_; }
+  const std::vector<Twist>& twists() const { return twists_; }
+
+  /// False when any result overflowed to infinity or NaN, as huge inputs can.
+  bool finite() const;
+
+  /// Replaces force and torque of the scene's applied wrench `index` from the next sample on; its
+  /// link, point and axes stay. Does not allocate. @throws SceneError when there is no such wrench.
+  void setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
+                        const Eigen::Vector3d& torque);
+
+ private:
+  friend class InverseDynamics;
+  struct Scratch;
+  explicit Workspace(const InverseDynamics::Impl& plan);
+
+  Eigen::VectorXd effort_;
+  std::vector<Wrench> child_axes_;
+  std::vector<Wrench> root_axes_;
+  std::vector<Pose> poses_;
+  std::vector<Twist> twists_;
+  std::unique_ptr<Scratch> scratch_;
+};
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace virtual_work_dynamics {
+
+using Vector3l = Eigen::Matrix<long double, 3, 1>;
+using Matrix3l = Eigen::Matrix<long double, 3, 3>;
+
+/// Name under which the wrench that ground exerts on the root link is requested and reported.
+constexpr char kGround[] = "ground";
+
+enum class JointType { kRevolute, kContinuous, kPrismatic, kFixed };
+
+/// A rigid body of the description. Constants are long double so that they are rounded only once,
+/// when a scene is compiled.
+struct Link {
+  std::string name;
+  int parent_joint = -1;                     ///< index of the joint that carries it; -1: root
+  long double mass = 0;                      ///< kg
+  Vector3l p_KoCm_K = Vector3l::Zero();      ///< centre of mass, link axes, m
+  Matrix3l inertia_Cm_K = Matrix3l::Zero();  ///< about the centre of mass, link axes, kg m^2
+};
+
+/// A joint of the description. Its frame K is the child link's.
+struct Joint {
+  std::string name;
+  JointType type = JointType::kFixed;
+  int parent_link = 0;
+  int child_link = 0;                    ///< always the joint's own index + 1
+  Vector3l p_PoKo_P = Vector3l::Zero();  ///< joint origin in the parent link at q = 0, m
+  Matrix3l R_PK = Matrix3l::Identity();  ///< orientation in the parent link at q = 0
+  Vector3l axis_K = Vector3l::Zero();    ///< unit vector; zero for fixed joints
+  /// Index of the generalized coordinate that moves it; -1: fixed. A mimic joint has its master's.
+  int coordinate = -1;
+  bool mimics = false;
+  double multiplier = 1;  ///< joint position = multiplier * q[coordinate]
+  double offset = 0;      ///<                  + offset
+};
+
+/// Something questionable in a description that is computed all the same; one line for the user.
+struct Doubt {
+  std::string text;
+  bool about_inertia = false;  ///< true: fatal under a scene's `strict_inertia`
+};
+
+/// What a robot description says: a tree of links. Immutable. Joints are in depth-first order, the
+/// children of a link by joint name, so a parent always stands before its child; links()[0] is the
+/// root and links()[i + 1] hangs on joints()[i].
+class Mechanism {
+ public:
+  /// Takes links and joints in the order above. The urdf_reader makes them; tests may, too.
+  /// @throws UrdfError when that order is broken.
+  Mechanism(std::string name, std::vector<Link> links, std::vector<Joint> joints,
+            std::vector<Doubt> doubts = {});
+
+  const std::string& name() const { return name_; }
+  const std::vector<Link>& links() const { return links_; }
+  const std::vector<Joint>& joints() const { return joints_; }
+  const std::vector<Doubt>& doubts() const { return doubts_; }
+
+  /// Indices into joints() of the generalized coordinates: every movable joint that mimics no
+  /// other.
+  const std::vector<int>& coordinates() const { return coordinates_; }
+  /// Their joints' names, in the same order.
+  const std::vector<std::string>& coordinateNames() const { return coordinate_names_; }
+
+  /// Index of the joint or link of that name; -1 when there is none. Not for the per-sample path.
+  int jointIndex(const std::string& name) const;
+  int linkIndex(const std::string& name) const;
+
+ private:
+  std::string name_;
+  std::vector<Link> links_;
+  std::vector<Joint> joints_;
+  std::vector<Doubt> doubts_;
+  std::vector<int> coordinates_;
+  std::vector<std::string> coordinate_names_;
+};
+
+}  // namespace virtual_work_dynamics

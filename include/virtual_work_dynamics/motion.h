@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace virtual_work_dynamics {
+
+/// Motion of a mechanism at one instant. Each vector has one entry for each generalized coordinate,
+/// in the order of Mechanism::coordinates().
+struct Motion {
+  Motion() = default;
+
+  /// All zero, for `coordinates` generalized coordinates. Allocates.
+  explicit Motion(Eigen::Index coordinates)
+      : q(Eigen::VectorXd::Zero(coordinates)),
+        qd(Eigen::VectorXd::Zero(coordinates)),
+        qdd(Eigen::VectorXd::Zero(coordinates)) {}
+
+  Eigen::VectorXd q;    ///< positions, rad or m
+  Eigen::VectorXd qd;   ///< velocities, rad/s or m/s
+  Eigen::VectorXd qdd;  ///< accelerations, rad/s^2 or m/s^2
+};
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace virtual_work_dynamics {
+
+class Mechanism;
+
+/// Axes in which a vector is given.
+enum class Axes { kLink, kRoot };
+
+/// A wrench that acts on a link from outside; (3.6) without the weight.
+struct AppliedWrench {
+  std::string link;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();      ///< point of action, link frame, m
+  Axes axes = Axes::kLink;                           ///< of force and torque
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< about `at`, N m
+};
+
+/// Which reactions a scene asks for.
+enum class ReactionSelection {
+  kAll,  ///< every movable joint, mimic joints included
+  kNone,
+  kNamed  ///< the joints in Scene::reaction_names; fixed joints and "ground" only this way
+};
+
+/// What a user wants of a mechanism; names are resolved when it is compiled (InverseDynamics).
+struct Scene {
+  Eigen::Vector3d gravity{0, 0, -9.81};  ///< m/s^2, axes of the root link
+  bool static_motion = false;            ///< velocities and accelerations are taken as zero
+  ReactionSelection reactions = ReactionSelection::kAll;
+  std::vector<std::string> reaction_names;
+  /// false: the component of a reaction along the joint axis is reported as zero.
+  bool include_active = true;
+  bool strict_inertia = false;  ///< impossible inertias are an error rather than a doubt
+  std::vector<AppliedWrench> applied_wrenches;
+};
+
+/// Names of the reactions that the scene asks for: "ground" first, then depth-first order.
+/// @throws SceneError for a name that is no joint, or that is given twice.
+std::vector<std::string> requestedReactions(const Mechanism& mechanism, const Scene& scene);
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <memory>
+
+#include "allocation_guard.h"
+#include "sample_robots.h"
+#include "virtual_work_dynamics/inverse_dynamics.h"
+#include "virtual_work_dynamics/motion_estimator.h"
+#include "virtual_work_dynamics/run_time_histogram.h"
+#include "virtual_work_dynamics/spline.h"
+#include "virtual_work_dynamics/urdf_reader.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+TEST(AllocationGuard, SeesAllocationsInTheTest) {
+  const AllocationGuard guard;
+  const std::unique_ptr<int> one(new int(1));
+  void* volatile two = std::malloc(10);
+  std::free(two);
+  EXPECT_EQ(guard.allocations(), 2u);
+}
+
+// The one that matters: allocations inside the compiled core are seen too.
+TEST(AllocationGuard, SeesAllocationsInsideTheCore) {
+  const Mechanism mechanism = readUrdf(pendulumUrdf());
+  const InverseDynamics dynamics(mechanism, Scene());
+  const AllocationGuard guard;
+  const Workspace workspace = dynamics.makeWorkspace();
+  EXPECT_GE(guard.allocations(), 4u);
+}
+
+Scene busyScene() {
+  Scene scene;
+  scene.applied_wrenches.resize(2);
+  for (auto& wrench : scene.applied_wrenches) {
+    wrench.link = "link_3";
+    wrench.force << 1, 2, 3;
+  }
+  scene.applied_wrenches[1].axes = Axes::kRoot;
+  return scene;
+}
+
+TEST(InverseDynamics, ComputeDoesNotAllocate) {
+  RandomRobot robot(5, 20);
+  const Mechanism mechanism = readUrdf(robot.urdf());
+  const Scene scene = busyScene();
+  Request request;
+  request.child_axes = request.root_axes = requestedReactions(mechanism, scene);
+  request.poses = request.twists = true;
+  const InverseDynamics dynamics(mechanism, scene, request);
+  Workspace workspace = dynamics.makeWorkspace();
+  const Motion motion = robot.motion(mechanism);
+  const AllocationGuard guard;
+  for (int i = 0; i < 10; ++i) {
+    dynamics.compute(motion, workspace);
+    workspace.setAppliedWrench(0, Eigen::Vector3d(i, 0, 0), Eigen::Vector3d::Zero());
+  }
+  EXPECT_TRUE(workspace.finite());
+  EXPECT_EQ(guard.allocations(), 0u);
+}
+
+TEST(MotionEstimator, SamplesDoNotAllocate) {
+  const Mechanism mechanism = readUrdf(pendulumUrdf());
+  MotionEstimator estimator(mechanism, EstimatorSettings());
+  Motion motion(2);
+  const int coordinates[] = {0, 1};
+  const double q[] = {0.1, 0.2}, qd[] = {1, 2};
+  RunTimeHistogram histogram;
+  int outputs = 0;
+  const AllocationGuard guard;
+  for (int i = 1; i < 50; ++i) {
+    // Uneven stamps, so that every window is fitted anew; one restart on the way.
+    const std::int64_t stamp = (i == 25 ? 1 : i) * 1000000LL + i % 3;
+    estimator.push(stamp, coordinates, q, i % 2 ? qd : nullptr, 2);
+    if (estimator.ready()) {
+      estimator.evaluate(motion);
+      ++outputs;
+    }
+    histogram.record(i);
+  }
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_GT(outputs, 10);
+}
+
+TEST(Spline, EvaluateDoesNotAllocate) {
+  MotionTable table;
+  table.times = {0, 1, 2};
+  table.positions.resize(3, 2);
+  table.positions << 0, 0, 1, 2, 0, 1;
+  const Spline spline(table);
+  Motion motion(2);
+  const AllocationGuard guard;
+  for (double t = -0.5; t < 2.5; t += 0.1) spline.evaluate(t, motion);
+  EXPECT_EQ(guard.allocations(), 0u);
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics
