@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/motion.h"
+
+namespace virtual_work_dynamics {
+
+/// How MotionEstimator gets from joint states to motions.
+struct EstimatorSettings {
+  int window = 9;            ///< samples in the least-squares polynomial
+  int order = 3;             ///< of the polynomial; window >= order + 1
+  int lag = 4;               ///< motions hold this many samples behind the newest one, < window
+  bool use_velocity = true;  ///< fit velocities too where messages carry them
+  double max_gap = 0.1;      ///< s between samples; a longer gap restarts the window
+  /// false: motions are the joint states as they come (velocity zero where none is given) with zero
+  /// acceleration; window, order and lag have no part in it.
+  bool estimate = true;
+};
+
+/// Positions, velocities and accelerations at an instant from a stream of joint states: a causal
+/// least-squares polynomial over the last samples of each joint, with their real stamps.
+/// Continuous joints are unwrapped. Does not allocate after construction.
+class MotionEstimator {
+ public:
+  /// What became of a joint state.
+  enum class Verdict {
+    kAccepted,
+    kEqualStamp,     ///< dropped: a joint already has a sample of this stamp
+    kRestartedBack,  ///< accepted as the first of a new window: time went backwards
+    kRestartedGap    ///< accepted as the first of a new window: gap longer than max_gap
+  };
+
+  /// @throws MotionError when the settings contradict each other, naming the value.
+  MotionEstimator(const Mechanism& mechanism, const EstimatorSettings& settings);
+  ~MotionEstimator();
+
+  /// Takes a joint state of some or all generalized coordinates.
+  /// @param stamp_ns time of the state, ns.
+  /// @param coordinates indices of the generalized coordinates, `count` of them, each once.
+  /// @param q positions, rad or m.   @param qd velocities, rad/s or m/s; null: not given.
+  Verdict push(std::int64_t stamp_ns, const int* coordinates, const double* q, const double* qd,
+               int count);
+
+  /// True once every coordinate has a full window, was refreshed since the last evaluate() or
+  /// skip(), and has samples as early as the common instant.
+  bool ready() const;
+
+  /// The motion at the common instant: for each coordinate the stamp of its sample `lag` behind its
+  /// newest, of these the earliest (but not before the last 512 samples of any coordinate). A
+  /// coordinate that came more often than the others is fitted around that instant, not around its
+  /// own newest samples. Every coordinate then has to be refreshed before ready() again.
+  /// @param motion one entry for each generalized coordinate; continuous joints are unwrapped, from
+  ///   the first sample after a restart on.
+  /// @returns the instant, ns.
+  /// @throws MotionError unless ready(), or for a motion of another size.
+  std::int64_t evaluate(Motion& motion);
+
+  /// As evaluate() without computing anything: for when nobody listens.
+  void skip();
+
+  /// Forgets all samples.
+  void reset();
+
+  /// Latest position of a coordinate, as it came; false when it has never been seen (a reset does
+  /// not forget).
+  bool latestPosition(int coordinate, double& q) const;
+
+  /// True when the coordinate has not been refreshed since the last evaluate() or skip().
+  bool stale(int coordinate) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace virtual_work_dynamics

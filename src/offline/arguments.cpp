@@ -1,0 +1,201 @@
+#include "offline/arguments.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
+#include <sstream>
+
+#include "virtual_work_dynamics/number_text.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+constexpr char kHelp[] =
+    R"(inverse_dynamics_offline: active efforts and joint reactions of a recorded motion
+
+  inverse_dynamics_offline --urdf ROBOT.urdf --motion MOTION.csv [options]
+  inverse_dynamics_offline --urdf ROBOT.urdf --check [options]
+
+Input
+  --urdf FILE           robot description
+  --motion FILE         motion as CSV: a header with the columns time, position.<joint>,
+                        velocity.<joint>, acceleration.<joint> in any order (s, rad or m); lines
+                        that start with # are comments. Missing accelerations, or velocities, are
+                        estimated from the rows around each row.
+  --scene FILE          scene file (YAML); the options below override it
+
+What is computed
+  --gravity "X Y Z"     gravity in axes of the root link, m/s^2 (default: 0 0 -9.81)
+  --axes root|child     axes of the reactions: of the root link (default) or of the child link
+  --reactions LIST      all (every movable joint; the default), none, or joints separated by
+                        commas; fixed joints and "ground" by name only
+
+Output
+  --output FILE         result as CSV (default: standard output); FILE is complete or not there
+  --check               say what the robot is and what is doubtful about it, compute nothing
+  --help                this text
+  --version             the version of the package
+
+The result has the columns time, effort.<joint> (N m or N) and, for each reaction,
+reaction.<name>.{fx,fy,fz,tx,ty,tz}: force (N) and moment about the joint's origin (N m) that the
+parent link exerts on the child link. An empty cell is a value that overflowed.
+
+Exit status: 0 done, 1 something is wrong with the input or output, 2 wrong usage.
+
+Example
+  inverse_dynamics_offline --urdf arm.urdf --motion swing.csv --gravity "0 0 -9.81" \
+    --reactions shoulder,ground --axes child --output swing_loads.csv
+)";
+
+// Cuts a text at any of the separators; blanks around the pieces are removed.
+std::vector<std::string> split(const std::string& text, char separator) {
+  std::vector<std::string> pieces;
+  std::istringstream stream(text + separator);
+  for (std::string piece; std::getline(stream, piece, separator);) {
+    const std::size_t first = piece.find_first_not_of(" \t");
+    const std::size_t last = piece.find_last_not_of(" \t");
+    pieces.push_back(first == std::string::npos ? "" : piece.substr(first, last - first + 1));
+  }
+  return pieces;
+}
+
+Eigen::Vector3d parseGravity(const std::string& text) {
+  std::istringstream stream(text);
+  Eigen::Vector3d gravity;
+  std::string number;
+  int count = 0;
+  while (stream >> number) {
+    double value = 0;
+    if (!parseNumber(number, value)) {
+      throw UsageError("--gravity: '" + number + "' is no finite number");
+    }
+    if (count < 3) gravity[count] = value;
+    ++count;
+  }
+  if (count != 3) {
+    throw UsageError("--gravity: '" + text +
+                     "' is not three numbers, as in --gravity \"0 0 -9.81\"");
+  }
+  return gravity;
+}
+
+bool parseChildAxes(const std::string& text) {
+  if (text != "root" && text != "child") {
+    throw UsageError("--axes: '" + text + "' is neither root nor child");
+  }
+  return text == "child";
+}
+
+void parseReactions(const std::string& text, Arguments& arguments) {
+  if (text == "all") {
+    arguments.reactions = ReactionSelection::kAll;
+  } else if (text == "none") {
+    arguments.reactions = ReactionSelection::kNone;
+  } else {
+    arguments.reactions = ReactionSelection::kNamed;
+    arguments.reaction_names = split(text, ',');
+    const auto& names = arguments.reaction_names;
+    if (std::find(names.begin(), names.end(), "") != names.end()) {
+      throw UsageError("--reactions: there is an empty name in '" + text + "'");
+    }
+  }
+}
+
+using Setter = std::function<void(const std::string& value, Arguments& arguments)>;
+
+const std::map<std::string, Setter>& optionsWithValue() {
+  static const std::map<std::string, Setter> options{
+      {"--urdf", [](const auto& value, auto& arguments) { arguments.urdf = value; }},
+      {"--motion", [](const auto& value, auto& arguments) { arguments.motion = value; }},
+      {"--scene", [](const auto& value, auto& arguments) { arguments.scene = value; }},
+      {"--output", [](const auto& value, auto& arguments) { arguments.output = value; }},
+      {"--gravity",
+       [](const auto& value, auto& arguments) { arguments.gravity = parseGravity(value); }},
+      {"--axes",
+       [](const auto& value, auto& arguments) { arguments.child_axes = parseChildAxes(value); }},
+      {"--reactions", parseReactions},
+  };
+  return options;
+}
+
+const std::map<std::string, bool Arguments::*>& switches() {
+  static const std::map<std::string, bool Arguments::*> options{
+      {"--check", &Arguments::check},
+      {"--help", &Arguments::help},
+      {"--version", &Arguments::version},
+  };
+  return options;
+}
+
+void refuseReserved(const std::string& option) {
+  if (option == "--explain" || option == "--threads") {
+    throw UsageError(option + " is not available yet");
+  }
+}
+
+// Goes through the words of a command line.
+class Parser {
+ public:
+  explicit Parser(const std::vector<std::string>& words) : words_(words) {}
+
+  Arguments parse() {
+    while (next_ < words_.size() && !arguments_.help && !arguments_.version) parseOption();
+    return arguments_;
+  }
+
+ private:
+  void parseOption() {
+    const std::string word = words_[next_++];
+    const std::size_t equals = word.find('=');
+    const std::string option = word.substr(0, equals);
+    const bool has_value = equals != std::string::npos;
+    refuseReserved(option);
+    const auto with_value = optionsWithValue().find(option);
+    const auto without_value = switches().find(option);
+    if (with_value == optionsWithValue().end() && without_value == switches().end()) {
+      throw UsageError(word.compare(0, 1, "-") == 0 ? "unknown option '" + option + "'"
+                                                    : "unexpected argument '" + word + "'");
+    }
+    if (!seen_.insert(option).second) throw UsageError(option + " is given twice");
+    if (without_value != switches().end()) {
+      if (has_value) throw UsageError(option + " takes no value");
+      arguments_.*(without_value->second) = true;
+    } else {
+      const std::string value = has_value ? word.substr(equals + 1) : nextValue(option);
+      if (value.empty()) throw UsageError(option + " needs a value");
+      with_value->second(value, arguments_);
+    }
+  }
+
+  std::string nextValue(const std::string& option) {
+    // A value may start with one dash, as negative numbers do.
+    if (next_ == words_.size() || words_[next_].compare(0, 2, "--") == 0) {
+      throw UsageError(option + " needs a value");
+    }
+    return words_[next_++];
+  }
+
+  const std::vector<std::string>& words_;
+  std::size_t next_ = 0;
+  std::set<std::string> seen_;
+  Arguments arguments_;
+};
+
+}  // namespace
+
+Arguments parseArguments(const std::vector<std::string>& words) {
+  const Arguments arguments = Parser(words).parse();
+  if (arguments.help || arguments.version) return arguments;
+  if (arguments.urdf.empty()) throw UsageError("--urdf FILE is missing");
+  if (arguments.motion.empty() && !arguments.check) {
+    throw UsageError("--motion FILE is missing (it may be left out with --check only)");
+  }
+  return arguments;
+}
+
+std::string helpText() {
+  return kHelp;
+}
+
+}  // namespace virtual_work_dynamics

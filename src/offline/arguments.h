@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "virtual_work_dynamics/error.h"
+#include "virtual_work_dynamics/scene.h"
+
+namespace virtual_work_dynamics {
+
+/// The command line asks for something that does not exist or contradicts itself.
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// What the command line of inverse_dynamics_offline says. Empty texts: not given.
+struct Arguments {
+  std::string urdf;
+  std::string motion;
+  std::string scene;
+  std::string output;                      ///< empty: standard output
+  std::optional<Eigen::Vector3d> gravity;  ///< instead of the scene's
+  bool child_axes = false;                 ///< reactions in child link axes rather than root axes
+  std::optional<ReactionSelection> reactions;  ///< instead of the scene's
+  std::vector<std::string> reaction_names;     ///< of ReactionSelection::kNamed
+  bool check = false;
+  bool help = false;  ///< nothing behind --help or --version is looked at
+  bool version = false;
+};
+
+/// Reads a command line without the program's name; `--option value` and `--option=value`.
+/// @throws UsageError, one line naming the option.
+Arguments parseArguments(const std::vector<std::string>& words);
+
+/// The text of --help.
+std::string helpText();
+
+}  // namespace virtual_work_dynamics

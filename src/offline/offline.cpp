@@ -1,0 +1,225 @@
+#include "offline/offline.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "offline/check_report.h"
+#include "offline/output_file.h"
+#include "offline/progress.h"
+#include "offline/result_writer.h"
+#include "virtual_work_dynamics/inverse_dynamics.h"
+#include "virtual_work_dynamics/motion_completion.h"
+#include "virtual_work_dynamics/motion_csv.h"
+#include "virtual_work_dynamics/number_text.h"
+#include "virtual_work_dynamics/scene_reader.h"
+#include "virtual_work_dynamics/urdf_reader.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+// Times may be known this coarsely, in parts of their mean spacing, before estimates suffer.
+constexpr double kFineTimes = 1e-6;
+
+struct MotionFile {
+  MotionTable table;
+  std::vector<std::size_t> lines;  // of the rows
+};
+
+std::string numberText(double value) {
+  std::string text;
+  appendNumber(text, value);
+  return text;
+}
+
+Scene loadScene(const Arguments& arguments) {
+  Scene scene = arguments.scene.empty() ? Scene() : readSceneFile(arguments.scene);
+  if (arguments.gravity) scene.gravity = *arguments.gravity;
+  if (arguments.reactions) {
+    scene.reactions = *arguments.reactions;
+    scene.reaction_names = arguments.reaction_names;
+  }
+  return scene;
+}
+
+Request requestOf(const Mechanism& mechanism, const Scene& scene, bool child_axes) {
+  Request request;
+  (child_axes ? request.child_axes : request.root_axes) = requestedReactions(mechanism, scene);
+  return request;
+}
+
+void refuseToOverwriteInput(const Arguments& arguments) {
+  if (arguments.output.empty()) return;
+  for (const std::string& input : {arguments.urdf, arguments.motion, arguments.scene}) {
+    if (input.empty()) continue;
+    std::error_code missing;  // a file that is not there is no input
+    if (std::filesystem::equivalent(input, arguments.output, missing) ||
+        std::filesystem::equivalent(input, partPath(arguments.output), missing)) {
+      throw UsageError("--output: '" + arguments.output + "' would overwrite the input '" + input +
+                       "'");
+    }
+  }
+}
+
+// "position.j", "velocity.j", "position.k" -> "j, k"
+std::string jointsOfColumns(const std::vector<std::string>& columns) {
+  std::vector<std::string> joints;
+  std::string text;
+  for (const std::string& column : columns) {
+    const std::string joint = column.substr(column.find('.') + 1);
+    if (std::find(joints.begin(), joints.end(), joint) != joints.end()) continue;
+    text += (joints.empty() ? "" : ", ") + joint;
+    joints.push_back(joint);
+  }
+  return text;
+}
+
+MotionFile readMotion(const std::string& path, const Mechanism& mechanism) {
+  MotionFile motion;
+  std::vector<std::string> unused;
+  motion.table = readMotionCsv(path, mechanism.coordinateNames(), &unused, &motion.lines);
+  if (mechanism.coordinates().empty()) {
+    // No names ask the reader for every joint, but a robot that cannot move wants none.
+    for (const std::string& joint : motion.table.joints) unused.push_back("position." + joint);
+    motion.table.joints.clear();
+    motion.table.positions.resize(motion.table.positions.rows(), 0);
+    motion.table.velocities.resize(0, 0);
+    motion.table.accelerations.resize(0, 0);
+  }
+  if (!unused.empty()) {
+    std::cerr << "note: " << path
+              << ": ignored, no coordinates of the robot: " << jointsOfColumns(unused) << "\n";
+  }
+  return motion;
+}
+
+void checkTimes(const std::string& path, const MotionFile& motion) {
+  const std::vector<double>& times = motion.table.times;
+  const std::size_t row = firstTimeThatDoesNotIncrease(times);
+  if (row < times.size()) {
+    throw FileError(path + ": line " + std::to_string(motion.lines[row]) + ": time " +
+                    numberText(times[row]) + " is not later than " + numberText(times[row - 1]) +
+                    " in the row before, and derivatives have to be estimated");
+  }
+  const double latest = std::max(std::abs(times.front()), std::abs(times.back()));
+  const double spacing = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  const double resolution = latest * std::numeric_limits<double>::epsilon();
+  if (times.size() > 1 && resolution > kFineTimes * spacing) {
+    std::ostringstream text;
+    text << "warning: " << path << ": times near " << latest << " s are known to " << resolution
+         << " s only, which spoils estimated derivatives; let them start near zero\n";
+    std::cerr << text.str();
+  }
+}
+
+// Gives the motion every derivative that the plan takes.
+void complete(const std::string& path, const Mechanism& mechanism, const Scene& scene,
+              MotionFile& motion) {
+  MotionTable& table = motion.table;
+  if (scene.static_motion) {
+    table.velocities = Eigen::MatrixXd::Zero(table.positions.rows(), table.positions.cols());
+    table.accelerations = table.velocities;
+  }
+  std::string missing;
+  if (!table.hasVelocities()) missing = "velocities";
+  if (!table.hasAccelerations()) missing += missing.empty() ? "accelerations" : ", accelerations";
+  if (missing.empty() || table.joints.empty()) return;
+  checkTimes(path, motion);
+  try {
+    table = completeMotion(mechanism, std::move(table));
+  } catch (const MotionError& error) {
+    throw FileError(path + ": " + error.what());
+  }
+  std::cerr << "note: " << path << ": estimated from the rows around each row: " << missing << "\n";
+}
+
+void takeRow(const MotionTable& table, Eigen::Index row, Motion& motion) {
+  if (table.joints.empty()) return;
+  motion.q = table.positions.row(row).transpose();
+  motion.qd = table.velocities.row(row).transpose();
+  motion.qdd = table.accelerations.row(row).transpose();
+}
+
+void compute(const InverseDynamics& dynamics, const MotionFile& file, const std::string& path,
+             ResultWriter& writer) {
+  Workspace workspace = dynamics.makeWorkspace();
+  Motion motion(dynamics.coordinates());
+  const std::size_t rows = file.table.times.size();
+  std::size_t overflowed = 0;
+  std::size_t first_line = 0;
+  {
+    Progress progress(std::cerr, isatty(STDERR_FILENO) == 1);
+    for (std::size_t row = 0; row < rows; ++row) {
+      takeRow(file.table, static_cast<Eigen::Index>(row), motion);
+      dynamics.compute(motion, workspace);
+      if (!workspace.finite() && ++overflowed == 1) first_line = file.lines[row];
+      const bool child_axes = !dynamics.request().child_axes.empty();
+      writer.writeRow(file.table.times[row], workspace.effort(),
+                      child_axes ? workspace.childAxes() : workspace.rootAxes());
+      progress.update(row + 1, rows);
+    }
+  }
+  if (overflowed == 0) return;
+  std::cerr << "warning: " << path << ": results of " << overflowed << " row"
+            << (overflowed == 1 ? "" : "s") << " overflow, first of line " << first_line
+            << "; their cells are empty\n";
+}
+
+void printReactions(const Request& request) {
+  const bool child = !request.child_axes.empty();
+  const auto& names = child ? request.child_axes : request.root_axes;
+  printNames(std::cout, "reactions", names);
+  if (names.empty()) return;
+  printNames(std::cout, "axes", {child ? "of the child link" : "of the root link"});
+}
+
+void check(const Arguments& arguments, const Mechanism& mechanism) {
+  printMechanism(std::cout, mechanism);
+  printDoubts(std::cout, mechanism);
+  std::cout << std::flush;  // before what is wrong ends up on the other stream
+  const Scene scene = loadScene(arguments);
+  const InverseDynamics dynamics(mechanism, scene,
+                                 requestOf(mechanism, scene, arguments.child_axes));
+  printReactions(dynamics.request());
+  std::cout << std::flush;
+  if (!arguments.motion.empty()) {
+    MotionFile motion = readMotion(arguments.motion, mechanism);
+    complete(arguments.motion, mechanism, scene, motion);
+    const std::vector<double>& times = motion.table.times;
+    const auto extremes = std::minmax_element(times.begin(), times.end());
+    const char* rows = times.size() == 1 ? " row from " : " rows from ";
+    printNames(std::cout, "motion",
+               {std::to_string(times.size()) + rows + numberText(*extremes.first) + " s to " +
+                numberText(*extremes.second) + " s"});
+  }
+  std::cout << "The robot can run.\n" << std::flush;
+}
+
+}  // namespace
+
+void runOffline(const Arguments& arguments) {
+  refuseToOverwriteInput(arguments);
+  const Mechanism mechanism = readUrdfFile(arguments.urdf);
+  if (arguments.check) return check(arguments, mechanism);
+  printDoubts(std::cerr, mechanism);
+  const Scene scene = loadScene(arguments);
+  const InverseDynamics dynamics(mechanism, scene,
+                                 requestOf(mechanism, scene, arguments.child_axes));
+  const Request& request = dynamics.request();
+  const std::string header = resultHeader(
+      mechanism.coordinateNames(), arguments.child_axes ? request.child_axes : request.root_axes);
+  MotionFile motion = readMotion(arguments.motion, mechanism);
+  complete(arguments.motion, mechanism, scene, motion);
+  OutputFile file(arguments.output);
+  ResultWriter writer(file, header);
+  compute(dynamics, motion, arguments.motion, writer);
+  writer.finish();
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "offline/arguments.h"
+
+namespace virtual_work_dynamics {
+
+/// Does what the command line asks for: reads and checks all of the input, then computes row by
+/// row. Results go to the output, warnings and notes to standard error, a line each.
+/// @throws Error, UsageError among them; then no output file is left behind.
+void runOffline(const Arguments& arguments);
+
+}  // namespace virtual_work_dynamics

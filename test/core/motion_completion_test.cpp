@@ -1,0 +1,228 @@
+#include "virtual_work_dynamics/motion_completion.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// A cubic is its own least-squares cubic; what is left is rounding, times the 1/dt^2 ~ 1e4 by which
+// a second derivative magnifies it.
+constexpr double kExactVelocity = 1e-12;
+constexpr double kExactAcceleration = 1e-9;
+
+// A chain of two: "hinge" revolute, "wheel" continuous.
+Mechanism twoJoints() {
+  std::vector<Link> links(3);
+  std::vector<Joint> joints(2);
+  const std::array<JointType, 2> types{JointType::kRevolute, JointType::kContinuous};
+  const std::array<const char*, 2> names{"hinge", "wheel"};
+  for (int k = 0; k < 2; ++k) {
+    joints[k].name = names[k];
+    joints[k].type = types[k];
+    joints[k].parent_link = k;
+    joints[k].child_link = k + 1;
+    joints[k].axis_K = Vector3l::UnitZ();
+    joints[k].coordinate = k;
+    links[k + 1].parent_joint = k;
+  }
+  return Mechanism("two", links, joints);
+}
+
+// Unevenly spaced times from 100 s on, about 10 ms apart.
+std::vector<double> unevenTimes(int rows) {
+  std::vector<double> times;
+  for (int i = 0; i < rows; ++i) times.push_back(100 + 0.01 * i + 0.003 * std::sin(5.0 * i));
+  return times;
+}
+
+struct Cubic {
+  double position(double t) const { return 0.3 - 0.7 * t + 1.1 * t * t - 0.9 * t * t * t; }
+  double velocity(double t) const { return -0.7 + 2.2 * t - 2.7 * t * t; }
+  double acceleration(double t) const { return 2.2 - 5.4 * t; }
+};
+
+// Both joints move by the cubic of the time after the first row, the wheel at a multiple.
+MotionTable cubicMotion(const std::vector<double>& times, double wheel_factor = 2) {
+  const Cubic cubic;
+  MotionTable table;
+  table.joints = {"hinge", "wheel"};
+  table.times = times;
+  const auto rows = static_cast<Eigen::Index>(times.size());
+  table.positions.resize(rows, 2);
+  table.velocities.resize(rows, 2);
+  table.accelerations.resize(rows, 2);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    const double t = times[static_cast<std::size_t>(i)] - times.front();
+    table.positions.row(i) << cubic.position(t), wheel_factor * cubic.position(t);
+    table.velocities.row(i) << cubic.velocity(t), wheel_factor * cubic.velocity(t);
+    table.accelerations.row(i) << cubic.acceleration(t), wheel_factor * cubic.acceleration(t);
+  }
+  return table;
+}
+
+MotionTable without(MotionTable table, bool velocities, bool accelerations) {
+  if (velocities) table.velocities.resize(0, 0);
+  if (accelerations) table.accelerations.resize(0, 0);
+  return table;
+}
+
+void expectNear(const Eigen::MatrixXd& actual, const Eigen::MatrixXd& expected, double tolerance) {
+  ASSERT_EQ(actual.rows(), expected.rows());
+  ASSERT_EQ(actual.cols(), expected.cols());
+  ASSERT_TRUE(actual.allFinite());
+  for (Eigen::Index column = 0; column < actual.cols(); ++column) {
+    for (Eigen::Index row = 0; row < actual.rows(); ++row) {
+      const double wanted = expected(row, column);
+      EXPECT_LE(std::abs(actual(row, column) - wanted), tolerance * std::max(1.0, std::abs(wanted)))
+          << "row " << row << ", column " << column;
+    }
+  }
+}
+
+std::string refusal(const MotionTable& motion) {
+  try {
+    completeMotion(twoJoints(), motion);
+  } catch (const MotionError& error) {
+    return error.what();
+  }
+  return "(not refused)";
+}
+
+TEST(MotionCompletion, DerivativesOfACubicAreExactInEveryRow) {
+  const MotionTable truth = cubicMotion(unevenTimes(40));
+  const MotionTable completed = completeMotion(twoJoints(), without(truth, true, true));
+  EXPECT_EQ(completed.positions, truth.positions);
+  EXPECT_EQ(completed.times, truth.times);
+  EXPECT_EQ(completed.joints, truth.joints);
+  expectNear(completed.velocities, truth.velocities, kExactVelocity);
+  expectNear(completed.accelerations, truth.accelerations, kExactAcceleration);
+}
+
+TEST(MotionCompletion, GivenVelocitiesAreKeptAndFitted) {
+  MotionTable given = without(cubicMotion(unevenTimes(40)), false, true);
+  // At rest by position: accelerations can come from the velocities only.
+  given.positions.setZero();
+  const MotionTable completed = completeMotion(twoJoints(), given);
+  EXPECT_EQ(completed.velocities, given.velocities);
+  ASSERT_TRUE(completed.accelerations.allFinite());
+  EXPECT_GT(completed.accelerations.col(0).cwiseAbs().minCoeff(), 0);
+}
+
+TEST(MotionCompletion, AccelerationsFromPositionsAndVelocitiesOfACubicAreExact) {
+  const MotionTable truth = cubicMotion(unevenTimes(40));
+  const MotionTable completed = completeMotion(twoJoints(), without(truth, false, true));
+  expectNear(completed.accelerations, truth.accelerations, kExactAcceleration);
+}
+
+TEST(MotionCompletion, GivenAccelerationsAreKeptWhenVelocitiesAreMissing) {
+  MotionTable given = without(cubicMotion(unevenTimes(12)), true, false);
+  const Eigen::MatrixXd velocities = cubicMotion(unevenTimes(12)).velocities;
+  given.accelerations.setConstant(7);
+  const MotionTable completed = completeMotion(twoJoints(), given);
+  EXPECT_EQ(completed.accelerations, given.accelerations);
+  expectNear(completed.velocities, velocities, kExactVelocity);
+}
+
+TEST(MotionCompletion, NothingIsDoneToACompleteMotion) {
+  MotionTable given = cubicMotion(unevenTimes(5));
+  given.times[2] = given.times[1];  // nobody asks for derivatives, so times may stand still
+  const MotionTable completed = completeMotion(twoJoints(), given);
+  EXPECT_EQ(completed.velocities, given.velocities);
+  EXPECT_EQ(completed.accelerations, given.accelerations);
+}
+
+// A window that lagged, or sat askew, would show here: the third derivative of a sine turns.
+TEST(MotionCompletion, ASineHasNoLag) {
+  MotionTable motion;
+  motion.joints = {"hinge"};
+  constexpr int kRows = 400;
+  constexpr double kStep = 0.01;
+  motion.positions.resize(kRows, 1);
+  for (int i = 0; i < kRows; ++i) {
+    motion.times.push_back(kStep * i);
+    motion.positions(i, 0) = std::sin(2 * kStep * i);
+  }
+  const MotionTable completed = completeMotion(twoJoints(), motion);
+  // Centred, a cubic through 9 samples errs by the fourth derivative: about (4 dt)^2 2^4 / 15 in
+  // the acceleration. One sample of lag would err by dt 2^3 = 0.08.
+  constexpr double kTruncation = 0.004;
+  for (int i = 4; i + 4 < kRows; ++i) {
+    EXPECT_NEAR(completed.velocities(i, 0), 2 * std::cos(2 * motion.times[i]), kTruncation);
+    EXPECT_NEAR(completed.accelerations(i, 0), -4 * std::sin(2 * motion.times[i]), kTruncation);
+  }
+}
+
+TEST(MotionCompletion, ContinuousJointsMayWrap) {
+  const MotionTable truth = cubicMotion(unevenTimes(60), 40);
+  MotionTable wrapped = without(truth, true, true);
+  for (Eigen::Index i = 0; i < wrapped.positions.rows(); ++i) {
+    wrapped.positions(i, 1) = std::remainder(wrapped.positions(i, 1), 2 * kPi);
+  }
+  ASSERT_GT((wrapped.positions - truth.positions).cwiseAbs().maxCoeff(), 6);
+  const MotionTable completed = completeMotion(twoJoints(), wrapped);
+  EXPECT_EQ(completed.positions, wrapped.positions);
+  // The wheel's positions are 40 times larger, and so is their rounding.
+  expectNear(completed.velocities, truth.velocities, 40 * kExactVelocity);
+  expectNear(completed.accelerations, truth.accelerations, 40 * kExactAcceleration);
+}
+
+TEST(MotionCompletion, RevoluteJointsAreNotUnwrapped) {
+  MotionTable motion = without(cubicMotion(unevenTimes(9)), true, true);
+  motion.positions.col(0).tail(4).array() += 2 * kPi;  // a real jump
+  const MotionTable completed = completeMotion(twoJoints(), motion);
+  EXPECT_GT(completed.velocities.col(0).maxCoeff(), 10);
+}
+
+TEST(MotionCompletion, ShortTablesAreFittedWithWhatTheyHave) {
+  for (const int rows : {4, 5, 8, 9, 10}) {
+    const MotionTable truth = cubicMotion(unevenTimes(rows));
+    const MotionTable completed = completeMotion(twoJoints(), without(truth, true, true));
+    expectNear(completed.accelerations, truth.accelerations, kExactAcceleration);
+  }
+  MotionTable parabola;  // 1 - t + 3 t^2 through three rows
+  parabola.joints = {"hinge"};
+  parabola.times = {0, 0.5, 0.7};
+  parabola.positions = Eigen::Vector3d(1, 1.25, 1.77);
+  const MotionTable completed = completeMotion(twoJoints(), parabola);
+  expectNear(completed.velocities, Eigen::Vector3d(-1, 2, 3.2), kExactVelocity);
+  expectNear(completed.accelerations, Eigen::Vector3d(6, 6, 6), kExactAcceleration);
+}
+
+TEST(MotionCompletion, RefusesTooFewRows) {
+  EXPECT_EQ(refusal(without(cubicMotion(unevenTimes(1)), true, true)),
+            "motion: accelerations are not given, and estimating them takes 3 rows or more, not 1");
+  EXPECT_EQ(refusal(without(cubicMotion(unevenTimes(2)), false, true)),
+            "motion: accelerations are not given, and estimating them takes 3 rows or more, not 2");
+  EXPECT_EQ(refusal(without(cubicMotion(unevenTimes(1)), true, false)),
+            "motion: velocities are not given, and estimating them takes 2 rows or more, not 1");
+}
+
+TEST(MotionCompletion, RefusesTimesThatDoNotIncrease) {
+  MotionTable motion = without(cubicMotion(unevenTimes(12)), true, true);
+  motion.times[7] = motion.times[6];
+  EXPECT_EQ(refusal(motion), "motion: the time of row 8 is not later than that of the row before");
+  motion.times[4] = motion.times[3] - 1;
+  EXPECT_EQ(refusal(motion), "motion: the time of row 5 is not later than that of the row before");
+  EXPECT_EQ(firstTimeThatDoesNotIncrease({0, 1, 2}), 3u);
+}
+
+TEST(MotionCompletion, RefusesTablesThatDoNotFitTheRobot) {
+  MotionTable motion = without(cubicMotion(unevenTimes(12)), true, true);
+  motion.joints[1] = "whel";
+  EXPECT_EQ(refusal(motion), "motion: 'whel' is no generalized coordinate of the robot");
+  motion = without(cubicMotion(unevenTimes(12)), true, true);
+  motion.velocities = Eigen::MatrixXd::Zero(11, 2);
+  EXPECT_EQ(refusal(motion), "motion: velocities are 11 x 2, expected 12 rows x 2 joints");
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,243 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/types.h>
+
+#include <chrono>
+#include <thread>
+
+#include "offline_tool.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+constexpr char kSwing[] =
+    "time,position.hinge,velocity.hinge,acceleration.hinge\n0,0,0,0\n0.1,0.3,-1.2,2.5\n";
+
+class OfflineToolErrors : public OfflineTool {
+ protected:
+  void SetUp() override {
+    OfflineTool::SetUp();
+    write("p.urdf", kPendulum);
+    write("m.csv", kSwing);
+  }
+
+  // The message of a run that must fail, without the program's name. Whatever fails, the result of
+  // an earlier run stays, and no partial one is left.
+  std::string failure(const std::string& arguments, int exit_code, const std::string& before = "") {
+    write("r.csv", "kept");
+    const Run result = run(arguments, before);
+    EXPECT_EQ(result.exit_code, exit_code) << arguments;
+    EXPECT_EQ(result.out, "") << arguments;
+    EXPECT_EQ(readFile(path("r.csv")), "kept") << arguments;
+    EXPECT_FALSE(exists("r.csv.part")) << arguments;
+    const std::string start = "inverse_dynamics_offline: error: ";
+    const std::string end =
+        exit_code == 2 ? "\nTry 'inverse_dynamics_offline --help'.\n" : std::string("\n");
+    const std::string& text = result.err;
+    if (text.size() < start.size() + end.size() || text.compare(0, start.size(), start) != 0 ||
+        text.compare(text.size() - end.size(), end.size(), end) != 0) {
+      return "unexpected: " + text;
+    }
+    const std::string line = text.substr(start.size(), text.size() - start.size() - end.size());
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    return line;
+  }
+
+  std::string usage(const std::string& arguments) { return failure(arguments, 2); }
+
+  // With a motion of this text instead of m.csv.
+  std::string motion(const std::string& text) {
+    write("bad.csv", text);
+    return failure("--urdf p.urdf --motion bad.csv --output r.csv", 1);
+  }
+
+  std::string urdf(const std::string& text) {
+    write("bad.urdf", text);
+    return failure("--urdf bad.urdf --motion m.csv --output r.csv", 1);
+  }
+
+  std::string scene(const std::string& text) {
+    write("bad.yaml", text);
+    return failure("--urdf p.urdf --motion m.csv --scene bad.yaml --output r.csv", 1);
+  }
+};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_F(OfflineToolErrors, WrongUsageIsToldWithAHint) {
+  const std::string good = "--urdf p.urdf --motion m.csv --output r.csv ";
+  EXPECT_EQ(usage(""), "--urdf FILE is missing");
+  EXPECT_EQ(usage("--urdf p.urdf"),
+            "--motion FILE is missing (it may be left out with --check only)");
+  EXPECT_EQ(usage(good + "--gravitiy '0 0 0'"), "unknown option '--gravitiy'");
+  EXPECT_EQ(usage(good + "extra"), "unexpected argument 'extra'");
+  EXPECT_EQ(usage(good + "--motion=n.csv"), "--motion is given twice");
+  EXPECT_EQ(usage("--motion m.csv --urdf"), "--urdf needs a value");
+  EXPECT_EQ(usage("--motion --urdf p.urdf"), "--motion needs a value");
+  EXPECT_EQ(usage(good + "--scene="), "--scene needs a value");
+  EXPECT_EQ(usage(good + "--check=yes"), "--check takes no value");
+  EXPECT_EQ(usage(good + "--axes world"), "--axes: 'world' is neither root nor child");
+  EXPECT_EQ(usage(good + "--gravity '0 0'"),
+            "--gravity: '0 0' is not three numbers, as in --gravity \"0 0 -9.81\"");
+  EXPECT_EQ(usage(good + "--gravity '0 0 -9.81 1'"),
+            "--gravity: '0 0 -9.81 1' is not three numbers, as in --gravity \"0 0 -9.81\"");
+  EXPECT_EQ(usage(good + "--gravity '0 0 g'"), "--gravity: 'g' is no finite number");
+  EXPECT_EQ(usage(good + "--gravity=nan"), "--gravity: 'nan' is no finite number");
+  EXPECT_EQ(usage(good + "--reactions hinge,,ground"),
+            "--reactions: there is an empty name in 'hinge,,ground'");
+}
+
+TEST_F(OfflineToolErrors, OptionsOfLaterVersionsAreRefused) {
+  const std::string good = "--urdf p.urdf --motion m.csv --output r.csv ";
+  EXPECT_EQ(usage(good + "--explain"), "--explain is not available yet");
+  EXPECT_EQ(usage(good + "--threads 4"), "--threads is not available yet");
+  EXPECT_EQ(usage(good + "--threads=4"), "--threads is not available yet");
+}
+
+TEST_F(OfflineToolErrors, AnInputIsNeverOverwritten) {
+  EXPECT_EQ(usage("--urdf p.urdf --motion m.csv --output ./m.csv"),
+            "--output: './m.csv' would overwrite the input 'm.csv'");
+  write("q.csv.part", kSwing);
+  EXPECT_EQ(usage("--urdf p.urdf --motion q.csv.part --output q.csv"),
+            "--output: 'q.csv' would overwrite the input 'q.csv.part'");
+  EXPECT_EQ(readFile(path("m.csv")), kSwing);
+  EXPECT_EQ(readFile(path("q.csv.part")), kSwing);
+}
+
+TEST_F(OfflineToolErrors, BadMotionsAreNamedWithLineAndColumn) {
+  EXPECT_EQ(motion(""), "bad.csv: the file is empty");
+  EXPECT_EQ(motion("time,position.hinge\n"), "bad.csv: no rows after the header");
+  EXPECT_EQ(motion("position.hinge\n1\n"), "bad.csv: line 1: column 'time' is missing");
+  EXPECT_EQ(motion("time,position.hing\n0,1\n"),
+            "bad.csv: line 1: column 'position.hinge' is missing");
+  EXPECT_EQ(motion("time,positon.hinge\n0,1\n"),
+            "bad.csv: line 1, column 2: 'positon.hinge' is none of time, position.<joint>, "
+            "velocity.<joint>, acceleration.<joint>");
+  EXPECT_EQ(motion("time,position.hinge,position.hinge\n0,1,2\n"),
+            "bad.csv: line 1, column 3: 'position.hinge' stands already in column 2");
+  EXPECT_EQ(motion(std::string(kSwing) + "0.2,1,2\n"),
+            "bad.csv: line 4: 4 cells expected as in the header, 3 found");
+  EXPECT_EQ(motion(std::string(kSwing) + "0.2,1,2,fast\n"),
+            "bad.csv: line 4, column 4 (acceleration.hinge): 'fast' is no finite number");
+  EXPECT_EQ(failure("--urdf p.urdf --motion none.csv --output r.csv", 1),
+            "none.csv: cannot be read: No such file or directory");
+  EXPECT_EQ(failure("--urdf p.urdf --motion . --output r.csv", 1),
+            ".: cannot be read: Is a directory");
+}
+
+TEST_F(OfflineToolErrors, EstimatingNeedsRowsAndTimesThatIncrease) {
+  EXPECT_EQ(motion("time,position.hinge\n0,1\n"),
+            "bad.csv: motion: accelerations are not given, and estimating them takes 3 rows or "
+            "more, not 1");
+  EXPECT_EQ(motion("# c\ntime,position.hinge\n0,1\n0.5,1\n# d\n0.5,1\n1,2\n"),
+            "bad.csv: line 6: time 0.5 is not later than 0.5 in the row before, and derivatives "
+            "have to be estimated");
+}
+
+TEST_F(OfflineToolErrors, BadRobotsAreNamed) {
+  EXPECT_TRUE(contains(urdf("no xml"), "robot description"));
+  const std::string pendulum = kPendulum;
+  std::string bad = pendulum;
+  bad.replace(bad.find("<mass value=\"2\""), 15, "<mass value=\"-2\"");
+  EXPECT_TRUE(contains(urdf(bad), "'bob'"));
+  bad = pendulum;
+  bad.replace(bad.find("0 1 0"), 5, "0 0 0");
+  EXPECT_TRUE(contains(urdf(bad), "'hinge'"));
+  bad = pendulum;
+  bad.replace(bad.find("continuous"), 10, "floating");
+  EXPECT_TRUE(contains(urdf(bad), "'hinge'"));
+  EXPECT_TRUE(contains(failure("--urdf none.urdf --motion m.csv --output r.csv", 1),
+                       "none.urdf: cannot be read: No such file or directory"));
+  EXPECT_TRUE(contains(failure("--urdf . --motion m.csv --output r.csv", 1), "Is a directory"));
+}
+
+TEST_F(OfflineToolErrors, BadScenesAreNamed) {
+  EXPECT_TRUE(contains(scene("gravty: [0, 0, 0]\n"), "gravty"));
+  EXPECT_TRUE(contains(scene("closures: []\n"), "not available yet"));
+  EXPECT_TRUE(contains(scene("reactions: [hing]\n"), "hing"));
+  EXPECT_TRUE(
+      contains(failure("--urdf p.urdf --motion m.csv --reactions hinge,hinge", 1), "'hinge'"));
+  EXPECT_TRUE(contains(failure("--urdf p.urdf --motion m.csv --scene none.yaml", 1), "none.yaml"));
+}
+
+TEST_F(OfflineToolErrors, NamesThatWouldBreakTheHeaderAreRefused) {
+  std::string bad = kCrane;
+  bad.replace(bad.find("name=\"elbow\""), 12, "name=\"el,bow\"");
+  // The needle-thin tool is warned of as well.
+  bad.replace(bad.find("izz=\"3e-06\""), 11, "izz=\"0\"");
+  write("bad.urdf", bad);
+  write("c.csv", "time,position.slide,position.shoulder\n0,0,0\n");
+  write("s.yaml", "motion: static\n");
+  EXPECT_EQ(failure("--urdf bad.urdf --motion c.csv --scene s.yaml", 1),
+            "joint 'el,bow': a comma, quote or line end cannot stand in a CSV header");
+}
+
+TEST_F(OfflineToolErrors, OutputsThatCannotBeWrittenAreNamed) {
+  const std::string good = "--urdf p.urdf --motion m.csv ";
+  EXPECT_EQ(failure(good + "--output none/r.csv", 1),
+            "none/r.csv: cannot be written: No such file or directory");
+  EXPECT_EQ(failure(good + "--output .", 1), ".: cannot be written: Is a directory");
+  EXPECT_EQ(failure(good + "--output /dev/full", 1),
+            "/dev/full: cannot be written: No space left on device");
+  EXPECT_EQ(failure(good + ">/dev/full", 1),
+            "standard output: cannot be written: No space left on device");
+  EXPECT_EQ(failure("--help >/dev/full", 1), "standard output: cannot be written");
+}
+
+std::string longMotion(int rows) {
+  std::string text = "time,position.hinge,velocity.hinge,acceleration.hinge\n";
+  for (int i = 0; i < rows; ++i) text += std::to_string(i) + ",0.123,0.456,0.789\n";
+  return text;
+}
+
+TEST_F(OfflineToolErrors, AFullDiskLeavesNoPartialFile) {
+  write("long.csv", longMotion(2000));
+  // A limit on the size of files stands for the disk; ignoring the signal makes it an error.
+  EXPECT_EQ(failure("--urdf p.urdf --motion long.csv --output r.csv", 1,
+                    "trap '' XFSZ; ulimit -f 64; exec"),
+            "r.csv: cannot be written: File too large");
+}
+
+// Starts the tool, ends it by a signal once the partial file is there, and returns the wait status.
+int interrupted(const std::string& folder, int signal_number) {
+  const std::string part = folder + "/r.csv.part";
+  const pid_t child = fork();
+  if (child == 0) {
+    if (chdir(folder.c_str()) != 0) _exit(126);
+    execl(OFFLINE_TOOL, OFFLINE_TOOL, "--urdf", "p.urdf", "--motion", "long.csv", "--output",
+          "r.csv", static_cast<char*>(nullptr));
+    _exit(127);
+  }
+  int status = 0;
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    if (std::filesystem::exists(part)) {
+      kill(child, signal_number);
+      waitpid(child, &status, 0);
+      break;
+    }
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+  return status;
+}
+
+TEST_F(OfflineToolErrors, AnEndingSignalLeavesNoPartialFile) {
+  write("long.csv", longMotion(200000));
+  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
+    write("r.csv", "kept");
+    // The tool may win the race and finish before the signal; then it is tried again.
+    int status = 0;
+    for (int attempt = 0; attempt < 5 && !WIFSIGNALED(status); ++attempt) {
+      write("r.csv", "kept");
+      status = interrupted(folder(), signal_number);
+    }
+    ASSERT_TRUE(WIFSIGNALED(status));
+    EXPECT_EQ(WTERMSIG(status), signal_number);
+    EXPECT_EQ(readFile(path("r.csv")), "kept");
+    EXPECT_FALSE(exists("r.csv.part"));
+  }
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics
