@@ -1,0 +1,41 @@
+#include "ros/active_plan.h"
+
+#include <utility>
+
+namespace virtual_work_dynamics {
+
+Request requestFor(const Audience& audience, const std::vector<std::string>& joints, bool twist) {
+  Request request;
+  request.efforts = audience.effort || audience.trajectory;
+  if (audience.reactions) {
+    request.root_axes = joints;
+    request.poses = true;
+    request.twists = twist;
+  }
+  for (const std::size_t index : audience.wrenches) request.child_axes.push_back(joints[index]);
+  return request;
+}
+
+std::string describe(const Request& request) {
+  std::string text;
+  const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
+  if (request.efforts) add("efforts");
+  if (!request.root_axes.empty()) {
+    add(std::to_string(request.root_axes.size()) + " reactions in root axes");
+  }
+  if (!request.child_axes.empty()) {
+    add(std::to_string(request.child_axes.size()) + " reactions in child axes");
+  }
+  if (request.poses) add("poses");
+  if (request.twists) add("twists");
+  return text.empty() ? "nothing" : text;
+}
+
+ActivePlan::ActivePlan(const Mechanism& mechanism, const Scene& scene, const Request& request,
+                       Audience who, const std::string& frame_prefix)
+    : audience(std::move(who)),
+      dynamics(mechanism, scene, request),
+      results(dynamics.makeWorkspace()),
+      messages(mechanism, request, frame_prefix) {}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "ros/output_messages.h"
+#include "virtual_work_dynamics/inverse_dynamics.h"
+
+namespace virtual_work_dynamics {
+
+/// Which outputs of the node somebody listens to.
+struct Audience {
+  bool effort = false;
+  bool reactions = false;
+  bool trajectory = false;
+  std::vector<std::size_t> wrenches;  ///< indices of the ~reaction/<joint> topics, ascending
+
+  bool wantsSamples() const { return effort || reactions || !wrenches.empty(); }
+  bool wantsPoints() const { return wantsSamples() || trajectory; }
+  bool operator==(const Audience& other) const {
+    return effort == other.effort && reactions == other.reactions &&
+           trajectory == other.trajectory && wrenches == other.wrenches;
+  }
+};
+
+/// What the audience makes necessary, and no more.
+/// @param joints whose reactions the scene asks for.
+Request requestFor(const Audience& audience, const std::vector<std::string>& joints, bool twist);
+
+/// One line for the user.
+std::string describe(const Request& request);
+
+/// An audience compiled: plan, memory and messages that belong together, so that whatever is
+/// published from one of these is complete.
+struct ActivePlan {
+  /// The outputs' messages hold every result of `request`.
+  ActivePlan(const Mechanism& mechanism, const Scene& scene, const Request& request, Audience who,
+             const std::string& frame_prefix);
+
+  Audience audience;
+  InverseDynamics dynamics;
+  Workspace results;
+  OutputMessages messages;
+};
+
+}  // namespace virtual_work_dynamics

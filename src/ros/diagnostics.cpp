@@ -1,0 +1,135 @@
+#include "ros/diagnostics.h"
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+
+#include "ros/message_text.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using diagnostic_updater::DiagnosticStatusWrapper;
+
+// Share of late outputs above which the node warns.
+constexpr double kLateShare = 0.001;
+
+double seconds(JointWatch::Clock::duration duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+
+void addMicroseconds(DiagnosticStatusWrapper& status, const char* key, std::int64_t nanoseconds) {
+  status.addf(key, "%.3f", static_cast<double>(nanoseconds) * 1e-3);
+}
+
+}  // namespace
+
+Diagnostics::Diagnostics(const Counters& counters_read, RunTimeHistogram& run_times,
+                         const JointWatch& joints, const std::string& robot, double period)
+    : counters_(counters_read),
+      run_times_(run_times),
+      joints_(joints),
+      period_(std::chrono::duration_cast<std::chrono::nanoseconds>(
+          std::chrono::duration<double>(period))),
+      next_(JointWatch::Clock::now() + period_) {
+  before_.time = JointWatch::Clock::now();
+  updater_.setHardwareID(robot);
+  updater_.add("inverse dynamics", this, &Diagnostics::report);
+}
+
+void Diagnostics::setPlan(const std::vector<std::string>& outputs, const std::string& plan) {
+  outputs_.clear();
+  for (const std::string& output : outputs) outputs_ += (outputs_.empty() ? "" : ", ") + output;
+  if (outputs.empty()) outputs_ = "none";
+  plan_ = plan;
+}
+
+void Diagnostics::update(JointWatch::Clock::time_point now) {
+  if (now < next_) return;
+  next_ += period_;
+  // After a pause, no burst of reports.
+  if (next_ < now) next_ = now + period_;
+  // Updater::update() would go by ROS time, which a looping bag turns back.
+  updater_.force_update();
+}
+
+Diagnostics::Before Diagnostics::count() const {
+  Before now;
+  now.time = JointWatch::Clock::now();
+  now.inputs = counters_.joint_states.value() + counters_.trajectories.value();
+  now.accepted = counters_.accepted_joint_states.value();
+  now.outputs = counters_.outputs.value();
+  now.samples = counters_.samples.value();
+  now.late = counters_.late.value();
+  now.dropped = counters_.allDropped();
+  return now;
+}
+
+void Diagnostics::report(DiagnosticStatusWrapper& status) {
+  const Before now = count();
+  // A joint that has stopped is only missed while others go on; one that never came, from the first
+  // joint state on.
+  std::vector<std::string> missing;
+  if (now.accepted > before_.accepted) {
+    missing = joints_.missing();
+  } else if (now.accepted > 0) {
+    missing = joints_.neverSeen();
+  }
+  const double interval = seconds(now.time - before_.time);
+  summarize(status, now, missing);
+  status.addf("input rate (Hz)", "%.2f",
+              static_cast<double>(now.inputs - before_.inputs) / interval);
+  status.addf("output rate (Hz)", "%.2f",
+              static_cast<double>(now.outputs - before_.outputs) / interval);
+  addRunTimes(status);
+  addCounts(status);
+  status.add("joints waited for", missing.empty() ? "none" : shortList(missing));
+  status.add("subscribed outputs", outputs_);
+  status.add("computed", plan_);
+  before_ = now;
+}
+
+void Diagnostics::summarize(DiagnosticStatusWrapper& status, const Before& now,
+                            const std::vector<std::string>& missing) const {
+  status.summary(DiagnosticStatus::OK, now.inputs == 0 ? "no input yet" : "running");
+  if (now.dropped > before_.dropped) {
+    status.mergeSummaryf(DiagnosticStatus::WARN, "%llu dropped, the last: %s",
+                         static_cast<unsigned long long>(now.dropped - before_.dropped),
+                         counters_.lastDrop().c_str());
+  }
+  if (!missing.empty()) {
+    status.mergeSummary(DiagnosticStatus::WARN, "waiting for joints: " + shortList(missing));
+  }
+  const auto late = static_cast<double>(now.late - before_.late);
+  const auto samples = static_cast<double>(now.samples - before_.samples);
+  if (late > kLateShare * samples) {
+    status.mergeSummaryf(DiagnosticStatus::WARN, "%.2f %% of outputs late",
+                         samples > 0 ? 100 * late / samples : 100.0);
+  }
+}
+
+void Diagnostics::addRunTimes(DiagnosticStatusWrapper& status) {
+  const RunTimeHistogram::Summary summary = run_times_.takeSummary();
+  if (summary.count > 0) latest_run_times_ = summary;
+  if (latest_run_times_.count == 0) return;
+  addMicroseconds(status, "run time per sample, median (us)", latest_run_times_.median_ns);
+  addMicroseconds(status, "run time per sample, p99 (us)", latest_run_times_.p99_ns);
+  addMicroseconds(status, "run time per sample, worst (us)", latest_run_times_.worst_ns);
+}
+
+void Diagnostics::addCounts(DiagnosticStatusWrapper& status) const {
+  status.add("joint states received", counters_.joint_states.value());
+  status.add("trajectories received", counters_.trajectories.value());
+  status.add("samples computed", counters_.samples.value());
+  status.add("trajectory points computed", counters_.points.value());
+  status.add("samples nobody listened for", counters_.skipped.value());
+  status.add("restarts", counters_.restarts.value());
+  status.add("late outputs", counters_.late.value());
+  status.add("dropped", counters_.allDropped());
+  for (std::size_t i = 0; i < kDropReasonNames.size(); ++i) {
+    status.add(std::string("dropped: ") + kDropReasonNames[i], counters_.dropped[i].value());
+  }
+  const std::string last = counters_.lastDrop();
+  status.add("last drop", last.empty() ? "none" : last);
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,297 @@
+#include "ros/inverse_dynamics_node.h"
+
+#include <ros/console.h>
+#include <ros/transport_hints.h>
+
+#include <memory>
+
+#include "ros/message_text.h"
+#include "ros/private_parameters.h"
+#include "ros/topic_names.h"
+#include "virtual_work_dynamics/inverse_dynamics.h"
+#include "virtual_work_dynamics/urdf_reader.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+constexpr std::chrono::seconds kWarnEvery{1};
+// How soon the node's own thread sees that it is to stop, or that a report is due.
+constexpr double kManageWait = 0.05;  // s
+
+Mechanism readRobot(const InverseDynamicsParameters& parameters) {
+  try {
+    return readUrdf(parameters.robot_description);
+  } catch (const UrdfError& error) {
+    throw UrdfError("parameter " + parameters.robot_description_key + ": " + error.what());
+  }
+}
+
+// The estimator names its setting itself; what is wrong must show before anything is advertised.
+EstimatorSettings checkedSettings(const Mechanism& mechanism, EstimatorSettings settings,
+                                  const Scene& scene) {
+  try {
+    const MotionEstimator check(mechanism, settings);
+  } catch (const MotionError& error) {
+    throw ParameterError(std::string("parameters ~estimator: ") + error.what());
+  }
+  settings.estimate = settings.estimate && !scene.static_motion;
+  return settings;
+}
+
+std::string stampText(std::int64_t stamp_ns) {
+  std::string fraction = std::to_string(stamp_ns % 1000000000);
+  fraction.insert(0, 9 - fraction.size(), '0');
+  return std::to_string(stamp_ns / 1000000000) + "." + fraction;
+}
+
+bool isFinite(const Motion& motion) {
+  return motion.q.allFinite() && motion.qd.allFinite() && motion.qdd.allFinite();
+}
+
+}  // namespace
+
+InverseDynamicsNode::Task::Task(const InverseDynamicsParameters& parameters)
+    : mechanism(readRobot(parameters)),
+      scene(parameters.scene),
+      reactions(requestedReactions(mechanism, scene)),
+      reaction_topics(legalTopicNames(reactions)),
+      estimator(checkedSettings(mechanism, parameters.estimator, scene)) {
+  if (mechanism.coordinates().empty()) {
+    throw UrdfError("parameter " + parameters.robot_description_key + ": robot '" +
+                    mechanism.name() + "' has no joint that moves");
+  }
+  // Compiled only for what it throws.
+  const InverseDynamics everything(mechanism, scene);
+}
+
+InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parameters)
+    : task_(parameters),
+      frame_prefix_(parameters.frame_prefix),
+      twist_(parameters.twist),
+      output_queue_(parameters.output_queue),
+      late_threshold_(parameters.late_threshold),
+      joint_states_(task_.mechanism),
+      trajectories_(task_.mechanism, task_.scene.static_motion),
+      estimator_(task_.mechanism, task_.estimator),
+      motion_(static_cast<Eigen::Index>(task_.mechanism.coordinates().size())),
+      joint_watch_(task_.mechanism.coordinateNames()),
+      plans_(compile(Audience())),
+      outputs_(ros::NodeHandle("~"), task_.reaction_topics, parameters.output_queue, manage_queue_,
+               [this] { audience_changed_ = true; }),
+      diagnostics_(counters_, counters_.run_times, joint_watch_, task_.mechanism.name(),
+                   parameters.diagnostic_period),
+      sim_time_(ros::Time::isSimTime()) {
+  logSummary(parameters);
+  ros::NodeHandle node;
+  const auto queue = static_cast<std::uint32_t>(parameters.input_queue);
+  const auto hints = ros::TransportHints().tcpNoDelay();
+  joint_state_subscriber_ =
+      node.subscribe("joint_states", queue, &InverseDynamicsNode::receiveJointState, this, hints);
+  trajectory_subscriber_ = node.subscribe("joint_trajectory", queue,
+                                          &InverseDynamicsNode::receiveTrajectory, this, hints);
+  manager_ = std::thread([this] { manage(); });
+}
+
+InverseDynamicsNode::~InverseDynamicsNode() {
+  stopping_ = true;
+  manager_.join();
+}
+
+void InverseDynamicsNode::logSummary(const InverseDynamicsParameters& parameters) const {
+  for (const Doubt& doubt : task_.mechanism.doubts()) ROS_WARN("%s", doubt.text.c_str());
+  const auto& names = task_.mechanism.coordinateNames();
+  const Eigen::Vector3d& g = task_.scene.gravity;
+  const EstimatorSettings& estimator = task_.estimator;
+  const std::string accelerations =
+      task_.scene.static_motion ? "static scene, no velocities nor accelerations"
+      : !estimator.estimate
+          ? "accelerations of joint states taken as zero"
+          : "accelerations of joint states estimated (window " + std::to_string(estimator.window) +
+                ", order " + std::to_string(estimator.order) + ", lag " +
+                std::to_string(estimator.lag) + ")";
+  ROS_INFO(
+      "Robot '%s' from %s: %zu coordinates (%s), %zu reactions (%s); gravity [%s, %s, %s] m/s^2; "
+      "%s; %s",
+      task_.mechanism.name().c_str(), parameters.robot_description_key.c_str(), names.size(),
+      shortList(names).c_str(), task_.reactions.size(),
+      task_.reactions.empty() ? "none" : shortList(task_.reactions).c_str(),
+      numberText(g.x()).c_str(), numberText(g.y()).c_str(), numberText(g.z()).c_str(),
+      accelerations.c_str(), parameters.scene_given ? "scene from ~scene" : "default scene");
+}
+
+void InverseDynamicsNode::receiveJointState(
+    const ros::MessageEvent<const sensor_msgs::JointState>& event) {
+  counters_.joint_states.add();
+  JointSample sample;
+  if (const auto rejection = joint_states_.convert(*event.getConstMessage(), sample)) {
+    drop(joint_state_subscriber_.getTopic(), rejection->reason, rejection->text);
+    return;
+  }
+  if (!sample.mimic_disagreement.empty()) {
+    ROS_WARN("%s: %s; positions of mimic joints are ignored",
+             joint_state_subscriber_.getTopic().c_str(), sample.mimic_disagreement.c_str());
+  }
+  if (take(sample) && estimator_.ready()) evaluate(event.getReceiptTime());
+}
+
+bool InverseDynamicsNode::take(const JointSample& sample) {
+  using Verdict = MotionEstimator::Verdict;
+  const Verdict verdict =
+      estimator_.push(sample.stamp_ns, sample.coordinates, sample.q, sample.qd, sample.count);
+  if (verdict == Verdict::kEqualStamp) {
+    drop(joint_state_subscriber_.getTopic(), DropReason::kEqualStamp,
+         "its stamp " + stampText(sample.stamp_ns) + " was there before");
+    return false;
+  }
+  if (verdict != Verdict::kAccepted) {
+    counters_.restarts.add();
+    ROS_INFO_THROTTLE(1.0, "%s: %s stamp %s: the estimator starts anew",
+                      joint_state_subscriber_.getTopic().c_str(),
+                      verdict == Verdict::kRestartedBack ? "time went back to"
+                                                         : "a gap longer than ~estimator/max_gap "
+                                                           "ends at",
+                      stampText(sample.stamp_ns).c_str());
+  }
+  counters_.accepted_joint_states.add();
+  joint_watch_.saw(sample.coordinates, sample.count);
+  return true;
+}
+
+void InverseDynamicsNode::evaluate(ros::Time receipt) {
+  ActivePlan& plan = plans_.current();
+  if (!plan.audience.wantsSamples()) {
+    estimator_.skip();
+    counters_.skipped.add();
+    return;
+  }
+  const std::int64_t stamp_ns = estimator_.evaluate(motion_);
+  if (task_.scene.static_motion) motion_.qd.setZero();
+  counters_.samples.add();
+  if (!compute(plan, stamp_ns)) {
+    drop(joint_state_subscriber_.getTopic(), DropReason::kOverflow,
+         "not finite at stamp " + stampText(stamp_ns));
+    return;
+  }
+  outputs_.publishSample(plan);
+  counters_.outputs.add();
+  if (!sim_time_ && ros::Time::now() - receipt > late_threshold_) counters_.late.add();
+}
+
+bool InverseDynamicsNode::compute(ActivePlan& plan, std::int64_t stamp_ns) {
+  if (!isFinite(motion_)) return false;
+  const auto start = Clock::now();
+  plan.dynamics.compute(motion_, plan.results);
+  const auto end = Clock::now();
+  counters_.run_times.record(
+      std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count());
+  if (!plan.results.finite()) return false;
+  plan.messages.fill(stamp_ns, motion_, plan.results);
+  return true;
+}
+
+void InverseDynamicsNode::receiveTrajectory(
+    const ros::MessageEvent<const trajectory_msgs::JointTrajectory>& event) {
+  counters_.trajectories.add();
+  const trajectory_msgs::JointTrajectory& message = *event.getConstMessage();
+  const std::string topic = trajectory_subscriber_.getTopic();
+  const ros::Time start =
+      message.header.stamp.isZero() ? event.getReceiptTime() : message.header.stamp;
+  if (const auto rejection = trajectories_.convert(
+          message, static_cast<std::int64_t>(start.toNSec()), estimator_, trajectory_)) {
+    drop(topic, rejection->reason, rejection->text);
+    return;
+  }
+  if (!trajectory_.completion.empty()) {
+    ROS_INFO_THROTTLE(1.0, "%s: %zu points, %s", topic.c_str(), message.points.size(),
+                      trajectory_.completion.c_str());
+  }
+  if (message.points.size() > static_cast<std::size_t>(output_queue_)) {
+    ROS_WARN("%s: %zu points are more than ~queue_size/output = %d; subscribers may lose some",
+             topic.c_str(), message.points.size(), output_queue_);
+  }
+  play(message, trajectory_);
+}
+
+void InverseDynamicsNode::play(const trajectory_msgs::JointTrajectory& message,
+                               const TrajectoryMotion& trajectory) {
+  // One plan for the whole trajectory, so that ~joint_trajectory is complete.
+  ActivePlan& plan = plans_.current();
+  if (!plan.audience.wantsPoints()) return;
+  const MotionTable& table = trajectory.table;
+  Eigen::MatrixXd efforts(plan.audience.trajectory ? table.positions.rows() : 0,
+                          table.positions.cols());
+  bool complete = true;
+  for (Eigen::Index i = 0; i < table.positions.rows(); ++i) {
+    motion_.q = table.positions.row(i);
+    motion_.qd = table.velocities.row(i);
+    motion_.qdd = table.accelerations.row(i);
+    if (task_.scene.static_motion) motion_.qd.setZero();
+    counters_.points.add();
+    if (!compute(plan, trajectory.stamps_ns[static_cast<std::size_t>(i)])) {
+      drop(trajectory_subscriber_.getTopic(), DropReason::kOverflow,
+           "not finite at point " + std::to_string(i + 1));
+      complete = false;
+      continue;
+    }
+    if (plan.audience.trajectory) efforts.row(i) = plan.results.effort();
+    outputs_.publishSample(plan);
+    counters_.outputs.add();
+  }
+  if (plan.audience.trajectory && complete) {
+    outputs_.publishTrajectory(withEfforts(message, trajectory, efforts));
+  }
+}
+
+void InverseDynamicsNode::drop(const std::string& topic, DropReason reason,
+                               const std::string& text) {
+  counters_.drop(reason, topic + ": " + text);
+  // A throttle for each reason: a flood of one kind does not hide the others.
+  Clock::time_point& warned = warned_[index(reason)];
+  const Clock::time_point now = Clock::now();
+  if (warned != Clock::time_point() && now - warned < kWarnEvery) return;
+  warned = now;
+  const char* what = reason == DropReason::kOverflow ? "result" : "message";
+  ROS_WARN("%s: %s dropped (%s): %s", topic.c_str(), what, kDropReasonNames[index(reason)],
+           text.c_str());
+}
+
+void InverseDynamicsNode::manage() {
+  while (!stopping_) {
+    manage_queue_.callAvailable(ros::WallDuration(kManageWait));
+    const Clock::time_point now = Clock::now();
+    joint_watch_.setTime(now);
+    if (audience_changed_) adaptPlan();
+    plans_.collect();
+    watchJoints(now);
+    diagnostics_.update(now);
+  }
+}
+
+std::unique_ptr<ActivePlan> InverseDynamicsNode::compile(const Audience& audience) const {
+  return std::make_unique<ActivePlan>(task_.mechanism, task_.scene,
+                                      requestFor(audience, task_.reactions, twist_), audience,
+                                      frame_prefix_);
+}
+
+void InverseDynamicsNode::adaptPlan() {
+  audience_changed_ = false;
+  const Audience audience = outputs_.audience();
+  if (audience == audience_) return;
+  audience_ = audience;
+  std::unique_ptr<ActivePlan> plan = compile(audience);
+  diagnostics_.setPlan(outputs_.names(audience), describe(plan->dynamics.request()));
+  plans_.offer(std::move(plan));
+}
+
+void InverseDynamicsNode::watchJoints(Clock::time_point now) {
+  if (joints_reported_ || counters_.accepted_joint_states.value() == 0) return;
+  if (first_joint_state_ == Clock::time_point()) first_joint_state_ = now;
+  if (now - first_joint_state_ < JointWatch::kPatience) return;
+  joints_reported_ = true;
+  const std::vector<std::string> missing = joint_watch_.neverSeen();
+  if (missing.empty()) return;
+  ROS_WARN("%s: after 5 s still without joints %s; nothing is published until all have come",
+           joint_state_subscriber_.getTopic().c_str(), shortList(missing).c_str());
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/message_event.h>
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+#include <sensor_msgs/JointState.h>
+#include <trajectory_msgs/JointTrajectory.h>
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "ros/counters.h"
+#include "ros/diagnostics.h"
+#include "ros/inverse_dynamics_parameters.h"
+#include "ros/joint_state_conversion.h"
+#include "ros/joint_watch.h"
+#include "ros/output_topics.h"
+#include "ros/plan_switch.h"
+#include "ros/trajectory_conversion.h"
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/motion_estimator.h"
+
+namespace virtual_work_dynamics {
+
+/// Inverse dynamics between topics: joint states and trajectories in, efforts and reactions out.
+///
+/// Two threads. The one that spins the global callback queue takes messages in, computes and
+/// publishes. The other one is the node's own: it watches who subscribes, compiles the plan for
+/// them, hands it over by PlanSwitch, and reports diagnostics.
+class InverseDynamicsNode {
+ public:
+  /// Checks everything, then advertises and subscribes; nothing of either is done if it throws.
+  /// @throws Error, one line naming what is wrong with the robot, the scene or a parameter.
+  explicit InverseDynamicsNode(const InverseDynamicsParameters& parameters);
+  ~InverseDynamicsNode();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// What the parameters make of the robot.
+  struct Task {
+    explicit Task(const InverseDynamicsParameters& parameters);
+    Mechanism mechanism;
+    Scene scene;
+    std::vector<std::string> reactions;        ///< joints whose reaction the scene asks for
+    std::vector<std::string> reaction_topics;  ///< their topics
+    EstimatorSettings estimator;
+  };
+
+  // Receiving thread.
+  void receiveJointState(const ros::MessageEvent<const sensor_msgs::JointState>& event);
+  void receiveTrajectory(const ros::MessageEvent<const trajectory_msgs::JointTrajectory>& event);
+  bool take(const JointSample& sample);
+  void evaluate(ros::Time receipt);
+  void play(const trajectory_msgs::JointTrajectory& message, const TrajectoryMotion& trajectory);
+  bool compute(ActivePlan& plan, std::int64_t stamp_ns);
+  void drop(const std::string& topic, DropReason reason, const std::string& text);
+
+  // The node's own thread.
+  void manage();
+  void adaptPlan();
+  void watchJoints(Clock::time_point now);
+  std::unique_ptr<ActivePlan> compile(const Audience& audience) const;
+
+  void logSummary(const InverseDynamicsParameters& parameters) const;
+
+  const Task task_;
+  const std::string frame_prefix_;
+  const bool twist_;
+  const int output_queue_;
+  const ros::Duration late_threshold_;
+
+  JointStateConversion joint_states_;
+  TrajectoryConversion trajectories_;
+  MotionEstimator estimator_;
+  Motion motion_;
+  TrajectoryMotion trajectory_;
+  std::array<Clock::time_point, kDropReasonNames.size()> warned_{};
+
+  Counters counters_;
+  JointWatch joint_watch_;
+  PlanSwitch plans_;
+
+  // From here on, constructing means talking to ROS.
+  ros::CallbackQueue manage_queue_;
+  bool audience_changed_ = true;
+  Audience audience_;
+  OutputTopics outputs_;
+  Diagnostics diagnostics_;
+  Clock::time_point first_joint_state_{};
+  bool joints_reported_ = false;
+  const bool sim_time_;
+  ros::Subscriber joint_state_subscriber_;
+  ros::Subscriber trajectory_subscriber_;
+  std::atomic<bool> stopping_{false};
+  std::thread manager_;
+};
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,75 @@
+#include "ros/inverse_dynamics_parameters.h"
+
+#include <ros/node_handle.h>
+
+#include "ros/message_text.h"
+#include "ros/private_parameters.h"
+#include "ros/xmlrpc_to_yaml.h"
+#include "virtual_work_dynamics/scene_reader.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+constexpr char kRobotDescription[] = "robot_description";
+
+void readRobotDescription(const ros::NodeHandle& node, InverseDynamicsParameters& parameters) {
+  std::string& key = parameters.robot_description_key;
+  if (!node.searchParam(kRobotDescription, key)) {
+    throw ParameterError(std::string("parameter ") + kRobotDescription + ": not set, neither in " +
+                         node.getNamespace() + " nor in any namespace above it");
+  }
+  if (!node.getParam(key, parameters.robot_description)) {
+    throw ParameterError("parameter " + key + ": expected the text of a URDF");
+  }
+}
+
+EstimatorSettings readEstimator(PrivateParameters& parameters) {
+  EstimatorSettings settings;
+  settings.window = parameters.integer("estimator/window", settings.window);
+  settings.order = parameters.integer("estimator/order", settings.order);
+  settings.lag = parameters.integer("estimator/lag", settings.lag);
+  settings.use_velocity = parameters.boolean("estimator/use_velocity", settings.use_velocity);
+  settings.max_gap = parameters.number("estimator/max_gap", settings.max_gap);
+  const std::string acceleration = parameters.text("estimator/acceleration", "estimate");
+  if (acceleration != "estimate" && acceleration != "zero") {
+    throw parameterError("estimator/acceleration",
+                         "'" + acceleration + "' is neither estimate nor zero");
+  }
+  settings.estimate = acceleration == "estimate";
+  return settings;
+}
+
+int readQueueSize(PrivateParameters& parameters, const std::string& name, int fallback) {
+  const int size = parameters.integer(name, fallback);
+  if (size < 1) throw parameterError(name, std::to_string(size) + " is less than 1 message");
+  return size;
+}
+
+double readPeriod(PrivateParameters& parameters, const std::string& name, double fallback) {
+  const double period = parameters.number(name, fallback);
+  if (!(period > 0)) throw parameterError(name, numberText(period) + " s is not positive");
+  return period;
+}
+
+}  // namespace
+
+InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& private_node) {
+  InverseDynamicsParameters result;
+  PrivateParameters parameters(private_node);
+  parameters.expect(kRobotDescription);
+  result.estimator = readEstimator(parameters);
+  result.frame_prefix = parameters.text("frame_prefix", result.frame_prefix);
+  result.twist = parameters.boolean("twist", result.twist);
+  result.input_queue = readQueueSize(parameters, "queue_size/input", result.input_queue);
+  result.output_queue = readQueueSize(parameters, "queue_size/output", result.output_queue);
+  result.diagnostic_period = readPeriod(parameters, "diagnostic_period", result.diagnostic_period);
+  result.late_threshold = readPeriod(parameters, "late_threshold", result.late_threshold);
+  result.scene_given = parameters.has("scene");
+  const YAML::Node scene = xmlRpcToYaml(parameters.raw("scene"), "scene");
+  parameters.refuseUnknown();
+  result.scene = readScene(scene);
+  readRobotDescription(private_node, result);
+  return result;
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+
+#include "virtual_work_dynamics/motion_estimator.h"
+#include "virtual_work_dynamics/scene.h"
+
+namespace ros {
+class NodeHandle;
+}
+
+namespace virtual_work_dynamics {
+
+/// Everything the node inverse_dynamics_node reads from the parameter server.
+struct InverseDynamicsParameters {
+  std::string robot_description;      ///< URDF text
+  std::string robot_description_key;  ///< name of the parameter it was found under
+  Scene scene;
+  bool scene_given = false;        ///< false: the scene is the default one
+  EstimatorSettings estimator;     ///< as set; a static scene does not estimate
+  std::string frame_prefix;        ///< put before every frame_id
+  bool twist = false;              ///< fill the twists of ~reactions
+  int input_queue = 1000;          ///< messages
+  int output_queue = 20000;        ///< messages
+  double diagnostic_period = 1.0;  ///< s
+  double late_threshold = 0.001;   ///< s, from receipt of a joint state to its published result
+};
+
+/// Reads and checks the private parameters of the node, and robot_description, searched upwards
+/// from the private namespace.
+/// @param private_node NodeHandle("~")
+/// @throws ParameterError or SceneError, one line naming the parameter: missing, unknown, of the
+///   wrong type or out of range.
+InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& private_node);
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,40 @@
+#pragma once
+
+namespace virtual_work_dynamics {
+
+/// What inverse_dynamics_node prints for --help.
+constexpr char kInverseDynamicsUsage[] =
+    R"(usage: inverse_dynamics_node [--help] [name:=value ...]
+
+Efforts and joint reactions of a robot, live, from its joint states or trajectories.
+
+subscribes
+  joint_states       sensor_msgs/JointState           joints by name, any order, all or some
+  joint_trajectory   trajectory_msgs/JointTrajectory  every point is computed as it comes
+
+publishes (each only while somebody subscribes)
+  ~effort            sensor_msgs/JointState           positions and velocities used, efforts
+  ~reactions         sensor_msgs/MultiDOFJointState   joint poses and wrenches, axes of the root link
+  ~reaction/<joint>  geometry_msgs/WrenchStamped      the same wrench, frame of the child link
+  ~joint_trajectory  trajectory_msgs/JointTrajectory  the input trajectory with efforts
+  /diagnostics       diagnostic_msgs/DiagnosticArray  rates, run times, dropped messages
+A wrench is what the parent link exerts on the child link, moment about the joint's origin.
+
+parameters
+  robot_description          URDF text; searched from the private namespace upwards
+  ~scene                     gravity, reactions, applied wrenches...; see README, "The scene file"
+  ~estimator/window          samples in the acceleration estimate (9)
+  ~estimator/order           order of its polynomial (3)
+  ~estimator/lag             samples the outputs are behind the newest joint state (4)
+  ~estimator/use_velocity    fit the velocities of joint states, too (true)
+  ~estimator/max_gap         longest gap between joint states, s (0.1)
+  ~estimator/acceleration    estimate | zero (estimate)
+  ~frame_prefix              put before every frame_id ("")
+  ~twist                     fill the twists of ~reactions (false)
+  ~queue_size/input          messages (1000)
+  ~queue_size/output         messages (20000)
+  ~diagnostic_period         s (1.0)
+  ~late_threshold            an output this long after its joint state's receipt is late, s (0.001)
+)";
+
+}  // namespace virtual_work_dynamics

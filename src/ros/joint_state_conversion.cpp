@@ -1,0 +1,146 @@
+#include "ros/joint_state_conversion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ros/joint_lookup.h"
+#include "ros/message_text.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+// Encoders of coupled joints do not agree to the last digit; rad or m.
+constexpr double kMimicTolerance = 1e-3;
+constexpr double kTurn = 6.283185307179586;
+
+Rejection wrongLength(std::size_t names, std::size_t values, const char* what) {
+  return {DropReason::kArrayLength,
+          std::to_string(names) + " names but " + std::to_string(values) + " " + what};
+}
+
+}  // namespace
+
+JointStateConversion::JointStateConversion(const Mechanism& mechanism)
+    : mechanism_(mechanism),
+      coordinate_of_(coordinatesByName(mechanism)),
+      q_(mechanism.coordinates().size()),
+      qd_(mechanism.coordinates().size()),
+      mimic_reported_(mechanism.joints().size(), 0) {
+  for (Layout& layout : layouts_) resolve({}, layout);
+}
+
+std::optional<Rejection> JointStateConversion::convert(const sensor_msgs::JointState& message,
+                                                       JointSample& sample) {
+  const std::size_t names = message.name.size();
+  const std::size_t velocities = message.velocity.size();
+  if (message.position.size() != names) {
+    return wrongLength(names, message.position.size(), "positions");
+  }
+  if (velocities != 0 && velocities != names) return wrongLength(names, velocities, "velocities");
+  Layout& layout = layoutOf(message.name);
+  if (layout.rejection) return layout.rejection;
+  if (message.header.stamp.isZero()) return Rejection{DropReason::kZeroStamp, "its stamp is zero"};
+  if (auto rejection = gather(layout, message.position, "position", q_)) return rejection;
+  if (velocities != 0) {
+    if (auto rejection = gather(layout, message.velocity, "velocity", qd_)) return rejection;
+  }
+  sample.stamp_ns = static_cast<std::int64_t>(message.header.stamp.toNSec());
+  sample.count = static_cast<int>(layout.columns.size());
+  sample.coordinates = layout.coordinates.data();
+  sample.q = q_.data();
+  sample.qd = velocities != 0 ? qd_.data() : nullptr;
+  sample.mimic_disagreement.clear();
+  checkMimics(layout, message.position, sample.mimic_disagreement);
+  return std::nullopt;
+}
+
+JointStateConversion::Layout& JointStateConversion::layoutOf(
+    const std::vector<std::string>& names) {
+  if (layouts_[latest_].names == names) return layouts_[latest_];
+  const auto known = std::find_if(layouts_.begin(), layouts_.end(),
+                                  [&](const Layout& layout) { return layout.names == names; });
+  if (known != layouts_.end()) {
+    latest_ = static_cast<std::size_t>(known - layouts_.begin());
+  } else {
+    latest_ = next_;
+    next_ = (next_ + 1) % kLayouts;
+    resolve(names, layouts_[latest_]);
+  }
+  return layouts_[latest_];
+}
+
+void JointStateConversion::resolve(const std::vector<std::string>& names, Layout& layout) const {
+  layout = Layout();
+  layout.names = names;
+  std::vector<char> found(mechanism_.coordinates().size(), 0);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto coordinate = coordinate_of_.find(names[i]);
+    if (coordinate == coordinate_of_.end()) continue;
+    char& is_found = found[static_cast<std::size_t>(coordinate->second)];
+    if (is_found) {
+      layout.rejection = Rejection{DropReason::kJointTwice, "it names '" + names[i] + "' twice"};
+      return;
+    }
+    is_found = 1;
+    layout.columns.push_back(static_cast<int>(i));
+    layout.coordinates.push_back(coordinate->second);
+  }
+  if (layout.columns.empty()) {
+    layout.rejection =
+        Rejection{DropReason::kNoKnownJoint, "it names no joint of robot '" + mechanism_.name() +
+                                                 "' that moves by itself" +
+                                                 (names.empty() ? "" : ": " + shortList(names))};
+    return;
+  }
+  resolveMimics(layout);
+}
+
+void JointStateConversion::resolveMimics(Layout& layout) const {
+  for (std::size_t i = 0; i < layout.names.size(); ++i) {
+    const int joint = mechanism_.jointIndex(layout.names[i]);
+    if (joint < 0 || !mechanism_.joints()[static_cast<std::size_t>(joint)].mimics) continue;
+    const int coordinate = mechanism_.joints()[static_cast<std::size_t>(joint)].coordinate;
+    const auto master = std::find(layout.coordinates.begin(), layout.coordinates.end(), coordinate);
+    if (master == layout.coordinates.end()) continue;
+    const auto entry = static_cast<std::size_t>(master - layout.coordinates.begin());
+    layout.mimics.push_back({static_cast<int>(i), layout.columns[entry], joint});
+  }
+}
+
+std::optional<Rejection> JointStateConversion::gather(const Layout& layout,
+                                                      const std::vector<double>& values,
+                                                      const char* what,
+                                                      std::vector<double>& gathered) const {
+  for (std::size_t i = 0; i < layout.columns.size(); ++i) {
+    const auto column = static_cast<std::size_t>(layout.columns[i]);
+    gathered[i] = values[column];
+    if (!std::isfinite(gathered[i])) {
+      return Rejection{DropReason::kNotFinite, std::string("the ") + what + " of '" +
+                                                   layout.names[column] + "' is " +
+                                                   numberText(gathered[i])};
+    }
+  }
+  return std::nullopt;
+}
+
+void JointStateConversion::checkMimics(Layout& layout, const std::vector<double>& positions,
+                                       std::string& disagreement) {
+  for (const MimicColumn& mimic : layout.mimics) {
+    const Joint& joint = mechanism_.joints()[static_cast<std::size_t>(mimic.joint)];
+    char& reported = mimic_reported_[static_cast<std::size_t>(mimic.joint)];
+    const double given = positions[static_cast<std::size_t>(mimic.column)];
+    const double master = positions[static_cast<std::size_t>(mimic.master_column)];
+    const double expected = joint.multiplier * master + joint.offset;
+    double difference = given - expected;
+    if (joint.type == JointType::kContinuous) difference = std::remainder(difference, kTurn);
+    // NaN disagrees: it is not below the tolerance.
+    if (reported || std::abs(difference) <= kMimicTolerance) continue;
+    reported = 1;
+    disagreement += (disagreement.empty() ? "" : "; ") + ("mimic joint '" + joint.name) +
+                    "' is given at " + numberText(given) + " but follows '" +
+                    layout.names[static_cast<std::size_t>(mimic.master_column)] + "' to " +
+                    numberText(expected);
+  }
+}
+
+}  // namespace virtual_work_dynamics

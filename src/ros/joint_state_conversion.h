@@ -1,0 +1,73 @@
+#pragma once
+
+#include <sensor_msgs/JointState.h>
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "ros/rejection.h"
+#include "virtual_work_dynamics/mechanism.h"
+
+namespace virtual_work_dynamics {
+
+/// The part of a joint state that belongs to generalized coordinates, as MotionEstimator takes it.
+/// Points into the conversion that made it, until its next call.
+struct JointSample {
+  std::int64_t stamp_ns = 0;
+  int count = 0;
+  const int* coordinates = nullptr;
+  const double* q = nullptr;   ///< rad or m
+  const double* qd = nullptr;  ///< rad/s or m/s; null: not given
+  /// Set for the first position of each mimic joint that disagrees with its master; else empty.
+  std::string mimic_disagreement;
+};
+
+/// Joint states by joint name to samples by generalized coordinate. Names are looked up when a list
+/// of names is new; a few lists are remembered, as several drivers may publish in turn.
+class JointStateConversion {
+ public:
+  explicit JointStateConversion(const Mechanism& mechanism);
+
+  /// Checks and converts. Joints that the robot does not have and mimic joints are ignored.
+  /// Allocates only for new lists of names, a rejection or a disagreement.
+  /// @returns why the message is to be dropped, or nothing.
+  std::optional<Rejection> convert(const sensor_msgs::JointState& message, JointSample& sample);
+
+ private:
+  struct MimicColumn {
+    int column;
+    int master_column;
+    int joint;
+  };
+  /// What a list of names means.
+  struct Layout {
+    std::vector<std::string> names;
+    std::vector<int> columns;      ///< of the message
+    std::vector<int> coordinates;  ///< in the order of `columns`
+    std::vector<MimicColumn> mimics;
+    std::optional<Rejection> rejection;
+  };
+  static constexpr std::size_t kLayouts = 8;
+
+  Layout& layoutOf(const std::vector<std::string>& names);
+  void resolve(const std::vector<std::string>& names, Layout& layout) const;
+  void resolveMimics(Layout& layout) const;
+  std::optional<Rejection> gather(const Layout& layout, const std::vector<double>& values,
+                                  const char* what, std::vector<double>& gathered) const;
+  void checkMimics(Layout& layout, const std::vector<double>& positions, std::string& disagreement);
+
+  const Mechanism& mechanism_;
+  std::unordered_map<std::string, int> coordinate_of_;
+  std::array<Layout, kLayouts> layouts_;
+  std::size_t latest_ = 0;
+  std::size_t next_ = 0;
+  std::vector<double> q_;
+  std::vector<double> qd_;
+  std::vector<char> mimic_reported_;
+};
+
+}  // namespace virtual_work_dynamics

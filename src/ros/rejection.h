@@ -1,0 +1,38 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+namespace virtual_work_dynamics {
+
+/// Why a message was dropped, or a sample not published.
+enum class DropReason : std::size_t {
+  kArrayLength,
+  kNotFinite,
+  kNoKnownJoint,
+  kJointTwice,
+  kZeroStamp,
+  kEqualStamp,
+  kNoPoints,
+  kTimes,
+  kNeverSeen,
+  kOverflow
+};
+
+/// The reasons as diagnostics show them, in the order of DropReason.
+constexpr std::array<const char*, 10> kDropReasonNames = {
+    "array length", "not finite", "no known joint", "joint twice",      "zero stamp",
+    "equal stamp",  "no points",  "times",          "joint never seen", "overflow"};
+
+constexpr std::size_t index(DropReason reason) {
+  return static_cast<std::size_t>(reason);
+}
+
+/// A reason and the line that names the culprit.
+struct Rejection {
+  DropReason reason;
+  std::string text;
+};
+
+}  // namespace virtual_work_dynamics

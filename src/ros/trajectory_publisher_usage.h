@@ -1,0 +1,36 @@
+#pragma once
+
+namespace virtual_work_dynamics {
+
+/// What trajectory_publisher_node prints for --help.
+constexpr char kTrajectoryPublisherUsage[] =
+    R"(usage: trajectory_publisher_node [--help] [name:=value ...]
+
+Plays a motion of joints at a set rate, as a stream of joint states or as one trajectory.
+
+publishes one of
+  joint_states      sensor_msgs/JointState           positions, velocities
+  joint_trajectory  trajectory_msgs/JointTrajectory  exact positions, velocities, accelerations
+
+parameters (in brackets: the defaults, which play the paper's pendulum)
+  ~joints                names ([joint_1, joint_2]); [] with the law table: all of the file
+  ~law                   cosine | sine_sweep | minimum_jerk | table (cosine)
+  ~amplitudes            rad or m, one for each joint ([pi/12, pi/6])
+  ~period                of the cosine, s (12)
+  ~start_frequency       of the sweep, Hz (0.1)
+  ~end_frequency         of the sweep, Hz (1)
+  ~duration              of cosine and sweep, s (6)
+  ~via_points            of minimum_jerk, list of {time: s, positions: [rad or m]} ([])
+  ~file                  of the table: CSV, columns time, position.<joint>, velocity.<joint>,
+                         acceleration.<joint> ("")
+  ~message               joint_state | joint_trajectory (joint_state)
+  ~rate                  samples per second, Hz (1000)
+  ~velocities            joint states carry velocities (true)
+  ~stamp                 of a trajectory: now | zero (now)
+  ~loop                  again and again, stamps going on (false)
+  ~wait_for_subscribers  how many to wait for before the start (1)
+  ~start_delay           from there to the first message, s (0.5)
+  ~linger                time to stay alive after the last message, s (1)
+)";
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,187 @@
+#include "ros/trajectory_settings.h"
+
+#include <cmath>
+#include <set>
+
+#include "ros/message_text.h"
+#include "ros/sample_times.h"
+#include "virtual_work_dynamics/motion_csv.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+using Eigen::Index;
+using XmlRpc::XmlRpcValue;
+
+constexpr double kPi = 3.14159265358979323846;
+// Whole nanoseconds resolve a step up to this rate well, and stamps reach this far.
+constexpr double kMaxRate = 1e6;
+constexpr double kMinDuration = 1e-6;
+constexpr double kMaxDuration = 1e9;
+// roscpp drops connections on which a longer message arrives.
+constexpr double kMaxMessageBytes = 1e9;
+
+/// The parameters that make up the law; those that the chosen one does not use are only read.
+struct LawParameters {
+  std::string law;
+  std::vector<double> amplitudes;
+  double period;
+  double start_frequency;
+  double end_frequency;
+  double duration;
+  XmlRpcValue via_points;
+  std::string file;
+};
+
+LawParameters readLawParameters(PrivateParameters& parameters) {
+  LawParameters law;
+  law.law = parameters.text("law", "cosine");
+  law.amplitudes = parameters.numbers("amplitudes", {kPi / 12, kPi / 6});
+  law.period = parameters.number("period", 12);
+  law.start_frequency = parameters.number("start_frequency", 0.1);
+  law.end_frequency = parameters.number("end_frequency", 1);
+  law.duration = parameters.number("duration", 6);
+  law.via_points = parameters.raw("via_points");
+  law.file = parameters.text("file", "");
+  return law;
+}
+
+void checkCount(std::size_t count, const std::vector<std::string>& joints,
+                const std::string& name) {
+  if (count == joints.size()) return;
+  throw parameterError(name, "expected a number for each of the " + std::to_string(joints.size()) +
+                                 " joints, got " + std::to_string(count));
+}
+
+void checkJoints(const std::vector<std::string>& joints) {
+  std::set<std::string> seen;
+  if (joints.empty()) throw parameterError("joints", "expected at least one name, got none");
+  for (const std::string& joint : joints) {
+    if (joint.empty()) throw parameterError("joints", "a name is empty");
+    if (!seen.insert(joint).second) throw parameterError("joints", joint + " is named twice");
+  }
+}
+
+MotionTable viaPoints(const XmlRpcValue& points, const std::vector<std::string>& joints) {
+  const std::string expected = "expected a list of {time, positions}";
+  if (points.getType() != XmlRpcValue::TypeArray) throw parameterError("via_points", expected);
+  MotionTable table;
+  table.joints = joints;
+  table.positions.resize(points.size(), static_cast<Index>(joints.size()));
+  for (int i = 0; i < points.size(); ++i) {
+    const std::string name = "via_points[" + std::to_string(i) + "]";
+    const XmlRpcValue& point = points[i];
+    if (point.getType() != XmlRpcValue::TypeStruct || point.size() != 2 ||
+        !point.hasMember("time") || !point.hasMember("positions")) {
+      throw parameterError(name, "expected {time, positions} and nothing else");
+    }
+    const std::vector<double> positions = numbersOf(point["positions"], name + "/positions");
+    checkCount(positions.size(), joints, name + "/positions");
+    table.times.push_back(numberOf(point["time"], name + "/time"));
+    for (std::size_t j = 0; j < positions.size(); ++j) {
+      table.positions(i, static_cast<Index>(j)) = positions[j];
+    }
+  }
+  return table;
+}
+
+/// @param joints the `joints` parameter; for a table without, those of the file on return.
+std::shared_ptr<const MotionLaw> makeLaw(const LawParameters& parameters,
+                                         std::vector<std::string>& joints) {
+  if (parameters.law == "table") {
+    if (parameters.file.empty()) throw parameterError("file", "the law `table` needs a file");
+    const MotionTable table = readMotionCsv(parameters.file, joints);
+    joints = table.joints;
+    checkJoints(joints);
+    return tableLaw(table);
+  }
+  checkJoints(joints);
+  if (parameters.law == "minimum_jerk") {
+    const MotionTable points = viaPoints(parameters.via_points, joints);
+    try {
+      return minimumJerkLaw(points);
+    } catch (const MotionError& error) {
+      throw parameterError("via_points", error.what());
+    }
+  }
+  if (parameters.law != "cosine" && parameters.law != "sine_sweep") {
+    throw parameterError(
+        "law", "expected cosine, sine_sweep, minimum_jerk or table, got '" + parameters.law + "'");
+  }
+  checkCount(parameters.amplitudes.size(), joints, "amplitudes");
+  const Eigen::VectorXd amplitudes = Eigen::Map<const Eigen::VectorXd>(
+      parameters.amplitudes.data(), static_cast<Index>(parameters.amplitudes.size()));
+  if (parameters.law == "cosine") {
+    return cosineLaw(amplitudes, parameters.period, parameters.duration);
+  }
+  return sineSweepLaw(amplitudes, parameters.start_frequency, parameters.end_frequency,
+                      parameters.duration);
+}
+
+/// True for `yes`, false for `no`.
+bool choice(PrivateParameters& parameters, const std::string& name, const std::string& no,
+            const std::string& yes) {
+  const std::string text = parameters.text(name, no);
+  if (text == yes) return true;
+  if (text == no) return false;
+  throw parameterError(name, "expected " + no + " or " + yes + ", got '" + text + "'");
+}
+
+double atLeastZero(PrivateParameters& parameters, const std::string& name, double fallback) {
+  const double value = parameters.number(name, fallback);
+  if (value >= 0 && value <= kMaxDuration) return value;
+  throw parameterError(name, "expected 0 to 1e9 s, got " + numberText(value));
+}
+
+void checkSampling(const TrajectorySettings& settings) {
+  if (!(settings.rate > 0 && settings.rate <= kMaxRate)) {
+    throw parameterError("rate",
+                         "expected more than 0 and up to 1e6 Hz, got " + numberText(settings.rate));
+  }
+  const double duration = settings.law->duration();
+  if (duration > kMaxDuration || (duration > 0 && duration < kMinDuration)) {
+    throw MotionError("the motion must last from 1e-6 to 1e9 s, its duration is " +
+                      numberText(duration) + " s");
+  }
+  if (settings.loop && duration == 0) {
+    throw parameterError("loop", "a motion of a single instant cannot be repeated");
+  }
+  if (!settings.as_trajectory) {
+    if (settings.zero_stamp) {
+      throw parameterError("stamp", "only a joint_trajectory can have the stamp zero");
+    }
+    return;
+  }
+  const double points = static_cast<double>(SampleTimes(duration, settings.rate).last()) + 1;
+  const double bytes = points * (24.0 * static_cast<double>(settings.joints.size()) + 24.0);
+  if (bytes > kMaxMessageBytes) {
+    throw parameterError("rate", "a trajectory of " + numberText(points) +
+                                     " points is longer than a ROS message can be");
+  }
+}
+
+}  // namespace
+
+TrajectorySettings readTrajectorySettings(PrivateParameters& parameters) {
+  TrajectorySettings settings;
+  settings.joints = parameters.texts("joints", {"joint_1", "joint_2"});
+  const LawParameters law = readLawParameters(parameters);
+  settings.rate = parameters.number("rate", 1000);
+  settings.as_trajectory = choice(parameters, "message", "joint_state", "joint_trajectory");
+  settings.velocities = parameters.boolean("velocities", true);
+  settings.zero_stamp = choice(parameters, "stamp", "now", "zero");
+  settings.loop = parameters.boolean("loop", false);
+  settings.wait_for_subscribers = parameters.integer("wait_for_subscribers", 1);
+  settings.start_delay = atLeastZero(parameters, "start_delay", 0.5);
+  settings.linger = atLeastZero(parameters, "linger", 1);
+  parameters.refuseUnknown();
+  if (settings.wait_for_subscribers < 0) {
+    throw parameterError("wait_for_subscribers", "expected no number below zero, got " +
+                                                     std::to_string(settings.wait_for_subscribers));
+  }
+  settings.law = makeLaw(law, settings.joints);
+  checkSampling(settings);
+  return settings;
+}
+
+}  // namespace virtual_work_dynamics
