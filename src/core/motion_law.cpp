@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/message_text.h"
 #include "virtual_work_dynamics/error.h"
+#include "virtual_work_dynamics/number_text.h"
 #include "virtual_work_dynamics/spline.h"
 
 namespace virtual_work_dynamics {

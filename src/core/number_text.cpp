@@ -123,4 +123,12 @@ bool parseNumber(const std::string& text, double& value) {
 
 #endif
 
+std::string numberText(double value) {
+  if (std::isnan(value)) return "nan";
+  if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
+  std::string text;
+  appendNumber(text, value);
+  return text;
+}
+
 }  // namespace virtual_work_dynamics

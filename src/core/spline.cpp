@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "core/message_text.h"
 #include "virtual_work_dynamics/error.h"
+#include "virtual_work_dynamics/number_text.h"
 
 // On the piece between two knots of distance h: w = 1/h, d = (q1 - q0)/h, and the derivatives of
 // the quintic Hermite polynomial at its start are

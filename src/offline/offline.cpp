@@ -32,12 +32,6 @@ struct MotionFile {
   std::vector<std::size_t> lines;  // of the rows
 };
 
-std::string numberText(double value) {
-  std::string text;
-  appendNumber(text, value);
-  return text;
-}
-
 Scene loadScene(const Arguments& arguments) {
   Scene scene = arguments.scene.empty() ? Scene() : readSceneFile(arguments.scene);
   if (arguments.gravity) scene.gravity = *arguments.gravity;

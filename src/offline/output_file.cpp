@@ -66,7 +66,6 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
   }
   std::error_code no_matter;  // what is wrong shows when the file is opened
   const auto kind = std::filesystem::status(path_, no_matter).type();
-  if (kind == std::filesystem::file_type::directory) throwCannotWrite(EISDIR);
   const bool may_replace =
       kind == std::filesystem::file_type::regular || kind == std::filesystem::file_type::not_found;
   if (may_replace) {

@@ -9,6 +9,7 @@
 #include "ros/private_parameters.h"
 #include "ros/topic_names.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
+#include "virtual_work_dynamics/number_text.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {

@@ -5,6 +5,7 @@
 #include "ros/message_text.h"
 #include "ros/private_parameters.h"
 #include "ros/xmlrpc_to_yaml.h"
+#include "virtual_work_dynamics/number_text.h"
 #include "virtual_work_dynamics/scene_reader.h"
 
 namespace virtual_work_dynamics {

@@ -5,6 +5,7 @@
 
 #include "ros/joint_lookup.h"
 #include "ros/message_text.h"
+#include "virtual_work_dynamics/number_text.h"
 
 namespace virtual_work_dynamics {
 namespace {

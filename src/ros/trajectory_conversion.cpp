@@ -9,6 +9,7 @@
 #include "ros/joint_lookup.h"
 #include "ros/message_text.h"
 #include "virtual_work_dynamics/error.h"
+#include "virtual_work_dynamics/number_text.h"
 #include "virtual_work_dynamics/spline.h"
 
 namespace virtual_work_dynamics {

@@ -161,6 +161,24 @@ TEST(MotionCompletion, ASineHasNoLag) {
   }
 }
 
+// Only windows that lie alike before and behind a row give the same for a motion played backwards.
+TEST(MotionCompletion, PlayedBackwardsAMotionHasTheSameAccelerations) {
+  MotionTable forward;
+  MotionTable backward;
+  forward.joints = backward.joints = {"hinge"};
+  forward.times = unevenTimes(30);
+  forward.positions.resize(30, 1);
+  for (int i = 0; i < 30; ++i) {
+    forward.positions(i, 0) = std::sin(40 * (forward.times[static_cast<std::size_t>(i)] - 100));
+    backward.times.push_back(-forward.times[static_cast<std::size_t>(29 - i)]);
+  }
+  backward.positions = forward.positions.colwise().reverse();
+  const MotionTable one = completeMotion(twoJoints(), forward);
+  const MotionTable other = completeMotion(twoJoints(), backward);
+  expectNear(other.velocities.colwise().reverse(), -one.velocities, kExactVelocity);
+  expectNear(other.accelerations.colwise().reverse(), one.accelerations, kExactAcceleration);
+}
+
 TEST(MotionCompletion, ContinuousJointsMayWrap) {
   const MotionTable truth = cubicMotion(unevenTimes(60), 40);
   MotionTable wrapped = without(truth, true, true);

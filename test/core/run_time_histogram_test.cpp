@@ -118,7 +118,7 @@ TEST(RunTimeHistogram, LosesNothingWhenTakenWhileAnotherThreadRecords) {
   });
   std::vector<RunTimeHistogram::Summary> intervals;
   while (histogram.summary().count == 0) std::this_thread::yield();
-  for (int i = 0; i < 100000; ++i) {
+  for (int i = 0; i < 20000; ++i) {
     const RunTimeHistogram::Summary summary = histogram.takeSummary();
     if (summary.count > 0) intervals.push_back(summary);
   }
