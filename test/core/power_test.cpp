@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <iostream>
 #include <string>
 
 #include "power_balance.h"
@@ -14,7 +16,8 @@ namespace {
 // Balance of double efforts: rounding of a few hundred terms, cancelling in mimic chains.
 constexpr long double kPowerTolerance = 1e-12L;
 
-void expectBalance(const std::string& urdf, unsigned seed) {
+// Returns the worst residual over twenty states.
+long double worstResidual(const std::string& urdf, unsigned seed) {
   const Mechanism mechanism = readUrdf(urdf);
   RandomRobot source(seed, 2);
   const Scene scene;
@@ -25,13 +28,16 @@ void expectBalance(const std::string& urdf, unsigned seed) {
     const Motion motion = source.motion(mechanism);
     dynamics.compute(motion, workspace);
     const PowerBalance balance(mechanism, scene, motion, workspace.effort());
-    ASSERT_GT(balance.scale, 0);
-    ASSERT_TRUE(std::isfinite(static_cast<double>(balance.residual())));
+    EXPECT_GT(balance.scale, 0);
+    EXPECT_TRUE(std::isfinite(static_cast<double>(balance.residual())));
     worst = std::max(worst, balance.residual());
   }
-  EXPECT_LE(worst, kPowerTolerance) << mechanism.name();
-  ::testing::Test::RecordProperty("residual_of_" + mechanism.name(),
-                                  std::to_string(static_cast<double>(worst * 1e18L)) + "e-18");
+  return worst;
+}
+
+void expectBalance(const std::string& name, long double worst) {
+  EXPECT_LE(worst, kPowerTolerance) << name;
+  std::cout << "  residual of " << name << ": " << static_cast<double>(worst) << "\n";
 }
 
 std::string fileText(const std::string& path) {
@@ -44,11 +50,17 @@ TEST(PowerBalance, HoldsForThePendulum) {
 }
 
 TEST(PowerBalance, HoldsForRandomTrees) {
-  for (unsigned seed = 1; seed <= 40; ++seed) expectBalance(RandomRobot(seed, 15).urdf(), seed);
+  long double worst = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    worst = std::max(worst, worstResidual(RandomRobot(seed, 15).urdf(), seed));
+  }
+  expectBalance("random trees", worst);
 }
 
 TEST(PowerBalance, HoldsForTheExampleArm) {
-  expectBalance(fileText(std::string(VWD_SOURCE_DIR) + "/urdf/six_axis_arm.urdf"), 3);
+  expectBalance(
+      "the arm",
+      worstResidual(fileText(std::string(VWD_SOURCE_DIR) + "/urdf/six_axis_arm.urdf"), 3));
 }
 
 class SharedRobot : public ::testing::TestWithParam<const char*> {};
@@ -57,7 +69,7 @@ TEST_P(SharedRobot, BalancesPower) {
   const std::string path = std::string(VWD_SHARED_DATA) + "/robots/" + GetParam() + ".urdf";
   const std::string urdf = fileText(path);
   if (urdf.empty()) GTEST_SKIP() << path << " is not there";
-  expectBalance(urdf, 5);
+  expectBalance(GetParam(), worstResidual(urdf, 5));
 }
 
 INSTANTIATE_TEST_SUITE_P(PowerBalance, SharedRobot,
