@@ -2,7 +2,6 @@
 
 #include <ros/node_handle.h>
 
-#include "ros/message_text.h"
 #include "ros/private_parameters.h"
 #include "ros/xmlrpc_to_yaml.h"
 #include "virtual_work_dynamics/number_text.h"

@@ -10,7 +10,7 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-std::string numberText(double value) {
+std::string yamlNumber(double value) {
   if (std::isnan(value)) return ".nan";
   if (std::isinf(value)) return value > 0 ? ".inf" : "-.inf";
   std::string text;
@@ -29,7 +29,7 @@ YAML::Node xmlRpcToYaml(const XmlRpcValue& value, const std::string& name) {
     case XmlRpcValue::TypeInt:
       return YAML::Node(std::to_string(static_cast<const int&>(value)));
     case XmlRpcValue::TypeDouble:
-      return YAML::Node(numberText(static_cast<const double&>(value)));
+      return YAML::Node(yamlNumber(static_cast<const double&>(value)));
     case XmlRpcValue::TypeString:
       return YAML::Node(static_cast<const std::string&>(value));
     case XmlRpcValue::TypeArray: {
