@@ -1,0 +1,58 @@
+#!/bin/bash
+# Builds the package in a catkin workspace of its own.
+set -euo pipefail
+
+usage() {
+  cat <<END
+Usage: scripts/build.sh [CATKIN_MAKE_ARGUMENT ...]
+
+Builds in build/.catkin_ws with the system's Python; arguments go to catkin_make, for example
+-DVWD_WARNINGS_AS_ERRORS=ON, or the name of a target. Leaves the tests out, which need more packages,
+unless -DCATKIN_ENABLE_TESTING=ON is given. The whole output is in build/build.log.
+To use what was built: source build/setup.bash
+END
+}
+if [[ "${1:-}" == -h || "${1:-}" == --help ]]; then
+  usage
+  exit 0
+fi
+
+repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+# Hidden: ROS looks for launch files by walking through a package, links included, and would walk in
+# circles through the workspace's link to this package. It leaves hidden folders out.
+workspace=$repository/build/.catkin_ws
+log=$repository/build/build.log
+
+# ROS's Python packages belong to the system's interpreter; another python3 may come first in PATH.
+export PATH=/usr/bin:$PATH
+
+mkdir -p "$workspace/src"
+ln -sfn "$repository" "$workspace/src/virtual_work_dynamics"
+echo "source '$workspace/devel/setup.bash'" >"$repository/build/setup.bash"
+
+# On a terminal one line that moves on; in a log only our finished targets.
+show_progress() {
+  local line shown=false
+  while IFS= read -r line; do
+    [[ "$line" =~ ^\[\ *[0-9]+%\] ]] || continue
+    if [[ -t 1 ]]; then
+      printf '\r\033[K%s' "${line:0:100}"
+      shown=true
+    elif [[ "$line" == *"Built target"* && "$line" != *_generate_messages_* ]]; then
+      printf '%s\n' "$line"
+    fi
+  done
+  if $shown; then printf '\r\033[K'; fi
+}
+
+start=$SECONDS
+echo "Building ..."
+if ! catkin_make --directory "$workspace" -j"${JOBS:-$(nproc)}" --no-color \
+    -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 \
+    -DCMAKE_BUILD_TYPE=Release -DCATKIN_ENABLE_TESTING=OFF "$@" 2>&1 | tee "$log" | show_progress; then
+  grep -E -A 5 'error|Error' "$log" | head -n 40 >&2 || tail -n 40 "$log" >&2
+  echo "build.sh: failed; the whole output is in $log" >&2
+  exit 1
+fi
+grep -E -A 3 'warning:' "$log" || true
+echo "Built in $((SECONDS - start)) s."

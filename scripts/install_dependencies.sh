@@ -1,0 +1,98 @@
+#!/bin/bash
+# Installs with apt what the package needs on Debian 12. Does nothing, quickly, when all is there.
+set -euo pipefail
+
+build_packages=(
+  build-essential catkin cmake
+  libconsole-bridge-dev libeigen3-dev libtinyxml2-dev liburdfdom-dev libyaml-cpp-dev
+  libdiagnostic-updater-dev libgeometry-msgs-dev libroscpp-dev libsensor-msgs-dev
+  libtrajectory-msgs-dev
+)
+run_packages=(
+  python3-rosbag python3-roslaunch python3-rostopic ros-robot-state-publisher rosout tf2-tools
+  python3-diagnostic-msgs python3-geometry-msgs python3-sensor-msgs python3-trajectory-msgs
+)
+test_packages=(
+  "${run_packages[@]}"
+  binutils catkin-lint clang-format-14 libgtest-dev libroscpp-dev librosbag-dev librostest-dev
+  python3-numpy python3-rostest
+)
+demo_packages=("${run_packages[@]}" python3-matplotlib)
+rviz_packages=("${run_packages[@]}" rviz)
+
+usage() {
+  cat <<END
+Usage: scripts/install_dependencies.sh [--build] [--run] [--test] [--demo] [--rviz] [--list]
+
+Installs the packages needed to build (always), to run the launch files (--run), to run the tests
+(--test), to run the demo (--demo) and to show robots in RViz (--rviz).
+  --list  only print the names of the packages
+Works on Debian 12, whose archive has ROS 1. On Ubuntu 20.04 with ROS Noetic, let rosdep do it:
+  rosdep install --from-paths . --ignore-src
+END
+}
+
+wanted=("${build_packages[@]}")
+list=false
+for argument in "$@"; do
+  case "$argument" in
+    --build) ;;
+    --run) wanted+=("${run_packages[@]}") ;;
+    --test) wanted+=("${test_packages[@]}") ;;
+    --demo) wanted+=("${demo_packages[@]}") ;;
+    --rviz) wanted+=("${rviz_packages[@]}") ;;
+    --list) list=true ;;
+    -h | --help) usage; exit 0 ;;
+    *) echo "install_dependencies.sh: unknown option $argument" >&2; usage >&2; exit 2 ;;
+  esac
+done
+mapfile -t wanted < <(printf '%s\n' "${wanted[@]}" | sort -u)
+
+if $list; then
+  printf '%s\n' "${wanted[@]}"
+  exit 0
+fi
+
+system=$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${VERSION_ID:-}" || echo unknown)
+if [[ "$system" != "debian 12" ]]; then
+  cat >&2 <<END
+install_dependencies.sh: this is '$system', and the list of packages is for Debian 12.
+On Ubuntu 20.04 with ROS Noetic, in this folder:
+  rosdep install --from-paths . --ignore-src
+and then build as any catkin package, or call the other scripts with --no-install.
+END
+  exit 1
+fi
+
+missing=()
+for package in "${wanted[@]}"; do
+  status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
+  [[ "$status" == installed ]] || missing+=("$package")
+done
+if [[ ${#missing[@]} -eq 0 ]]; then
+  echo "All ${#wanted[@]} packages are installed."
+  exit 0
+fi
+
+as_root=()
+if [[ $(id -u) -ne 0 ]]; then
+  command -v sudo >/dev/null || {
+    echo "install_dependencies.sh: needs root or sudo to install: ${missing[*]}" >&2
+    exit 1
+  }
+  as_root=(sudo)
+fi
+
+echo "Installing ${#missing[@]} packages: ${missing[*]}"
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+apt() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq "$@" >"$log" 2>&1 || {
+    tail -n 20 "$log" >&2
+    echo "install_dependencies.sh: 'apt-get $1' failed" >&2
+    exit 1
+  }
+}
+apt update
+apt install -y --no-install-recommends "${missing[@]}"
+echo "Installed."

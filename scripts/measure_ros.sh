@@ -1,0 +1,59 @@
+#!/bin/bash
+# Latency, endurance and highest rate of inverse_dynamics_node through ROS.
+set -euo pipefail
+
+usage() {
+  cat <<END
+Usage: scripts/measure_ros.sh [--latency [SECONDS [RATE]]] [--endurance [SECONDS [RATE]]]
+                              [--highest-rate [SECONDS]] [--robot URDF]
+                              [--no-install] [--workspace FOLDER]
+
+Measures the package through ROS, and prints figures, also to output/measure_ros.txt. Without a
+choice it makes all three measurements. Quiet machine wanted: nothing else should run.
+  --latency       from publishing a joint state to receiving ~effort, beside a node that only copies
+                  the joint state, sent to in turn (20 s at 1000 Hz each)
+  --endurance     all outputs subscribed and recorded with rosbag: was anything lost; results more
+                  than 1 ms after their receipt, beside the copying node; CPU share, memory (60 s at
+                  1000 Hz)
+  --highest-rate  at which nothing is lost with all outputs recorded, SECONDS for each rate (5 s)
+  --robot         (the reference data's TIAGo beside the repository, or else urdf/six_axis_arm.urdf)
+  --no-install    do not install packages first
+  --workspace     a catkin workspace in which the package is built already, with
+                  -DVWD_BUILD_BENCHMARKS=ON; otherwise builds in build/catkin_ws
+Uses a ROS master of its own. The bags, up to gigabytes, are in TMPDIR and are removed at the end.
+END
+}
+
+install=true
+workspace=
+arguments=()
+while [[ $# -gt 0 ]]; do
+  case "$1" in
+    -h | --help) usage; exit 0 ;;
+    --no-install) install=false ;;
+    --workspace)
+      [[ $# -ge 2 ]] || { echo "measure_ros.sh: --workspace needs a folder" >&2; exit 2; }
+      workspace=$(realpath "$2")
+      shift ;;
+    *) arguments+=("$1") ;;
+  esac
+  shift
+done
+
+repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+if $install; then "$repository/scripts/install_dependencies.sh" --run; fi
+if [[ -z "$workspace" ]]; then
+  "$repository/scripts/build.sh" -DVWD_BUILD_BENCHMARKS=ON
+  workspace=$repository/build/catkin_ws
+fi
+if [[ ! -x "$workspace/devel/lib/virtual_work_dynamics/latency_probe" ]]; then
+  echo "measure_ros.sh: $workspace was not built with -DVWD_BUILD_BENCHMARKS=ON" >&2
+  exit 1
+fi
+
+export PATH=/usr/bin:$PATH PYTHONDONTWRITEBYTECODE=1
+set +u  # ROS's setup files use variables that may be unset
+source "$workspace/devel/setup.bash"
+set -u
+exec /usr/bin/python3 "$repository/benchmark/measure_ros.py" \
+  --programs "$workspace/devel/lib/virtual_work_dynamics" "${arguments[@]}"
