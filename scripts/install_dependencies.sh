@@ -14,7 +14,7 @@ run_packages=(
 )
 test_packages=(
   "${run_packages[@]}"
-  binutils catkin-lint clang-format-14 libgtest-dev libroscpp-dev librosbag-dev librostest-dev
+  binutils catkin-lint clang-format-14 libgtest-dev librostest-dev locales
   python3-numpy python3-rostest
 )
 demo_packages=("${run_packages[@]}" python3-matplotlib)

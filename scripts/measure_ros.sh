@@ -5,7 +5,7 @@ set -euo pipefail
 usage() {
   cat <<END
 Usage: scripts/measure_ros.sh [--latency [SECONDS [RATE]]] [--endurance [SECONDS [RATE]]]
-                              [--highest-rate [SECONDS]] [--robot URDF]
+                              [--highest-rate [SECONDS]] [--robot URDF] [--real-time]
                               [--no-install] [--workspace FOLDER]
 
 Measures the package through ROS, and prints figures, also to output/measure_ros.txt. Without a
@@ -17,9 +17,11 @@ choice it makes all three measurements. Quiet machine wanted: nothing else shoul
                   1000 Hz)
   --highest-rate  at which nothing is lost with all outputs recorded, SECONDS for each rate (5 s)
   --robot         (the reference data's TIAGo beside the repository, or else urdf/six_axis_arm.urdf)
+  --real-time     run the measured nodes before everything else on the machine (chrt --fifo 10; root):
+                  shows what is their own share of latencies, and what is waiting for a core
   --no-install    do not install packages first
   --workspace     a catkin workspace in which the package is built already, with
-                  -DVWD_BUILD_BENCHMARKS=ON; otherwise builds in build/catkin_ws
+                  -DVWD_BUILD_BENCHMARKS=ON; otherwise builds in build/.catkin_ws
 Uses a ROS master of its own. The bags, up to gigabytes, are in TMPDIR and are removed at the end.
 END
 }
@@ -44,7 +46,7 @@ repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 if $install; then "$repository/scripts/install_dependencies.sh" --run; fi
 if [[ -z "$workspace" ]]; then
   "$repository/scripts/build.sh" -DVWD_BUILD_BENCHMARKS=ON
-  workspace=$repository/build/catkin_ws
+  workspace=$repository/build/.catkin_ws
 fi
 if [[ ! -x "$workspace/devel/lib/virtual_work_dynamics/latency_probe" ]]; then
   echo "measure_ros.sh: $workspace was not built with -DVWD_BUILD_BENCHMARKS=ON" >&2

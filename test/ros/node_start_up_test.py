@@ -1,0 +1,274 @@
+#!/usr/bin/python3
+"""What the node refuses to start on, one line each, and what it starts with all the same."""
+import re
+import socketserver
+import threading
+import xmlrpc.client
+import xmlrpc.server
+
+import rosgraph
+import rospy
+import yaml
+
+from node_under_test import Node, NodeTest, Process, executable, read, run
+
+# About the centre of mass; parts of a robot description.
+INERTIAL = ('<inertial><origin xyz="0.1 0 0"/><mass value="2"/><inertia ixx="0.1" ixy="0" ixz="0" '
+            'iyy="0.1" iyz="0" izz="0.1"/></inertial>')
+AXIS = '<axis xyz="0 0 1"/>'
+
+
+def joint(name, parent, child, kind='continuous', inside=AXIS):
+    return ('<joint name="%s" type="%s"><parent link="%s"/><child link="%s"/>%s</joint>'
+            % (name, kind, parent, child, inside))
+
+
+def robot(*joints, inertial=INERTIAL, links='base arm hand'):
+    """A chain of links, all with the same inertial."""
+    text = ''.join('<link name="%s">%s</link>' % (link, inertial if link != 'base' else '')
+                   for link in links.split())
+    return '<robot name="tester">%s%s</robot>' % (text, ''.join(joints))
+
+
+HINGE = joint('hinge', 'base', 'arm')
+WRIST = joint('wrist', 'arm', 'hand')
+GOOD = robot(HINGE, WRIST)
+
+
+def with_inertial(**changes):
+    """GOOD, but for attributes of the inertial of both links."""
+    inertial = INERTIAL
+    for attribute, value in changes.items():
+        name = 'value' if attribute == 'mass' else attribute
+        inertial = re.sub(name + '="[^"]*"', '%s="%s"' % (name, value), inertial)
+    return robot(HINGE, WRIST, inertial=inertial)
+
+
+def mimic(master):
+    return AXIS + '<mimic joint="%s"/>' % master
+
+
+# Robots: what is wrong, the description, and parts of the FATAL line.
+BAD_ROBOTS = {
+    'no_robot_description': (None, ['robot_description: not set']),
+    'robot_description_that_is_no_text': (7, ['robot_description', 'expected the text of a URDF']),
+    'empty_robot_description': (' \n', ['robot_description', 'empty']),
+    'broken_xml': ('<robot name="tester"><link name="base"></robot>',
+                   ['robot_description', 'broken']),
+    'no_xml_at_all': ('tester.urdf', ['robot_description', 'broken']),
+    'two_roots': (robot(HINGE), ['robot_description', 'broken', 'hand']),
+    'joint_to_unknown_link': (robot(HINGE, joint('wrist', 'arm', 'paw')), ['paw']),
+    'negative_mass': (with_inertial(mass='-2'), ["link 'arm'", 'mass -2']),
+    'mass_nan': (with_inertial(mass='nan'), ['arm', 'mass']),
+    'mass_infinite': (with_inertial(mass='1e999'), ['arm', 'mass']),
+    'mass_that_is_no_number': (with_inertial(mass='heavy'), ['arm', 'mass']),
+    'inertia_nan': (with_inertial(iyy='nan'), ['arm', 'inertia']),
+    'inertia_infinite': (with_inertial(izz='inf'), ['arm', 'inertia']),
+    'zero_axis': (robot(HINGE, joint('wrist', 'arm', 'hand', inside='<axis xyz="0 0 0"/>')),
+                  ["joint 'wrist'", 'axis (0, 0, 0)']),
+    'floating_joint': (robot(HINGE, joint('wrist', 'arm', 'hand', 'floating')),
+                       ["joint 'wrist'", 'floating']),
+    'planar_joint': (robot(HINGE, joint('wrist', 'arm', 'hand', 'planar')),
+                     ["joint 'wrist'", 'planar']),
+    'mimic_cycle': (robot(joint('hinge', 'base', 'arm', inside=mimic('wrist')),
+                          joint('wrist', 'arm', 'hand', inside=mimic('hinge'))),
+                    ["joint 'hinge'", 'cycle']),
+    'mimic_of_itself': (robot(HINGE, joint('wrist', 'arm', 'hand', inside=mimic('wrist'))),
+                        ["joint 'wrist'", 'cycle']),
+    'mimic_of_unknown_joint': (robot(HINGE, joint('wrist', 'arm', 'hand', inside=mimic('knee'))),
+                               ["joint 'wrist'", "'knee'"]),
+    'joint_named_ground': (robot(joint('ground', 'base', 'arm'), WRIST), ["joint 'ground'"]),
+    'colliding_topic_names': (robot(joint('a-b', 'base', 'arm'), joint('a.b', 'arm', 'hand')),
+                              ["'a-b'", "'a.b'", '~reaction/a_b']),
+    'nothing_that_moves': (robot(joint('weld', 'base', 'arm', 'fixed'),
+                                 joint('glue', 'arm', 'hand', 'fixed')),
+                           ["robot 'tester'", 'no joint that moves']),
+}
+
+STRICT = {'scene': {'strict_inertia': True}}
+# Robots that are computed with a warning of the link, unless strict_inertia refuses them.
+DOUBTFUL = {
+    'negative_moment': (with_inertial(ixx='-0.05'), ["link 'arm'", "link 'hand'"], '-0.05'),
+    'triangle': (with_inertial(ixx='0.3'), ["link 'arm'", "link 'hand'"], '0.3'),
+    'massless_moving_leaf': (robot(HINGE, WRIST, links='base arm').replace(
+        '</robot>', '<link name="hand"/></robot>'), ["link 'hand'"], '0 kg'),
+}
+
+# Parameters of a good robot, and parts of the FATAL line.
+BAD_PARAMETERS = {
+    'unknown_joint_in_reactions': ({'scene': {'reactions': ['hinge', 'knee']}}, ["'knee'"]),
+    'joint_twice_in_reactions': ({'scene': {'reactions': ['hinge', 'hinge']}}, ["'hinge'"]),
+    'unknown_link_in_applied_wrenches': (
+        {'scene': {'applied_wrenches': [{'link': 'paw', 'force': [0, 0, 1]}]}}, ["'paw'"]),
+    'unknown_key_in_applied_wrenches': (
+        {'scene': {'applied_wrenches': [{'link': 'arm', 'forse': [0, 0, 1]}]}}, ['forse']),
+    'unknown_scene_key': ({'scene': {'gravitation': [0, 0, 1]}}, ['gravitation: unknown key']),
+    'gravity_of_two': ({'scene': {'gravity': [0, 1]}}, ['gravity', 'three numbers']),
+    'gravity_that_is_no_number': ({'scene': {'gravity': [0, 0, 'down']}}, ['gravity', "'down'"]),
+    'scene_that_is_no_map': ({'scene': 5}, ['scene', 'map']),
+    'unknown_parameter': ({'twists': True}, ['unknown parameter ~twists']),
+    'unknown_nested_parameter': ({'estimator': {'windows': 9}},
+                                 ['unknown parameter ~estimator/windows']),
+    'number_that_is_text': ({'estimator': {'max_gap': 'long'}}, ['~estimator/max_gap', "'long'"]),
+    'integer_that_is_none': ({'estimator': {'window': 9.5}}, ['~estimator/window', '9.5']),
+    'boolean_that_is_a_number': ({'twist': 1}, ['~twist', 'true or false']),
+    'text_that_is_a_number': ({'frame_prefix': 3}, ['~frame_prefix', 'expected text']),
+    'group_that_is_a_number': ({'estimator': 3}, ['~estimator']),
+    'acceleration_of_another_kind': ({'estimator': {'acceleration': 'guess'}},
+                                     ['~estimator/acceleration', "'guess'"]),
+    'window_shorter_than_the_order_needs': ({'estimator': {'window': 3, 'lag': 1}},
+                                            ['~estimator', 'window is 3', 'order + 1 = 4']),
+    'window_too_long': ({'estimator': {'window': 1000}}, ['~estimator', 'window is 1000']),
+    'lag_as_long_as_the_window': ({'estimator': {'lag': 9}}, ['~estimator', 'lag is 9']),
+    'negative_lag': ({'estimator': {'lag': -1}}, ['~estimator', 'lag is -1']),
+    'order_zero': ({'estimator': {'order': 0}}, ['~estimator', 'order is 0']),
+    'negative_gap': ({'estimator': {'max_gap': -0.1}}, ['~estimator', 'max_gap is -0.1']),
+    'queue_of_nothing': ({'queue_size': {'output': 0}}, ['~queue_size/output', '0']),
+    'endless_queue_by_a_negative_size': ({'queue_size': {'input': -1}},
+                                         ['~queue_size/input', '-1']),
+    'period_zero': ({'diagnostic_period': 0}, ['~diagnostic_period', '0 s']),
+    'negative_threshold': ({'late_threshold': -1.0}, ['~late_threshold', '-1 s']),
+}
+LATER_KEYS = ('joints', 'springs', 'closures', 'actuated', 'assembly', 'redundancy')
+
+
+class WatchedMaster(socketserver.ThreadingMixIn, xmlrpc.server.SimpleXMLRPCServer):
+    """Stands between a node and the master and remembers what the node registers."""
+
+    daemon_threads = True
+
+    class Handler(xmlrpc.server.SimpleXMLRPCRequestHandler):
+        protocol_version = 'HTTP/1.1'
+        rpc_paths = ()
+        # Or small answers wait for an acknowledgement that is delayed.
+        disable_nagle_algorithm = True
+
+    def __init__(self):
+        super().__init__(('localhost', 0), self.Handler, logRequests=False, allow_none=True)
+        self.uri = 'http://localhost:%d' % self.server_address[1]
+        self.registered = []
+        threading.Thread(target=self.serve_forever, daemon=True).start()
+
+    def _dispatch(self, method, parameters):
+        if method in ('registerPublisher', 'registerSubscriber'):
+            self.registered.append((parameters[0], method, parameters[1]))
+        with xmlrpc.client.ServerProxy(rosgraph.get_master_uri()) as master:
+            return getattr(master, method)(*parameters)
+
+    def handle_error(self, request, client_address):
+        """A node that ends may leave a call behind; whatever else goes wrong shows in the node."""
+
+    def topics(self, node):
+        """What a node has ever registered, without every node's own log."""
+        return [entry[1:] for entry in list(self.registered)
+                if entry[0] == node and entry[2] != '/rosout']
+
+
+class StartUp(NodeTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.master = WatchedMaster()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.master.shutdown()
+        cls.master.server_close()
+
+    def start(self, description, parameters=None, arguments=()):
+        return Node(self, description, parameters, arguments=arguments,
+                    environment={'ROS_MASTER_URI': self.master.uri})
+
+    def expect_refusal(self, node, parts):
+        self.assertEqual(node.wait(), 1, node.output())
+        lines = node.lines('FATAL')
+        self.assertEqual(len(lines), 1, node.output())
+        for part in parts:
+            self.assertIn(part, lines[0])
+        # A line, and nothing else: what is wrong with a description is not said twice.
+        self.assertEqual(node.output().count('\n'), 1, node.output())
+        self.assertEqual(self.master.topics(node.name), [])
+
+    def expect_start(self, node, warnings):
+        """Runs, warns of exactly these, each list of parts in a line, and ends when asked to."""
+        node.diagnostics()
+        # The watching master has seen it all.
+        topics = self.master.topics(node.name)
+        self.assertIn(('registerPublisher', node.name + '/effort'), topics)
+        self.assertIn(('registerSubscriber', node.namespace + '/joint_states'), topics)
+        self.assertIn(('registerSubscriber', node.namespace + '/joint_trajectory'), topics)
+        node.interrupt()
+        self.assertEqual(node.wait(), 0, node.output())
+        lines = node.lines('WARN')
+        self.assertEqual(len(lines), len(warnings), node.output())
+        for line, parts in zip(lines, warnings):
+            for part in parts:
+                self.assertIn(part, line)
+        self.assertEqual(node.lines('FATAL') + node.lines('ERROR'), [])
+
+    def test_good_robot(self):
+        self.expect_start(self.start(GOOD), [])
+
+    def test_slender_rods_are_not_doubted(self):
+        self.expect_start(self.start(read('..', '..', 'urdf', 'composed_pendulum.urdf')), [])
+
+    def test_axis_of_another_length(self):
+        description = GOOD.replace('<axis xyz="0 0 1"/>', '<axis xyz="0 0 3"/>', 1)
+        self.expect_start(self.start(description), [["joint 'hinge'", '(0, 0, 3)', 'unit length']])
+
+    def test_robot_description_from_a_namespace_above(self):
+        rospy.set_param('/robot_description', GOOD)
+        self.addCleanup(rospy.delete_param, '/robot_description')
+        node = self.start(None)
+        self.expect_start(node, [])
+        self.assertIn("Robot 'tester' from /robot_description: 2 coordinates (hinge, wrist)",
+                      node.output())
+
+    def test_default_parameters_are_the_documented_ones(self):
+        documented = yaml.safe_load(read('..', '..', 'config', 'inverse_dynamics.yaml'))
+        summaries = []
+        for parameters in (None, documented):
+            node = self.start(GOOD, parameters)
+            self.expect_start(node, [])
+            summaries.append(re.findall('2 coordinates.*', node.output()))
+        self.assertIn('(window 9, order 3, lag 4)', summaries[0][0])
+        self.assertEqual(summaries[0], summaries[1])
+
+    def test_help_names_every_parameter(self):
+        process = Process(self, [executable('inverse_dynamics_node'), '--help'])
+        self.assertEqual(process.wait(), 0)
+        documented = yaml.safe_load(read('..', '..', 'config', 'inverse_dynamics.yaml'))
+        for key, value in documented.items():
+            for name in ['%s/%s' % (key, inner) for inner in value] \
+                    if isinstance(value, dict) else [key]:
+                self.assertRegex(process.output(), r'\n  ~%s +\S' % name)
+
+    def test_unknown_argument(self):
+        self.expect_refusal(self.start(GOOD, arguments=['--robot']), ['unknown argument --robot'])
+
+
+def add_tests():
+    """A test for each entry of the tables."""
+    def refused(description, parameters, parts):
+        return lambda self: self.expect_refusal(self.start(description, parameters), parts)
+
+    def warned(description, links, value):
+        return lambda self: self.expect_start(self.start(description),
+                                              [[link, value] for link in links])
+
+    for name, (description, parts) in BAD_ROBOTS.items():
+        setattr(StartUp, 'test_refuses_' + name, refused(description, None, parts))
+    for name, (parameters, parts) in BAD_PARAMETERS.items():
+        setattr(StartUp, 'test_refuses_' + name, refused(GOOD, parameters, parts))
+    for key in LATER_KEYS:
+        setattr(StartUp, 'test_refuses_scene_key_of_later_' + key,
+                refused(GOOD, {'scene': {key: []}}, ['scene: %s: not available yet' % key]))
+    for name, (description, links, value) in DOUBTFUL.items():
+        setattr(StartUp, 'test_refuses_when_strict_' + name,
+                refused(description, STRICT, [links[0], value]))
+        setattr(StartUp, 'test_starts_with_a_warning_' + name, warned(description, links, value))
+
+
+add_tests()
+
+if __name__ == '__main__':
+    run(StartUp)
