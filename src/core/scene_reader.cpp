@@ -83,7 +83,7 @@ template <typename Read>
 void forEachEntry(const YAML::Node& map, const std::string& prefix, Read read) {
   Names seen;
   for (const auto& entry : map) {
-    if (!entry.first.IsScalar()) fail(prefix, "a key is not a word");
+    if (!entry.first.IsScalar()) throw SceneError("scene: " + prefix + "a key is not a word");
     const std::string& key = entry.first.Scalar();
     if (contains(seen, key)) fail(prefix + key, "given twice");
     seen.push_back(key);
@@ -144,7 +144,9 @@ Scene readSceneFile(const std::string& path) {
   const std::string text = readTextFile(path);
   YAML::Node node;
   try {
-    node = YAML::Load(text);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) throw SceneError(path + ": holds more than one YAML document");
+    if (!documents.empty()) node = documents.front();
   } catch (const YAML::Exception& error) {
     throw FileError(path + ": is no YAML: " + error.what());
   }

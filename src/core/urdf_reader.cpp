@@ -6,13 +6,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <mutex>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "core/inertia_doubts.h"
 #include "core/text_file.h"
 #include "core/urdf_angles.h"
 #include "virtual_work_dynamics/error.h"
+#include "virtual_work_dynamics/number_text.h"
 
 namespace virtual_work_dynamics {
 
@@ -64,9 +68,10 @@ Parsed parse(const std::string& text) {
   }
   parsed.complaints = console.lines();
   // urdfdom drops a mass or inertia that it cannot read, and reports success.
-  const bool inertial_lost = std::any_of(
-      parsed.complaints.begin(), parsed.complaints.end(),
-      [](const std::string& line) { return line.find("nertial") != std::string::npos; });
+  const bool inertial_lost =
+      std::any_of(parsed.complaints.begin(), parsed.complaints.end(), [](const std::string& line) {
+        return line.rfind("Could not parse inertial element", 0) == 0;
+      });
   if (!parsed.model || !parsed.model->getRoot() || inertial_lost) {
     throw UrdfError("robot description is broken: " +
                     (parsed.complaints.empty() ? "no root link" : joined(parsed.complaints)));
@@ -99,22 +104,58 @@ class Reader {
   }
 
   Mechanism read() {
-    addLink(*model_->getRoot(), -1);
+    checkParents();
+    walk();
+    checkReached();
     resolveMimics();
     for (Doubt& doubt : inertiaDoubts(links_, joints_)) doubts_.push_back(std::move(doubt));
     return Mechanism(model_->getName(), std::move(links_), std::move(joints_), std::move(doubts_));
   }
 
  private:
-  void addLink(const urdf::Link& source, int parent_joint) {
-    const int index = static_cast<int>(links_.size());
-    links_.push_back(link(source, parent_joint));
-    auto children = source.child_joints;
-    std::sort(children.begin(), children.end(),
-              [](const auto& a, const auto& b) { return a->name < b->name; });
-    for (const auto& child : children) {
-      addJoint(*child, index);
-      addLink(*model_->getLink(child->child_link_name), static_cast<int>(joints_.size()) - 1);
+  // urdfdom lets a link have two parents and computes with neither.
+  void checkParents() const {
+    std::map<std::string, std::string> joint_of;  // by child link
+    for (const auto& [name, joint] : model_->joints_) {
+      const auto [known, is_new] = joint_of.emplace(joint->child_link_name, name);
+      if (!is_new) {
+        throw UrdfError("link '" + known->first + "': is the child of two joints, '" +
+                        known->second + "' and '" + name + "'");
+      }
+    }
+  }
+
+  // Links that are one another's parents hang on no root, and urdfdom is content with that.
+  void checkReached() const {
+    if (links_.size() == model_->links_.size()) return;
+    for (const auto& entry : model_->links_) {
+      const std::string& name = entry.first;
+      if (std::none_of(links_.begin(), links_.end(),
+                       [&](const Link& link) { return link.name == name; })) {
+        throw UrdfError("link '" + name +
+                        "': its parents form a loop that never reaches the root '" +
+                        links_.front().name + "'");
+      }
+    }
+  }
+
+  // Depth first, children by joint name. No recursion: a chain may be as long as memory allows.
+  void walk() {
+    std::vector<std::pair<const urdf::Joint*, int>> pending;  // joint, its parent link
+    const auto addLink = [&](const urdf::Link& source, int parent_joint) {
+      const int index = static_cast<int>(links_.size());
+      links_.push_back(link(source, parent_joint));
+      auto children = source.child_joints;
+      std::sort(children.begin(), children.end(),
+                [](const auto& a, const auto& b) { return a->name > b->name; });
+      for (const auto& child : children) pending.emplace_back(child.get(), index);
+    };
+    addLink(*model_->getRoot(), -1);
+    while (!pending.empty()) {
+      const auto [joint, parent_link] = pending.back();
+      pending.pop_back();
+      addJoint(*joint, parent_link);
+      addLink(*model_->getLink(joint->child_link_name), static_cast<int>(joints_.size()) - 1);
     }
   }
 
@@ -125,7 +166,7 @@ class Reader {
     if (!source.inertial) return link;
     const urdf::Inertial& inertial = *source.inertial;
     if (!std::isfinite(inertial.mass) || inertial.mass < 0) {
-      throw UrdfError("link '" + source.name + "': mass " + std::to_string(inertial.mass) +
+      throw UrdfError("link '" + source.name + "': mass " + numberText(inertial.mass) +
                       " kg is negative or not finite");
     }
     Matrix3l inertia;
@@ -145,6 +186,9 @@ class Reader {
   void addJoint(const urdf::Joint& source, int parent_link) {
     if (source.name == kGround) {
       throw UrdfError("joint 'ground': the name is reserved for the wrench of ground on the root");
+    }
+    if (source.name.empty()) {
+      throw UrdfError("joint of link '" + source.child_link_name + "': its name is empty");
     }
     Joint joint;
     joint.name = source.name;

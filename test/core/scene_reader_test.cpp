@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <fstream>
 #include <string>
 
 #include "sample_robots.h"
@@ -86,6 +88,17 @@ TEST(SceneReader, LaterKeysAreNotAvailableYet) {
 
 TEST(SceneReader, NamesUnreadableFiles) {
   EXPECT_THROW(readSceneFile("/nowhere/scene.yaml"), FileError);
+}
+
+TEST(SceneReader, RefusesASecondDocument) {
+  const std::string path = testing::TempDir() + "two_documents.yaml";
+  std::ofstream(path) << "motion: static\n---\nmotion: full\n";
+  EXPECT_THROW(readSceneFile(path), SceneError);
+  std::ofstream(path) << "motion: static\n";
+  EXPECT_TRUE(readSceneFile(path).static_motion);
+  std::ofstream(path) << "";
+  EXPECT_FALSE(readSceneFile(path).static_motion);
+  std::remove(path.c_str());
 }
 
 TEST(Scene, RequestedReactionsAreInDepthFirstOrderGroundFirst) {

@@ -133,12 +133,40 @@ TEST(UrdfReader, RefusesBrokenDescriptions) {
   expectRefusal(robot(link("a", "heavy")), "heavy");
 }
 
+TEST(UrdfReader, RefusesWhatIsNoTreeByName) {
+  const std::string links = link("a") + link("b") + link("c") + link("d");
+  expectRefusal(robot(links + joint("i", "revolute", "a", "b") + joint("j", "revolute", "a", "d") +
+                      joint("k", "revolute", "a", "c") + joint("l", "revolute", "b", "c")),
+                "link 'c': is the child of two joints, 'k' and 'l'");
+  expectRefusal(robot(links + joint("i", "revolute", "a", "b") + joint("j", "revolute", "c", "d") +
+                      joint("k", "revolute", "d", "c")),
+                "link 'c': its parents form a loop");
+  expectRefusal(robot(link("a") + link("b") + joint("j", "revolute", "b", "b")),
+                "link 'b': its parents form a loop");
+  expectRefusal(robot(link("a") + link("b") + joint("j", "revolute", "a", "b") +
+                      joint("k", "revolute", "b", "b")),
+                "link 'b': is the child of two joints");
+  expectRefusal(robot(link("a") + link("b") + joint("", "revolute", "a", "b")), "link 'b'");
+}
+
+TEST(UrdfReader, ReadsVeryLongChains) {
+  constexpr int kLinks = 100000;  // a recursive walk would exhaust the stack
+  std::string content = link("l0");
+  for (int i = 1; i < kLinks; ++i) {
+    const std::string number = std::to_string(i);
+    content += "<link name='l" + number + "'/>" +
+               joint("j" + number, "fixed", "l" + std::to_string(i - 1), "l" + number, "");
+  }
+  EXPECT_EQ(readUrdf(robot(content)).links().size(), static_cast<std::size_t>(kLinks));
+}
+
 TEST(UrdfReader, RefusesImpossibleNumbersByName) {
-  expectRefusal(robot(link("a", "-1")), "'a': mass -1");
-  expectRefusal(robot(link("a", "nan")), "a");
-  expectRefusal(robot(link("a", "1e999")), "a");
+  expectRefusal(robot(link("a", "-1")), "'a': mass -1 kg");
+  expectRefusal(robot(link("a", "-1e-9")), "'a': mass -1e-09 kg");
+  expectRefusal(robot(link("a", "nan")), "Link [a]");
+  expectRefusal(robot(link("a", "1e999")), "Link [a]");
   expectRefusal(oneJoint("revolute", "<axis xyz='0 0 0'/>"), "'j': axis (0, 0, 0)");
-  expectRefusal(oneJoint("prismatic", "<axis xyz='0 0 0'/>"), "'j'");
+  expectRefusal(oneJoint("prismatic", "<axis xyz='0 0 0'/>"), "'j': axis (0, 0, 0)");
 }
 
 TEST(UrdfReader, RefusesUnsupportedJointsByName) {
