@@ -4,12 +4,13 @@ set -euo pipefail
 
 build_packages=(
   build-essential catkin cmake
-  libconsole-bridge-dev libeigen3-dev libtinyxml2-dev liburdfdom-dev libyaml-cpp-dev
-  libdiagnostic-updater-dev libgeometry-msgs-dev libroscpp-dev libsensor-msgs-dev
+  libconsole-bridge-dev libeigen3-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev
+  libyaml-cpp-dev libdiagnostic-msgs-dev libdiagnostic-updater-dev libgeometry-msgs-dev libroscpp-dev libsensor-msgs-dev
   libtrajectory-msgs-dev
 )
 run_packages=(
-  python3-rosbag python3-roslaunch python3-rostopic ros-robot-state-publisher rosout tf2-tools
+  python3-rosbag python3-roslaunch python3-rostopic ros-robot-state-publisher rosbash rosout
+  tf2-tools
   python3-diagnostic-msgs python3-geometry-msgs python3-sensor-msgs python3-trajectory-msgs
 )
 test_packages=(
@@ -18,7 +19,7 @@ test_packages=(
   python3-numpy python3-rostest
 )
 demo_packages=("${run_packages[@]}" python3-matplotlib)
-rviz_packages=("${run_packages[@]}" rviz)
+rviz_packages=("${run_packages[@]}" python3-yaml rviz)
 
 usage() {
   cat <<END

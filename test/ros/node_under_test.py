@@ -191,7 +191,8 @@ class Node(Process):
 
     def _take_diagnostics(self, message):
         for status in message.status:
-            if status.name == self.name[1:] + ': inverse dynamics':
+            # A first one without values only says that the node starts up.
+            if status.name == self.name[1:] + ': inverse dynamics' and status.values:
                 with self._new_status:
                     self._statuses.append(status)
                     self._new_status.notify_all()
