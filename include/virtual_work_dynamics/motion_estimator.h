@@ -14,7 +14,7 @@ struct EstimatorSettings {
   int order = 3;             ///< of the polynomial; window >= order + 1
   int lag = 4;               ///< motions hold this many samples behind the newest one, < window
   bool use_velocity = true;  ///< fit velocities too where messages carry them
-  double max_gap = 0.1;      ///< s between samples; a longer gap restarts the window
+  double max_gap = 0.25;     ///< s between samples; a longer gap restarts the window
   /// false: motions are the joint states as they come (velocity zero where none is given) with zero
   /// acceleration; window, order and lag have no part in it.
   bool estimate = true;
@@ -43,6 +43,10 @@ class MotionEstimator {
   /// @param q positions, rad or m.   @param qd velocities, rad/s or m/s; null: not given.
   Verdict push(std::int64_t stamp_ns, const int* coordinates, const double* q, const double* qd,
                int count);
+
+  /// Longest time from a joint's sample before to the latest push(), ns; of a push() that went
+  /// backwards, meaningless.
+  std::int64_t latestGap() const;
 
   /// True once every coordinate has a full window, was refreshed since the last evaluate() or
   /// skip(), and has samples as early as the common instant.

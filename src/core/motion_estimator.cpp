@@ -122,7 +122,7 @@ double turnsIn(double jump) {
 struct MotionEstimator::Impl {
   Impl(const Mechanism& mechanism, const EstimatorSettings& settings);
 
-  Verdict judge(std::int64_t stamp, const int* indices, int count) const;
+  Verdict judge(std::int64_t stamp, const int* indices, int count);
   void clear();
   void markStale();
   bool full() const;
@@ -141,6 +141,7 @@ struct MotionEstimator::Impl {
   std::vector<Coordinate> coordinates;
   std::vector<Fit> fits;
   std::uint64_t evaluation = 0;
+  std::int64_t latest_gap = 0;  // ns
 
   // One window, oldest sample first.
   Stamps stamps{};
@@ -166,19 +167,19 @@ MotionEstimator::Impl::Impl(const Mechanism& mechanism, const EstimatorSettings&
 /// What is to become of a message with this stamp. A stamp before one sample goes back, whatever
 /// the message's other coordinates say; an equal one comes before a gap.
 MotionEstimator::Verdict MotionEstimator::Impl::judge(std::int64_t stamp, const int* indices,
-                                                      int count) const {
+                                                      int count) {
   bool equal = false;
-  bool gap = false;
+  latest_gap = 0;
   for (int i = 0; i < count; ++i) {
     const History& history = coordinates[static_cast<std::size_t>(indices[i])].history;
     if (history.size() == 0) continue;
     const std::int64_t newest = history[0].stamp;
     if (stamp < newest) return Verdict::kRestartedBack;
     equal = equal || stamp == newest;
-    gap = gap || stamp - newest > max_gap;
+    latest_gap = std::max(latest_gap, stamp - newest);
   }
   if (equal) return Verdict::kEqualStamp;
-  return gap ? Verdict::kRestartedGap : Verdict::kAccepted;
+  return latest_gap > max_gap ? Verdict::kRestartedGap : Verdict::kAccepted;
 }
 
 void MotionEstimator::Impl::clear() {
@@ -312,6 +313,10 @@ MotionEstimator::Verdict MotionEstimator::push(std::int64_t stamp_ns, const int*
     coordinate.fresh = true;
   }
   return verdict;
+}
+
+std::int64_t MotionEstimator::latestGap() const {
+  return impl_->latest_gap;
 }
 
 bool MotionEstimator::ready() const {

@@ -57,6 +57,8 @@ Diagnostics::Before Diagnostics::count() const {
   now.time = JointWatch::Clock::now();
   now.inputs = counters_.joint_states.value() + counters_.trajectories.value();
   now.accepted = counters_.accepted_joint_states.value();
+  now.restarts = counters_.restarts.value();
+  now.motions = counters_.samples.value() + counters_.skipped.value();
   now.outputs = counters_.outputs.value();
   now.samples = counters_.samples.value();
   now.late = counters_.late.value();
@@ -98,6 +100,12 @@ void Diagnostics::summarize(DiagnosticStatusWrapper& status, const Before& now,
   }
   if (!missing.empty()) {
     status.mergeSummary(DiagnosticStatus::WARN, "waiting for joints: " + shortList(missing));
+  }
+  if (now.restarts > before_.restarts && now.motions == before_.motions) {
+    status.mergeSummaryf(DiagnosticStatus::WARN,
+                         "no result of joint states: their stamps made the estimator start anew "
+                         "%llu times (see ~estimator/max_gap)",
+                         static_cast<unsigned long long>(now.restarts - before_.restarts));
   }
   const auto late = static_cast<double>(now.late - before_.late);
   const auto samples = static_cast<double>(now.samples - before_.samples);

@@ -31,6 +31,8 @@ class Diagnostics {
     JointWatch::Clock::time_point time;
     std::uint64_t inputs = 0;
     std::uint64_t accepted = 0;
+    std::uint64_t restarts = 0;
+    std::uint64_t motions = 0;  ///< that the estimator had, computed or not
     std::uint64_t outputs = 0;
     std::uint64_t samples = 0;
     std::uint64_t late = 0;

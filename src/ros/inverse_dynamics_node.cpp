@@ -3,7 +3,10 @@
 #include <ros/console.h>
 #include <ros/transport_hints.h>
 
+#include <algorithm>
+#include <exception>
 #include <memory>
+#include <utility>
 
 #include "ros/message_text.h"
 #include "ros/private_parameters.h"
@@ -15,7 +18,6 @@
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr std::chrono::seconds kWarnEvery{1};
 // How soon the node's own thread sees that it is to stop, or that a report is due.
 constexpr double kManageWait = 0.05;  // s
 
@@ -70,11 +72,13 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       frame_prefix_(parameters.frame_prefix),
       twist_(parameters.twist),
       output_queue_(parameters.output_queue),
+      at_once_(parameters.trajectory_rate == 0),
       late_threshold_(parameters.late_threshold),
       joint_states_(task_.mechanism),
       trajectories_(task_.mechanism, task_.scene.static_motion),
       estimator_(task_.mechanism, task_.estimator),
       motion_(static_cast<Eigen::Index>(task_.mechanism.coordinates().size())),
+      played_(parameters.trajectory_rate),
       joint_watch_(task_.mechanism.coordinateNames()),
       plans_(compile(Audience())),
       outputs_(ros::NodeHandle("~"), task_.reaction_topics, parameters.output_queue, manage_queue_,
@@ -90,6 +94,12 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       node.subscribe("joint_states", queue, &InverseDynamicsNode::receiveJointState, this, hints);
   trajectory_subscriber_ = node.subscribe("joint_trajectory", queue,
                                           &InverseDynamicsNode::receiveTrajectory, this, hints);
+  if (!at_once_) {
+    const double period = std::max(1 / parameters.trajectory_rate, TrajectoryQueue::kTick);
+    player_ = node.createSteadyTimer(
+        ros::WallDuration(period), [this](const ros::SteadyTimerEvent&) { playDue(); }, false,
+        false);
+  }
   manager_ = std::thread([this] { manage(); });
 }
 
@@ -120,11 +130,25 @@ void InverseDynamicsNode::logSummary(const InverseDynamicsParameters& parameters
       accelerations.c_str(), parameters.scene_given ? "scene from ~scene" : "default scene");
 }
 
+// One message that cannot be dealt with, for want of memory say, does not end the node.
+template <typename Work>
+void InverseDynamicsNode::guard(const ros::Subscriber& source, Work work) {
+  try {
+    work();
+  } catch (const std::exception& error) {
+    drop(source.getTopic(), DropReason::kInternal, error.what());
+  }
+}
+
 void InverseDynamicsNode::receiveJointState(
     const ros::MessageEvent<const sensor_msgs::JointState>& event) {
   counters_.joint_states.add();
+  guard(joint_state_subscriber_, [&] { take(*event.getConstMessage(), event.getReceiptTime()); });
+}
+
+void InverseDynamicsNode::take(const sensor_msgs::JointState& message, ros::Time receipt) {
   JointSample sample;
-  if (const auto rejection = joint_states_.convert(*event.getConstMessage(), sample)) {
+  if (const auto rejection = joint_states_.convert(message, sample)) {
     drop(joint_state_subscriber_.getTopic(), rejection->reason, rejection->text);
     return;
   }
@@ -132,10 +156,12 @@ void InverseDynamicsNode::receiveJointState(
     ROS_WARN("%s: %s; positions of mimic joints are ignored",
              joint_state_subscriber_.getTopic().c_str(), sample.mimic_disagreement.c_str());
   }
-  if (take(sample) && estimator_.ready()) evaluate(event.getReceiptTime());
+  if (!push(sample) || !estimator_.ready()) return;
+  window_filled_ = true;
+  evaluate(receipt);
 }
 
-bool InverseDynamicsNode::take(const JointSample& sample) {
+bool InverseDynamicsNode::push(const JointSample& sample) {
   using Verdict = MotionEstimator::Verdict;
   const Verdict verdict =
       estimator_.push(sample.stamp_ns, sample.coordinates, sample.q, sample.qd, sample.count);
@@ -144,18 +170,31 @@ bool InverseDynamicsNode::take(const JointSample& sample) {
          "its stamp " + stampText(sample.stamp_ns) + " was there before");
     return false;
   }
-  if (verdict != Verdict::kAccepted) {
-    counters_.restarts.add();
-    ROS_INFO_THROTTLE(1.0, "%s: %s stamp %s: the estimator starts anew",
-                      joint_state_subscriber_.getTopic().c_str(),
-                      verdict == Verdict::kRestartedBack ? "time went back to"
-                                                         : "a gap longer than ~estimator/max_gap "
-                                                           "ends at",
-                      stampText(sample.stamp_ns).c_str());
+  if (verdict != Verdict::kAccepted) counters_.restarts.add();
+  if (verdict == Verdict::kRestartedGap) reportGap();
+  if (verdict == Verdict::kRestartedBack && restart_throttle_.open()) {
+    ROS_INFO("%s: time went back to stamp %s: the estimator starts anew",
+             joint_state_subscriber_.getTopic().c_str(), stampText(sample.stamp_ns).c_str());
   }
+  if (verdict != Verdict::kAccepted) window_filled_ = false;
   counters_.accepted_joint_states.add();
   joint_watch_.saw(sample.coordinates, sample.count);
   return true;
+}
+
+// Joint states that are always too far apart would never give anything.
+void InverseDynamicsNode::reportGap() {
+  if (!(window_filled_ ? restart_throttle_ : gap_throttle_).open()) return;
+  const std::string text =
+      joint_state_subscriber_.getTopic() + ": a gap of " +
+      numberText(static_cast<double>(estimator_.latestGap()) / 1e9) +
+      " s is longer than ~estimator/max_gap = " + numberText(task_.estimator.max_gap) +
+      " s: the estimator starts anew";
+  if (window_filled_) {
+    ROS_INFO("%s", text.c_str());
+  } else {
+    ROS_WARN("%s, before it had %d samples for a result", text.c_str(), task_.estimator.window);
+  }
 }
 
 void InverseDynamicsNode::evaluate(ros::Time receipt) {
@@ -193,64 +232,98 @@ bool InverseDynamicsNode::compute(ActivePlan& plan, std::int64_t stamp_ns) {
 void InverseDynamicsNode::receiveTrajectory(
     const ros::MessageEvent<const trajectory_msgs::JointTrajectory>& event) {
   counters_.trajectories.add();
-  const trajectory_msgs::JointTrajectory& message = *event.getConstMessage();
+  guard(trajectory_subscriber_, [&] { take(*event.getConstMessage(), event.getReceiptTime()); });
+}
+
+void InverseDynamicsNode::take(const trajectory_msgs::JointTrajectory& message, ros::Time receipt) {
   const std::string topic = trajectory_subscriber_.getTopic();
-  const ros::Time start =
-      message.header.stamp.isZero() ? event.getReceiptTime() : message.header.stamp;
-  if (const auto rejection = trajectories_.convert(
-          message, static_cast<std::int64_t>(start.toNSec()), estimator_, trajectory_)) {
+  const ros::Time start = message.header.stamp.isZero() ? receipt : message.header.stamp;
+  if (start.isZero()) {
+    drop(topic, DropReason::kNoTime, "its stamp is zero, and /clock has not come yet");
+    return;
+  }
+  auto rejection = trajectories_.convert(message, static_cast<std::int64_t>(start.toNSec()),
+                                         estimator_, trajectory_);
+  // One plan for the whole trajectory, so that ~joint_trajectory is complete.
+  ActivePlan& plan = plans_.current();
+  if (!rejection && !plan.audience.wantsPoints()) return;
+  if (!rejection && played_.waiting() > static_cast<std::size_t>(output_queue_)) {
+    rejection = Rejection{DropReason::kBacklog,
+                          std::to_string(played_.waiting()) + " points still wait to be played, " +
+                              "more than ~queue_size/output = " + std::to_string(output_queue_)};
+  }
+  if (!rejection) rejection = trajectories_.complete(message, trajectory_);
+  if (rejection) {
     drop(topic, rejection->reason, rejection->text);
     return;
   }
-  if (!trajectory_.completion.empty()) {
-    ROS_INFO_THROTTLE(1.0, "%s: %zu points, %s", topic.c_str(), message.points.size(),
-                      trajectory_.completion.c_str());
+  const std::size_t points = message.points.size();
+  if (!trajectory_.completion.empty() && completion_throttle_.open()) {
+    ROS_INFO("%s: %zu points, %s", topic.c_str(), points, trajectory_.completion.c_str());
   }
-  if (message.points.size() > static_cast<std::size_t>(output_queue_)) {
+  if (at_once_ && points > static_cast<std::size_t>(output_queue_) && queue_throttle_.open()) {
     ROS_WARN("%s: %zu points are more than ~queue_size/output = %d; subscribers may lose some",
-             topic.c_str(), message.points.size(), output_queue_);
+             topic.c_str(), points, output_queue_);
   }
-  play(message, trajectory_);
+  respond(plan, message);
 }
 
-void InverseDynamicsNode::play(const trajectory_msgs::JointTrajectory& message,
-                               const TrajectoryMotion& trajectory) {
-  // One plan for the whole trajectory, so that ~joint_trajectory is complete.
-  ActivePlan& plan = plans_.current();
-  if (!plan.audience.wantsPoints()) return;
-  const MotionTable& table = trajectory.table;
-  Eigen::MatrixXd efforts(plan.audience.trajectory ? table.positions.rows() : 0,
-                          table.positions.cols());
-  bool complete = true;
-  for (Eigen::Index i = 0; i < table.positions.rows(); ++i) {
-    motion_.q = table.positions.row(i);
-    motion_.qd = table.velocities.row(i);
-    motion_.qdd = table.accelerations.row(i);
-    if (task_.scene.static_motion) motion_.qd.setZero();
-    counters_.points.add();
-    if (!compute(plan, trajectory.stamps_ns[static_cast<std::size_t>(i)])) {
-      drop(trajectory_subscriber_.getTopic(), DropReason::kOverflow,
-           "not finite at point " + std::to_string(i + 1));
-      complete = false;
-      continue;
+void InverseDynamicsNode::respond(ActivePlan& plan,
+                                  const trajectory_msgs::JointTrajectory& message) {
+  const std::size_t points = trajectory_.stamps_ns.size();
+  const bool fill = plan.audience.trajectory;
+  if (at_once_ || fill) {
+    Eigen::MatrixXd efforts(fill ? trajectory_.table.positions.rows() : 0,
+                            trajectory_.table.positions.cols());
+    bool complete = true;
+    for (std::size_t i = 0; i < points; ++i) {
+      if (!compute(plan, trajectory_, i)) {
+        complete = false;
+        continue;
+      }
+      if (fill) efforts.row(static_cast<Eigen::Index>(i)) = plan.results.effort();
+      if (!at_once_) continue;
+      outputs_.publishSample(plan);
+      counters_.outputs.add();
     }
-    if (plan.audience.trajectory) efforts.row(i) = plan.results.effort();
-    outputs_.publishSample(plan);
-    counters_.outputs.add();
+    if (fill && complete) outputs_.publishTrajectory(withEfforts(message, trajectory_, efforts));
   }
-  if (plan.audience.trajectory && complete) {
-    outputs_.publishTrajectory(withEfforts(message, trajectory, efforts));
-  }
+  if (at_once_ || !plan.audience.wantsSamples()) return;
+  played_.add(std::move(trajectory_), Clock::now());
+  player_.start();
+}
+
+void InverseDynamicsNode::playDue() {
+  guard(trajectory_subscriber_, [this] {
+    ActivePlan& plan = plans_.current();
+    played_.playDue(Clock::now(), [&](const TrajectoryMotion& trajectory, std::size_t point) {
+      if (!plan.audience.wantsSamples() || !compute(plan, trajectory, point)) return;
+      outputs_.publishSample(plan);
+      counters_.outputs.add();
+    });
+  });
+  if (played_.empty()) player_.stop();
+}
+
+bool InverseDynamicsNode::compute(ActivePlan& plan, const TrajectoryMotion& trajectory,
+                                  std::size_t point) {
+  const MotionTable& table = trajectory.table;
+  const auto row = static_cast<Eigen::Index>(point);
+  motion_.q = table.positions.row(row);
+  motion_.qd = table.velocities.row(row);
+  motion_.qdd = table.accelerations.row(row);
+  if (task_.scene.static_motion) motion_.qd.setZero();
+  counters_.points.add();
+  if (compute(plan, trajectory.stamps_ns[point])) return true;
+  drop(trajectory_subscriber_.getTopic(), DropReason::kOverflow,
+       "not finite at point " + std::to_string(point + 1));
+  return false;
 }
 
 void InverseDynamicsNode::drop(const std::string& topic, DropReason reason,
                                const std::string& text) {
   counters_.drop(reason, topic + ": " + text);
-  // A throttle for each reason: a flood of one kind does not hide the others.
-  Clock::time_point& warned = warned_[index(reason)];
-  const Clock::time_point now = Clock::now();
-  if (warned != Clock::time_point() && now - warned < kWarnEvery) return;
-  warned = now;
+  if (!drop_throttles_[index(reason)].open()) return;
   const char* what = reason == DropReason::kOverflow ? "result" : "message";
   ROS_WARN("%s: %s dropped (%s): %s", topic.c_str(), what, kDropReasonNames[index(reason)],
            text.c_str());
@@ -278,10 +351,15 @@ void InverseDynamicsNode::adaptPlan() {
   audience_changed_ = false;
   const Audience audience = outputs_.audience();
   if (audience == audience_) return;
-  audience_ = audience;
-  std::unique_ptr<ActivePlan> plan = compile(audience);
-  diagnostics_.setPlan(outputs_.names(audience), describe(plan->dynamics.request()));
-  plans_.offer(std::move(plan));
+  try {
+    std::unique_ptr<ActivePlan> plan = compile(audience);
+    diagnostics_.setPlan(outputs_.names(audience), describe(plan->dynamics.request()));
+    plans_.offer(std::move(plan));
+    audience_ = audience;
+  } catch (const std::exception& error) {
+    ROS_ERROR("what is computed stays as it is, as the change that subscribers make failed: %s",
+              error.what());
+  }
 }
 
 void InverseDynamicsNode::watchJoints(Clock::time_point now) {

@@ -3,6 +3,7 @@
 #include <ros/callback_queue.h>
 #include <ros/message_event.h>
 #include <ros/node_handle.h>
+#include <ros/steady_timer.h>
 #include <ros/subscriber.h>
 #include <sensor_msgs/JointState.h>
 #include <trajectory_msgs/JointTrajectory.h>
@@ -22,7 +23,9 @@
 #include "ros/joint_watch.h"
 #include "ros/output_topics.h"
 #include "ros/plan_switch.h"
+#include "ros/throttle.h"
 #include "ros/trajectory_conversion.h"
+#include "ros/trajectory_queue.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion_estimator.h"
 
@@ -56,9 +59,16 @@ class InverseDynamicsNode {
   // Receiving thread.
   void receiveJointState(const ros::MessageEvent<const sensor_msgs::JointState>& event);
   void receiveTrajectory(const ros::MessageEvent<const trajectory_msgs::JointTrajectory>& event);
-  bool take(const JointSample& sample);
+  template <typename Work>
+  void guard(const ros::Subscriber& source, Work work);
+  void take(const sensor_msgs::JointState& message, ros::Time receipt);
+  bool push(const JointSample& sample);
+  void reportGap();
   void evaluate(ros::Time receipt);
-  void play(const trajectory_msgs::JointTrajectory& message, const TrajectoryMotion& trajectory);
+  void take(const trajectory_msgs::JointTrajectory& message, ros::Time receipt);
+  void respond(ActivePlan& plan, const trajectory_msgs::JointTrajectory& message);
+  void playDue();
+  bool compute(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t point);
   bool compute(ActivePlan& plan, std::int64_t stamp_ns);
   void drop(const std::string& topic, DropReason reason, const std::string& text);
 
@@ -74,6 +84,7 @@ class InverseDynamicsNode {
   const std::string frame_prefix_;
   const bool twist_;
   const int output_queue_;
+  const bool at_once_;  ///< all points of a trajectory
   const ros::Duration late_threshold_;
 
   JointStateConversion joint_states_;
@@ -81,7 +92,14 @@ class InverseDynamicsNode {
   MotionEstimator estimator_;
   Motion motion_;
   TrajectoryMotion trajectory_;
-  std::array<Clock::time_point, kDropReasonNames.size()> warned_{};
+  TrajectoryQueue played_;
+  bool window_filled_ = false;  // since the estimator's latest restart
+  // One for each reason: a flood of one kind does not hide the others.
+  std::array<Throttle, kDropReasonNames.size()> drop_throttles_;
+  Throttle restart_throttle_;
+  Throttle gap_throttle_;
+  Throttle completion_throttle_;
+  Throttle queue_throttle_;
 
   Counters counters_;
   JointWatch joint_watch_;
@@ -98,6 +116,7 @@ class InverseDynamicsNode {
   const bool sim_time_;
   ros::Subscriber joint_state_subscriber_;
   ros::Subscriber trajectory_subscriber_;
+  ros::SteadyTimer player_;  // runs while played_ has points
   std::atomic<bool> stopping_{false};
   std::thread manager_;
 };

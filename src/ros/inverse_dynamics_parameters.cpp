@@ -3,6 +3,7 @@
 #include <ros/node_handle.h>
 
 #include "ros/private_parameters.h"
+#include "ros/trajectory_queue.h"
 #include "ros/xmlrpc_to_yaml.h"
 #include "virtual_work_dynamics/number_text.h"
 #include "virtual_work_dynamics/scene_reader.h"
@@ -51,6 +52,17 @@ double readPeriod(PrivateParameters& parameters, const std::string& name, double
   return period;
 }
 
+double readTrajectoryRate(PrivateParameters& parameters, double fallback) {
+  constexpr double kSlowest = 0.001;
+  const double rate = parameters.number("trajectory_rate", fallback);
+  if (rate != 0 && !(rate >= kSlowest && rate <= TrajectoryQueue::kFastest)) {
+    throw parameterError("trajectory_rate", numberText(rate) + " points/s is neither 0 nor from " +
+                                                numberText(kSlowest) + " to " +
+                                                numberText(TrajectoryQueue::kFastest));
+  }
+  return rate;
+}
+
 }  // namespace
 
 InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& private_node) {
@@ -62,6 +74,7 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   result.twist = parameters.boolean("twist", result.twist);
   result.input_queue = readQueueSize(parameters, "queue_size/input", result.input_queue);
   result.output_queue = readQueueSize(parameters, "queue_size/output", result.output_queue);
+  result.trajectory_rate = readTrajectoryRate(parameters, result.trajectory_rate);
   result.diagnostic_period = readPeriod(parameters, "diagnostic_period", result.diagnostic_period);
   result.late_threshold = readPeriod(parameters, "late_threshold", result.late_threshold);
   result.scene_given = parameters.has("scene");

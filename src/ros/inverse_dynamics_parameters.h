@@ -22,6 +22,7 @@ struct InverseDynamicsParameters {
   bool twist = false;              ///< fill the twists of ~reactions
   int input_queue = 1000;          ///< messages
   int output_queue = 20000;        ///< messages
+  double trajectory_rate = 0;      ///< points/s; 0: all points of a trajectory at once
   double diagnostic_period = 1.0;  ///< s
   double late_threshold = 0.001;   ///< s, from receipt of a joint state to its published result
 };

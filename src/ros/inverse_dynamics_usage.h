@@ -10,7 +10,7 @@ Efforts and joint reactions of a robot, live, from its joint states or trajector
 
 subscribes
   joint_states       sensor_msgs/JointState           joints by name, any order, all or some
-  joint_trajectory   trajectory_msgs/JointTrajectory  every point is computed as it comes
+  joint_trajectory   trajectory_msgs/JointTrajectory  one result for every point
 
 publishes (each only while somebody subscribes)
   ~effort            sensor_msgs/JointState           positions and velocities used, efforts
@@ -27,12 +27,13 @@ parameters
   ~estimator/order           order of its polynomial (3)
   ~estimator/lag             samples the outputs are behind the newest joint state (4)
   ~estimator/use_velocity    fit the velocities of joint states, too (true)
-  ~estimator/max_gap         longest gap between joint states, s (0.1)
+  ~estimator/max_gap         longest gap between joint states, s (0.25)
   ~estimator/acceleration    estimate | zero (estimate)
   ~frame_prefix              put before every frame_id ("")
   ~twist                     fill the twists of ~reactions (false)
   ~queue_size/input          messages (1000)
   ~queue_size/output         messages (20000)
+  ~trajectory_rate           points a second of a trajectory's results; 0: all at once (0)
   ~diagnostic_period         s (1.0)
   ~late_threshold            an output this long after its joint state's receipt is late, s (0.001)
 )";

@@ -38,6 +38,8 @@ std::optional<Rejection> JointStateConversion::convert(const sensor_msgs::JointS
     return wrongLength(names, message.position.size(), "positions");
   }
   if (velocities != 0 && velocities != names) return wrongLength(names, velocities, "velocities");
+  const std::size_t efforts = message.effort.size();
+  if (efforts != 0 && efforts != names) return wrongLength(names, efforts, "efforts");
   Layout& layout = layoutOf(message.name);
   if (layout.rejection) return layout.rejection;
   if (message.header.stamp.isZero()) return Rejection{DropReason::kZeroStamp, "its stamp is zero"};

@@ -17,13 +17,17 @@ enum class DropReason : std::size_t {
   kNoPoints,
   kTimes,
   kNeverSeen,
-  kOverflow
+  kOverflow,
+  kNoTime,
+  kBacklog,
+  kInternal
 };
 
 /// The reasons as diagnostics show them, in the order of DropReason.
-constexpr std::array<const char*, 10> kDropReasonNames = {
+constexpr std::array<const char*, 13> kDropReasonNames = {
     "array length", "not finite", "no known joint", "joint twice",      "zero stamp",
-    "equal stamp",  "no points",  "times",          "joint never seen", "overflow"};
+    "equal stamp",  "no points",  "times",          "joint never seen", "overflow",
+    "no time yet",  "backlog",    "internal"};
 
 constexpr std::size_t index(DropReason reason) {
   return static_cast<std::size_t>(reason);

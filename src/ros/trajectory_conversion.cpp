@@ -57,6 +57,8 @@ std::optional<Rejection> checkLengths(const JointTrajectory& message) {
     if (accelerations != 0 && accelerations != names) {
       return wrong(i, accelerations, "accelerations");
     }
+    const std::size_t efforts = point.effort.size();
+    if (efforts != 0 && efforts != names) return wrong(i, efforts, "efforts");
   }
   return std::nullopt;
 }
@@ -142,7 +144,6 @@ std::optional<Rejection> TrajectoryConversion::convert(const JointTrajectory& me
                        table.accelerations);
   }
   if (!rejection) rejection = holdOthers(joint_states, motion);
-  if (!rejection) rejection = complete(message, motion);
   return rejection;
 }
 

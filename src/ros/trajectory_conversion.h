@@ -32,21 +32,26 @@ class TrajectoryConversion {
   TrajectoryConversion(const Mechanism& mechanism, bool static_motion);
 
   /// Checks and converts. Joints that the robot does not have and mimic joints are ignored;
-  /// coordinates that the message leaves out rest where the joint states saw them last. Where not
-  /// every point has velocities and accelerations, a Spline through the points gives them.
+  /// coordinates that the message leaves out rest where the joint states saw them last. Velocities
+  /// and accelerations that the message lacks are still zero: complete() has them.
   /// @param start_ns instant that `time_from_start` counts from, ns.
   /// @returns why the message is to be dropped, or nothing.
   std::optional<Rejection> convert(const trajectory_msgs::JointTrajectory& message,
                                    std::int64_t start_ns, const MotionEstimator& joint_states,
                                    TrajectoryMotion& motion) const;
 
+  /// Where not every point has velocities and accelerations, a Spline through the points gives
+  /// them.
+  /// @param motion as convert() made it of the message.
+  /// @returns why the message is to be dropped, or nothing.
+  std::optional<Rejection> complete(const trajectory_msgs::JointTrajectory& message,
+                                    TrajectoryMotion& motion) const;
+
  private:
   std::optional<Rejection> resolveNames(const trajectory_msgs::JointTrajectory& message,
                                         TrajectoryMotion& motion) const;
   std::optional<Rejection> holdOthers(const MotionEstimator& joint_states,
                                       TrajectoryMotion& motion) const;
-  std::optional<Rejection> complete(const trajectory_msgs::JointTrajectory& message,
-                                    TrajectoryMotion& motion) const;
 
   const Mechanism& mechanism_;
   bool static_motion_;

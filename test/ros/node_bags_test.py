@@ -188,6 +188,28 @@ class Bags(NodeTest):
             # Bytes, so that nothing is equal only nearly.
             self.assertTrue(recorded[self.node.name + '/' + topic] == recorder.raw, topic)
 
+    def test_points_played_at_a_rate_are_all_recorded(self):
+        self.node = Node(self, ARM, {'trajectory_rate': 1000})
+        trajectories = self.node.feed('joint_trajectory', JointTrajectory)
+        recorder, path = self.record('points', 3000, 'effort', 'reactions')
+        self.node.wait_for_plan('effort', 'reactions')
+        message = JointTrajectory(joint_names=COORDINATES)
+        message.header.stamp = ros_time(EPOCH)
+        times = [10 ** 6 * i for i in range(3000)]
+        message.points = [trajectory_point(ns, COORDINATES, MOTION(EPOCH + ns)) for ns in times]
+        trajectories.publish(message)
+        # All at once, most would not come through the recorder's queue of 100, and it never ended.
+        self.node.wait_for_count('trajectory points computed', len(times))
+        recorder.interrupt()
+        self.assertEqual(recorder.wait(), 0, recorder.output())
+        recorded = {}
+        with rosbag.Bag(path) as bag:
+            for topic, content, _ in bag.read_messages():
+                recorded.setdefault(topic, []).append(content)
+        self.assertEqual(set(recorded), {self.node.name + '/effort', self.node.name + '/reactions'})
+        for messages in recorded.values():
+            self.assertStamps(messages, [EPOCH + ns for ns in times])
+
 
 if __name__ == '__main__':
     run(Bags)

@@ -4,6 +4,7 @@ import math
 import time
 
 from diagnostic_msgs.msg import DiagnosticStatus
+import rospy
 from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
@@ -30,9 +31,11 @@ LATER = 1
 SAME = 2
 
 
-def state(names='shoulder elbow slide', position=(7, 7, 7), velocity=(7, 7, 7), stamp=LATER):
+def state(names='shoulder elbow slide', position=(7, 7, 7), velocity=(7, 7, 7), stamp=LATER,
+          effort=()):
     """A joint state far from the motion."""
-    message = JointState(name=names.split(), position=list(position), velocity=list(velocity))
+    message = JointState(name=names.split(), position=list(position), velocity=list(velocity),
+                         effort=list(effort))
     message.header.stamp = ros_time(stamp)
     return message
 
@@ -45,6 +48,7 @@ BAD_STATES = [
     ('a position too many', state(position=(7, 7, 7, 7)), 'array length',
      '3 names but 4 positions'),
     ('a velocity too few', state(velocity=(7, 7)), 'array length', '3 names but 2 velocities'),
+    ('an effort too many', state(effort=(7, 7, 7, 7)), 'array length', '3 names but 4 efforts'),
     ('NaN position', state(position=(7, math.nan, 7)), 'not finite',
      "the position of 'elbow' is nan"),
     ('infinite position', state(position=(7, 7, -math.inf)), 'not finite',
@@ -65,9 +69,10 @@ BAD_STATES = [
 ]
 
 
-def point(seconds=1, positions=(7, 7, 7), velocities=(7, 7, 7), accelerations=(7, 7, 7)):
+def point(seconds=1, positions=(7, 7, 7), velocities=(7, 7, 7), accelerations=(7, 7, 7),
+          effort=()):
     result = JointTrajectoryPoint(positions=positions, velocities=velocities,
-                                  accelerations=accelerations)
+                                  accelerations=accelerations, effort=effort)
     result.time_from_start.secs = seconds
     return result
 
@@ -88,6 +93,8 @@ BAD_TRAJECTORIES = [
      'point 1 has 4 velocities for 3 names'),
     ('an acceleration too few', trajectory(point(1), point(2), point(3, accelerations=(7,))),
      'array length', 'point 3 has 1 accelerations for 3 names'),
+    ('an effort too few', trajectory(point(1), point(2, effort=(7, 7))), 'array length',
+     'point 2 has 2 efforts for 3 names'),
     ('equal times', trajectory(point(1), point(2), point(2)), 'times', 'point 3 is 2 s'),
     ('times going back', trajectory(point(2), point(1)), 'times', 'point 2 is 1 s'),
     ('negative time', trajectory(point(-1), point(1)), 'times', 'point 1 is -1 s'),
@@ -188,7 +195,7 @@ class DroppedMessages(NodeTest):
         for i, position in enumerate((0.5, 1e6, -1e15)):
             ns = EPOCH + STEP * i
             # NaN where the robot looks at nothing, and efforts of any number.
-            message = JointState(name=names, effort=[math.nan] * i,
+            message = JointState(name=names, effort=[math.nan] * len(names) * (i > 0),
                                  position=[math.nan, position, position, math.nan, 0.1, math.inf],
                                  velocity=[math.inf, 0.2, 0.3, math.nan, 0.4, math.nan])
             message.header.stamp = ros_time(ns)
@@ -206,6 +213,21 @@ class DroppedMessages(NodeTest):
         # The disagreeing mimic joint is worth one warning.
         warnings = [line for line in self.node.lines('WARN') if 'left-finger' in line]
         self.assertEqual(len(warnings), 1)
+
+    def test_before_the_first_clock(self):
+        rospy.set_param('/use_sim_time', True)
+        self.addCleanup(rospy.delete_param, '/use_sim_time')
+        self.start()
+        good = trajectory_point(0, COORDINATES, MOTION(EPOCH))
+        self.trajectories.publish(trajectory(good, stamp=0))
+        self.trajectories.publish(trajectory(good, stamp=EPOCH))
+        self.assertStamps(self.efforts.wait(1), [EPOCH])
+        self.expect_drop('no time', 'joint_trajectory', 'no time yet', '/clock has not come yet')
+        # The log does not wait for the time either.
+        for ns in (EPOCH + STEP, EPOCH):
+            self.states.publish(joint_state(ns, *MOTION(ns)[:2]))
+        wait_until(lambda: [line for line in self.node.lines('INFO') if 'time went back' in line],
+                   'the line on the restart')
 
     def test_results_that_overflow_are_not_published(self):
         self.start({'estimator': {'acceleration': 'zero'}})

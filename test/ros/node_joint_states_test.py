@@ -3,9 +3,10 @@
 import itertools
 import math
 
+from diagnostic_msgs.msg import DiagnosticStatus
 from sensor_msgs.msg import JointState, MultiDOFJointState
 
-from node_under_test import EPOCH, Node, NodeTest, Polynomials, joint_state, read, run
+from node_under_test import EPOCH, Node, NodeTest, Polynomials, joint_state, read, run, wait_until
 from rigid_bodies import RigidBodies
 
 ARM = read('data', 'arm.urdf')
@@ -113,9 +114,9 @@ class JointStates(NodeTest):
         other = Polynomials(EPOCH, shoulder=(-0.3, 1), elbow=(0.2, -2), slide=(0.1, 0.1))
         first = [EPOCH + 10 * MS * i for i in range(20)]
         second = [first[7] + 10 * MS * i + 1 for i in range(15)]
-        third = [second[-1] + 101 * MS + 10 * MS * i for i in range(12)]
+        third = [second[-1] + 251 * MS + 10 * MS * i for i in range(12)]
         # A step of exactly max_gap is none.
-        fourth = [third[-1] + 100 * MS + 10 * MS * i for i in range(10)]
+        fourth = [third[-1] + 250 * MS + 10 * MS * i for i in range(10)]
         for ns in first:
             self.publish(ns)
         for ns in second + third + fourth:
@@ -128,10 +129,38 @@ class JointStates(NodeTest):
         self.assertEqual(values['restarts'], '2')
         self.assertEqual(values['dropped'], '0')
 
+    def test_joint_states_at_10_hz_are_close_enough(self):
+        self.start()
+        stamps = [EPOCH + 100 * MS * i for i in range(15)]
+        for ns in stamps:
+            self.publish(ns)
+        self.expect_outputs(stamps[LAG:-LAG])
+
+    def test_joint_states_that_never_fill_a_window_are_warned_of(self):
+        self.start()
+        for i in range(15):
+            self.publish(EPOCH + 400 * MS * i)
+        self.node.wait_for_count('restarts', 14)
+        wait_until(lambda: [line for line in self.node.lines('WARN') if 'a gap of 0.4 s is longer '
+                            'than ~estimator/max_gap = 0.25 s' in line], 'the warning')
+        self.assertTrue([status for status in self.node.statuses()
+                         if status.level == DiagnosticStatus.WARN and
+                         'no result of joint states' in status.message and
+                         '~estimator/max_gap' in status.message])
+        # After a full window, a gap is news and no more.
+        last = EPOCH + 400 * MS * 14
+        stamps = [last + 10 * MS * i for i in range(1, WINDOW)]
+        for ns in stamps + [stamps[-1] + 300 * MS]:
+            self.publish(ns)
+        self.node.wait_for_count('restarts', 15)
+        wait_until(lambda: [line for line in self.node.lines('INFO') if 'a gap of 0.3 s' in line],
+                   'the line')
+        self.assertFalse([line for line in self.node.lines('WARN') if '0.3 s' in line])
+
     def test_joint_states_as_they_come_when_no_acceleration_is_wanted(self):
         self.start({'estimator': {'acceleration': 'zero'}})
         # Farther apart than max_gap: there is no window that could start anew.
-        stamps = [EPOCH + 200 * MS * i for i in range(5)]
+        stamps = [EPOCH + 300 * MS * i for i in range(5)]
         for ns in stamps:
             self.publish(ns)
 

@@ -122,6 +122,8 @@ BAD_PARAMETERS = {
     'lag_as_long_as_the_window': ({'estimator': {'lag': 9}}, ['~estimator', 'lag is 9']),
     'negative_lag': ({'estimator': {'lag': -1}}, ['~estimator', 'lag is -1']),
     'order_zero': ({'estimator': {'order': 0}}, ['~estimator', 'order is 0']),
+    'negative_trajectory_rate': ({'trajectory_rate': -1}, ['~trajectory_rate: -1 points/s']),
+    'trajectory_rate_too_high': ({'trajectory_rate': 1e6}, ['~trajectory_rate: ', 'to 20000']),
     'negative_gap': ({'estimator': {'max_gap': -0.1}}, ['~estimator', 'max_gap is -0.1']),
     'queue_of_nothing': ({'queue_size': {'output': 0}}, ['~queue_size/output', '0']),
     'endless_queue_by_a_negative_size': ({'queue_size': {'input': -1}},

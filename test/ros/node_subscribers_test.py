@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Nothing is computed that nobody listens to, and who comes late misses nothing that comes."""
 from geometry_msgs.msg import WrenchStamped
+import rospy
 from sensor_msgs.msg import JointState, MultiDOFJointState
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
@@ -98,9 +99,16 @@ class Subscribers(NodeTest):
         self.node.wait_for_plan()
         for _ in range(3):
             self.publish_trajectory(trajectories)
-        values = self.node.wait_for_count('trajectories received', 3)
+        # Nor is anything made up for them; but they are looked at.
+        trajectories.publish(JointTrajectory(joint_names=COORDINATES, points=[
+            JointTrajectoryPoint(positions=[0] * 3, time_from_start=time)
+            for time in (rospy.Duration(0), rospy.Duration(1))]))
+        trajectories.publish(JointTrajectory(joint_names=COORDINATES))
+        values = self.node.wait_for_count('dropped: no points', 1)
+        self.assertEqual(values['trajectories received'], '5')
         self.assertEqual(values['trajectory points computed'], '0')
-        self.assertEqual(values['dropped'], '0')
+        self.assertEqual(values['dropped'], '1')
+        self.assertNotIn('spline', self.node.output())
 
     def test_late_subscriber_gets_complete_messages_at_once(self):
         self.publish(WINDOW + 11)

@@ -205,6 +205,41 @@ class Trajectories(NodeTest):
         self.trajectories.publish(message(UNEVEN))
         self.wait_for_line('WARN', '5 points are more than ~queue_size/output = 4')
 
+    def test_trajectories_played_at_a_rate_take_turns_with_joint_states(self):
+        self.start('effort', 'joint_trajectory', parameters={
+            'trajectory_rate': 100, 'estimator': {'acceleration': 'zero'}})
+        states = self.node.feed('joint_states', JointState)
+        times = [10 * MS * i for i in range(100)]
+        starts = [EPOCH, EPOCH + 10 ** 10, EPOCH - 10 ** 10]
+        for start in starts:
+            self.trajectories.publish(message(times, stamp=start))
+        # The answer to each whole trajectory does not wait for its points.
+        filled = self.recorders['joint_trajectory'].wait(len(starts))
+        self.assertStamps(filled, starts)
+        live = EPOCH + 5 * 10 ** 9
+        states.publish(joint_state(live, *MOTION(live)[:2]))
+        messages = self.recorders['effort'].wait(len(starts) * len(times) + 1)
+        stamps = [effort.header.stamp.to_nsec() for effort in messages]
+        self.assertLess(stamps.index(live), len(stamps) - 1)
+        efforts = [effort for effort in messages if effort.header.stamp.to_nsec() != live]
+        self.assertStamps(efforts, [start + ns for start in starts for ns in times])
+        self.assertNoGaps(messages)
+        points = [point for trajectory in filled for point in trajectory.points]
+        for i, (effort, point) in enumerate(zip(efforts, points)):
+            self.assertEffort(effort, self.bodies, MOTION(EPOCH + times[i % len(times)]), EXACT)
+            self.assertEqual(effort.effort, point.effort)
+        # At rest again, and played anew.
+        self.assertEqual(len(self.efforts_of(message(UNEVEN))), len(UNEVEN))
+
+    def test_trajectories_behind_a_long_backlog_are_dropped(self):
+        self.start('effort', parameters={'queue_size': {'output': 4}, 'trajectory_rate': 0.01})
+        for _ in range(2):
+            self.trajectories.publish(message(UNEVEN + [2000 * MS]))
+        values = self.node.wait_for_count('dropped: backlog', 1)
+        self.assertIn('points still wait to be played, more than ~queue_size/output = 4',
+                      values['last drop'])
+        self.assertNotIn('subscribers may lose some', self.node.output())
+
 
 if __name__ == '__main__':
     run(Trajectories)

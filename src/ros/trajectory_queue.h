@@ -1,0 +1,66 @@
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <deque>
+#include <utility>
+
+#include "ros/trajectory_conversion.h"
+
+namespace virtual_work_dynamics {
+
+/// Trajectories that wait for their points to be played in order, at a rate. One thread.
+class TrajectoryQueue {
+ public:
+  using Clock = std::chrono::steady_clock;
+  /// How often to ask for what is due at most, and the most points that are due at one time: a
+  /// caller that was held up does not make a burst of what it has missed.
+  static constexpr double kTick = 0.001;  // s
+  static constexpr int kMostAtOnce = 20;
+  /// What ticks and points at once can keep up with, points/s.
+  static constexpr double kFastest = kMostAtOnce / kTick;
+
+  /// @param rate points/s, positive, up to kFastest; anything if nothing is ever added.
+  explicit TrajectoryQueue(double rate)
+      : spacing_(rate > 0 ? static_cast<Clock::rep>(1e9 / rate) : 0) {}
+
+  bool empty() const { return trajectories_.empty(); }
+  /// Points that have not been played.
+  std::size_t waiting() const { return waiting_; }
+
+  void add(TrajectoryMotion&& trajectory, Clock::time_point now) {
+    if (empty()) next_ = std::max(next_, now);
+    waiting_ += trajectory.stamps_ns.size();
+    trajectories_.push_back(std::move(trajectory));
+  }
+
+  /// Calls play(trajectory, point) for every point that is due. A point whose call throws has been
+  /// played.
+  template <typename Play>
+  void playDue(Clock::time_point now, Play play) {
+    for (int i = 0; i < kMostAtOnce && !empty() && next_ <= now; ++i) {
+      next_ += spacing_;
+      if (point_ == trajectories_.front().stamps_ns.size()) {
+        point_ = 0;
+        trajectories_.pop_front();
+      }
+      --waiting_;
+      play(trajectories_.front(), point_++);
+    }
+    if (waiting_ == 0) {
+      point_ = 0;
+      trajectories_.clear();
+    }
+    next_ = std::max(next_, now);
+  }
+
+ private:
+  const std::chrono::nanoseconds spacing_;
+  std::deque<TrajectoryMotion> trajectories_;
+  std::size_t point_ = 0;  // of the first trajectory
+  std::size_t waiting_ = 0;
+  Clock::time_point next_;
+};
+
+}  // namespace virtual_work_dynamics
