@@ -103,6 +103,13 @@ class Reader {
     for (const std::string& line : parsed.complaints) doubts_.push_back({line});
   }
 
+  // urdfdom's links own their children: a loop of links would never be freed.
+  ~Reader() {
+    for (const auto& entry : model_->links_) entry.second->child_links.clear();
+  }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
   Mechanism read() {
     checkParents();
     walk();
