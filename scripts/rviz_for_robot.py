@@ -18,7 +18,8 @@ import xml.etree.ElementTree as ElementTree
 
 import yaml
 
-# An arrow of the robot's whole weight is this long, m, and so is one of the weight times 1 m.
+# An arrow of the robot's whole weight is this long, m, and so is one of the
+# weight times half a metre.
 ARROW = 0.8
 GRAVITY = 9.81
 TEMPLATE = pathlib.Path(__file__).resolve().parent.parent / 'config' / 'inverse_dynamics.rviz'
@@ -49,7 +50,7 @@ def configuration(robot, template, frame):
         display = copy.deepcopy(sample)
         display.update({'Name': joint.get('name'), 'Topic': topic(joint.get('name')),
                         'Force Arrow Scale': ARROW / (mass * GRAVITY),
-                        'Torque Arrow Scale': ARROW / (mass * GRAVITY)})
+                        'Torque Arrow Scale': 2 * ARROW / (mass * GRAVITY)})
         reactions.append(display)
     manager['Displays'].append({'Class': 'rviz/Group', 'Name': 'Reactions', 'Enabled': True,
                                 'Displays': reactions})
