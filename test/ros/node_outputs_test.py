@@ -159,6 +159,8 @@ class Outputs(NodeTest):
         status = self.node.statuses()[-1]
         self.assertEqual(status.level, status.WARN)
         self.assertIn('waiting for joints: shoulder, slide', status.message)
+        # And still are when nothing more comes.
+        self.assertEqual(self.node.diagnostics()['joints waited for'], 'shoulder, slide')
 
     def test_small_messages_are_not_held_back(self):
         self.start('effort')
