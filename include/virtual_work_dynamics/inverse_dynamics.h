@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "virtual_work_dynamics/instruction_set.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
+#include "virtual_work_dynamics/plan_summary.h"
 #include "virtual_work_dynamics/scene.h"
 
 namespace virtual_work_dynamics {
@@ -47,12 +49,14 @@ class Workspace;
 /// number of threads, each with a workspace of its own.
 class InverseDynamics {
  public:
-  /// Compiles. Fixed joints are lumped into their parents unless their reaction is requested, and
-  /// branches that reach no requested result are left out.
-  /// @throws SceneError when scene or request name a joint or link that the mechanism lacks, or
-  /// when
-  ///   the scene is strict about inertias and the mechanism has doubtful ones.
-  InverseDynamics(const Mechanism& mechanism, const Scene& scene, const Request& request);
+  /// Compiles. What matters to no requested result is left out: branches, bodies without inertia
+  /// at the ends of branches, terms of motions and gravity that are zero. Fixed joints are lumped
+  /// into their parents unless their reaction is requested.
+  /// @throws SceneError when scene or request name a joint or link that the mechanism lacks, or a
+  ///   reaction twice, or when the scene is strict about inertias and the mechanism has doubtful
+  ///   ones; Error when the instruction set is not supported.
+  InverseDynamics(const Mechanism& mechanism, const Scene& scene, const Request& request,
+                  InstructionSet instruction_set = chosenInstructionSet());
   /// Everything the scene asks for: efforts, and its reactions in both axes.
   InverseDynamics(const Mechanism& mechanism, const Scene& scene);
   ~InverseDynamics();
@@ -62,6 +66,8 @@ class InverseDynamics {
   /// Number of generalized coordinates: the length of q, qd, qdd and of the effort.
   Eigen::Index coordinates() const;
   const Request& request() const;
+  /// What was left out, and the operations that remain. Allocates; runs the recursion once.
+  PlanSummary summary() const;
 
   /// Memory for compute(). Allocates; compute() then does not.
   Workspace makeWorkspace() const;
@@ -75,6 +81,8 @@ class InverseDynamics {
  private:
   struct Impl;
   friend class Workspace;
+  template <typename Real>
+  friend class BlockInverseDynamics;
   std::unique_ptr<const Impl> impl_;
 };
 

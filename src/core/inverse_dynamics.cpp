@@ -3,49 +3,35 @@
 #include <cmath>
 #include <utility>
 
-#include "core/plan.h"
-#include "core/recursion.h"
+#include "core/aligned_memory.h"
+#include "core/applied_values.h"
+#include "core/compiled_plan.h"
+#include "core/plan_counting.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
 
-struct InverseDynamics::Impl {
-  Request request;
-  Plan<double> plan;
-};
+// Results are written as plain numbers in this order.
+static_assert(sizeof(Wrench) == 6 * sizeof(double), "force, then torque");
+static_assert(sizeof(Twist) == 6 * sizeof(double), "linear, then angular");
+constexpr std::size_t kPoseNumbers = 12;
 
 struct Workspace::Scratch {
-  std::vector<BodyState<double>> states;
-  std::vector<PlainWrench<double>> applied;
+  explicit Scratch(const InverseDynamics::Impl& impl)
+      : plan(&impl),
+        applied(impl.plan),
+        memory(impl.kernel->scratchSize(impl.view)),
+        poses(impl.request.poses ? kPoseNumbers * impl.plan.root_axes.size() : 0) {
+    impl.kernel->prepare(impl.view, memory.get());
+  }
+
   const InverseDynamics::Impl* plan;  // only compared, and asked where applied wrenches act
+  AppliedValues<double> applied;
+  AlignedMemory memory;
+  std::vector<double> poses;
 };
 
 namespace {
-
-Vec3<double> plain(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-Eigen::Vector3d toEigen(const Vec3<double>& v) {
-  return {v.x, v.y, v.z};
-}
-
-Eigen::Matrix3d toEigen(const Mat3<double>& A) {
-  Eigen::Matrix3d matrix;
-  matrix << A.xx, A.xy, A.xz, A.yx, A.yy, A.yz, A.zx, A.zy, A.zz;
-  return matrix;
-}
-
-Wrench toWrench(const PlainWrench<double>& wrench) {
-  return {toEigen(wrench.force), toEigen(wrench.torque)};
-}
-
-PlainWrench<double> appliedValue(const AppliedOutside<double>& where, const Vec3<double>& force,
-                                 const Vec3<double>& torque) {
-  if (where.in_root_axes) return {force, torque};
-  const Vec3<double> force_Z = where.R_ZL * force;
-  return {force_Z, where.R_ZL * torque + cross(where.p_ZoA_Z, force_Z)};
-}
 
 Request everything(const Mechanism& mechanism, const Scene& scene) {
   Request request;
@@ -54,10 +40,16 @@ Request everything(const Mechanism& mechanism, const Scene& scene) {
   return request;
 }
 
-// R_KZ^T of an output is its R_ZK.
-Pose poseOf(const ReactionOutput<double>& output, const BodyState<double>& state) {
-  const Eigen::Matrix3d R_0K = toEigen(state.R_0Z) * toEigen(output.R_KZ).transpose();
-  return {toEigen(state.p_0), Eigen::Quaterniond(R_0K).normalized()};
+Pose poseOf(const double* numbers) {
+  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  const Eigen::Matrix3d R_0K = Eigen::Map<const RowMajor>(numbers + 3);
+  return {Eigen::Map<const Eigen::Vector3d>(numbers), Eigen::Quaterniond(R_0K).normalized()};
+}
+
+// Null when there is nothing to write.
+template <typename Item>
+double* numbersOf(std::vector<Item>& items) {
+  return items.empty() ? nullptr : reinterpret_cast<double*>(items.data());
 }
 
 void checkSize(const char* name, Eigen::Index size, Eigen::Index expected) {
@@ -76,8 +68,8 @@ bool allFinite(const std::vector<Wrench>& wrenches) {
 }  // namespace
 
 InverseDynamics::InverseDynamics(const Mechanism& mechanism, const Scene& scene,
-                                 const Request& request)
-    : impl_(new Impl{request, roundPlan<double>(compilePlan(mechanism, scene, request))}) {}
+                                 const Request& request, InstructionSet instruction_set)
+    : impl_(new Impl(mechanism, scene, request, instruction_set)) {}
 
 InverseDynamics::InverseDynamics(const Mechanism& mechanism, const Scene& scene)
     : InverseDynamics(mechanism, scene, everything(mechanism, scene)) {}
@@ -94,6 +86,10 @@ const Request& InverseDynamics::request() const {
   return impl_->request;
 }
 
+PlanSummary InverseDynamics::summary() const {
+  return summarize(impl_->plan);
+}
+
 Workspace InverseDynamics::makeWorkspace() const {
   return Workspace(*impl_);
 }
@@ -106,26 +102,18 @@ void InverseDynamics::compute(const Motion& motion, Workspace& workspace) const 
   if (workspace.scratch_->plan != impl_.get()) {
     throw MotionError("the workspace belongs to another InverseDynamics");
   }
-  auto& states = workspace.scratch_->states;
-
-  sweepOut(plan, motion.q.data(), motion.qd.data(), motion.qdd.data(), states);
-  subtractApplied(plan, workspace.scratch_->applied, states);
-  sweepIn(plan, states, plan.efforts ? workspace.effort_.data() : nullptr);
-
-  for (std::size_t i = 0; i < plan.child_axes.size(); ++i) {
-    const auto& output = plan.child_axes[i];
-    workspace.child_axes_[i] =
-        toWrench(rotated(output.R_KZ, reported(plan, output, states[output.body])));
-  }
-  for (std::size_t i = 0; i < plan.root_axes.size(); ++i) {
-    const auto& output = plan.root_axes[i];
-    const BodyState<double>& state = states[output.body];
-    workspace.root_axes_[i] =
-        toWrench(rotated(state.R_0Z, reported(plan, output, state)));  // (4.3)
-    if (!workspace.poses_.empty()) workspace.poses_[i] = poseOf(output, state);
-    if (!workspace.twists_.empty()) {
-      workspace.twists_[i] = {toEigen(state.R_0Z * state.v), toEigen(state.R_0Z * state.w)};
-    }
+  Workspace::Scratch& scratch = *workspace.scratch_;
+  const KernelInputs<double> in = {motion.q.data(), motion.qd.data(), motion.qdd.data(), 1,
+                                   scratch.applied.data()};
+  const KernelOutputs<double> out = {plan.efforts ? workspace.effort_.data() : nullptr,
+                                     numbersOf(workspace.child_axes_),
+                                     numbersOf(workspace.root_axes_),
+                                     numbersOf(scratch.poses),
+                                     numbersOf(workspace.twists_),
+                                     1};
+  impl_->kernel->one(impl_->view, in, out, scratch.memory.get());
+  for (std::size_t i = 0; i < workspace.poses_.size(); ++i) {
+    workspace.poses_[i] = poseOf(scratch.poses.data() + kPoseNumbers * i);
   }
 }
 
@@ -135,14 +123,7 @@ Workspace::Workspace(const InverseDynamics::Impl& impl)
       root_axes_(impl.plan.root_axes.size()),
       poses_(impl.request.poses ? impl.plan.root_axes.size() : 0),
       twists_(impl.request.twists ? impl.plan.root_axes.size() : 0),
-      scratch_(new Scratch) {
-  scratch_->plan = &impl;
-  scratch_->states.resize(impl.plan.bodies.size());
-  scratch_->states[0].R_0Z = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-  for (const auto& where : impl.plan.applied) {
-    scratch_->applied.push_back(appliedValue(where, where.force, where.torque));
-  }
-}
+      scratch_(new Scratch(impl)) {}
 
 Workspace::~Workspace() = default;
 Workspace::Workspace(Workspace&&) noexcept = default;
@@ -160,11 +141,7 @@ bool Workspace::finite() const {
 
 void Workspace::setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
                                  const Eigen::Vector3d& torque) {
-  const auto& applied = scratch_->plan->plan.applied;
-  if (index >= applied.size()) {
-    throw SceneError("the scene has no applied wrench " + std::to_string(index));
-  }
-  scratch_->applied[index] = appliedValue(applied[index], plain(force), plain(torque));
+  scratch_->applied.set(scratch_->plan->plan, index, force, torque);
 }
 
 }  // namespace virtual_work_dynamics

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "core/vec3.h"
@@ -8,54 +9,137 @@
 namespace virtual_work_dynamics {
 
 /// How a body moves on its parent.
-enum class Mobility { kRevolute, kPrismatic, kFixed };
+enum class Mobility : unsigned char { kRevolute, kPrismatic, kFixed };
 
-/// One rigid body of the recursion with everything that is welded to it; constants in its z-aligned
-/// frame Z. Body 0 is the root, parents stand before their children.
-template <typename T>
-struct Body {
+/// Where the z axis of a frame points in the axes of another. For all but kOblique the rotation
+/// between them is Q of canonicalRotation(): a signed permutation, or one with four entries.
+enum class AxisDirection : unsigned char {
+  kOblique,
+  kNormalToX,  ///< in the y-z plane, and so on
+  kNormalToY,
+  kNormalToZ,
+  kPlusX,
+  kMinusX,
+  kPlusY,
+  kMinusY,
+  kPlusZ,
+  kMinusZ
+};
+
+/// What of a body matters to the request, and how the sweeps reach it.
+struct BodyUse {
   int parent = -1;
   Mobility mobility = Mobility::kFixed;
-  int coordinate = -1;  ///< position = multiplier * q[coordinate] + offset; -1: fixed
+  AxisDirection axis = AxisDirection::kOblique;  ///< of this body's z axis in its parent's Z frame
+
+  bool motion_needed = false;
+  bool wrench_needed = false;
+  bool pose_needed = false;      ///< R_0Z and p_0
+  bool wrench_outlives = false;  ///< the sum of (3.8) is read again after the sweep
+  bool has_inertia = false;
+
+  // Constants that are zero.
+  bool centred = false;    ///< h
+  bool diagonal = false;   ///< the entries of G off its diagonal
+  bool at_parent = false;  ///< p_PoZo_P
+
+  bool parent_rests = false;     ///< the parent neither turns nor accelerates, but for -g
+  bool rest_along_z = false;     ///< and gamma is along the joint axis, or zero
+  bool takes_from_next = false;  ///< a child's wrench arrives in registers
+  bool hands_on = false;         ///< its wrench goes to the parent in registers
+  bool adds_to_parent = false;   ///< its wrench goes to the parent in memory
+  bool drives = false;           ///< its active component is part of a requested effort
+  bool summed = false;           ///< and not the first part of it in the sweep
+  bool geared = false;           ///< the multiplier is not 1
+
+  int parent_slot = -1;  ///< where the parent's motion is kept; -1: it was the last
+  int own_slot = -1;     ///< where its motion is kept for children that come later
+  int angle = -1;        ///< index into Plan::angles
+  int slide = -1;        ///< index into Plan::slides
+  int coordinate = -1;   ///< that moves it; -1: fixed
+  int child_axes = -1;   ///< index into Plan::child_axes
+};
+
+/// One rigid body of the recursion with everything that is welded to it; constants in its z-aligned
+/// frame Z. Body 0 is the root, parents stand before their children, depth first.
+template <typename T>
+struct Body : BodyUse {
+  T multiplier = T(1);   ///< velocity = multiplier * qd[coordinate]
+  Mat3<T> R_PZ{};        ///< orientation in the parent's Z frame at position 0, less the phase
+  Vec3<T> p_PoZo_P{};    ///< O_k in the parent's Z frame at position 0, m
+  T mass = T(0);         ///< kg
+  Vec3<T> h{};           ///< first moment of mass about O_k, kg m
+  Sym3<T> G{};           ///< second moment of mass about O_k, kg m^2
+  Vec3<T> gamma_rest{};  ///< R_PZ^T gamma of a parent at rest, m/s^2
+};
+
+/// Position of a joint: multiplier * q[coordinate] + offset, and for those that turn a constant
+/// rotation about z behind it.
+template <typename T>
+struct JointPosition {
+  int coordinate = 0;
+  bool geared = false;  ///< multiplier is not 1 or offset not 0
+  bool turned = false;  ///< phase is not 0
   T multiplier = T(1);
   T offset = T(0);
-  Mat3<T> R_PZ{};              ///< orientation in the parent's Z frame at position 0
-  Vec3<T> p_PoZo_P{};          ///< O_k in the parent's Z frame at position 0, m
-  T mass = T(0);               ///< kg
-  Vec3<T> h{};                 ///< first moment of mass about O_k, kg m
-  Sym3<T> G{};                 ///< second moment of mass about O_k, kg m^2
-  bool wrench_needed = false;  ///< false: only its motion matters to the request
-  bool pose_needed = false;    ///< R_0Z and p_0 of this body matter to the request
+  T phase_cos = T(1);
+  T phase_sin = T(0);
 };
 
 /// A reaction to report.
 template <typename T>
 struct ReactionOutput {
-  int body = 0;
-  Mat3<T> R_KZ{};            ///< Z components -> components in the child link
+  int body = -1;  ///< -1: known to be zero
+  /// R_KZ: Z components -> components in the child link. A signed permutation moves component i to
+  /// `row[i]` with `sign[i]`.
+  Mat3<T> R_KZ{};
+  bool permutes = false;
+  int row[3] = {0, 1, 2};
+  T sign[3] = {T(1), T(1), T(1)};
   bool drop_active = false;  ///< the component along the joint axis is reported as zero
 };
 
-/// Where an applied wrench acts; its force and torque live in the workspace.
+/// Where an applied wrench acts; its force and torque live with the caller.
 template <typename T>
 struct AppliedOutside {
   int body = -1;  ///< -1: acts on a body that matters to no requested result
   bool in_root_axes = false;
-  Mat3<T> R_ZL{};     ///< link axes -> Z
-  Vec3<T> p_ZoA_Z{};  ///< point of action, m
-  Vec3<T> force{};    ///< the scene's values, as given: link or root axes, N
-  Vec3<T> torque{};   ///< about the point of action, N m
+  Mat3<T> R_ZL{};          ///< link axes -> Z
+  Vec3<T> p_ZoA_Z{};       ///< point of action, m
+  PlainWrench<T> given{};  ///< the scene's values: link or root axes, about the point of action
+};
+
+/// What was left out of a plan; names of joints.
+struct LeftOut {
+  std::vector<std::string> merged;    ///< fixed joints, welded into their parents
+  std::vector<std::string> unneeded;  ///< bodies that reach no requested result
+  std::vector<std::string> massless;  ///< whose wrench is zero
+  std::vector<std::string> idle;      ///< whose position matters to no requested result
+  std::size_t at_rest = 0;            ///< bodies whose parent neither turns nor accelerates
+  bool velocity_terms = false;
+  bool gravity = false;
+};
+
+/// The part of a plan that is not of its number type.
+struct PlanUse {
+  int coordinates = 0;
+  int slots = 0;  ///< motions that are kept for later children
+  bool efforts = true;
+  bool static_motion = false;
+  bool poses = false;   ///< reported with the reactions in root axes
+  bool twists = false;  ///<
+  bool any_pose = false;
+  std::vector<int> zero_efforts;  ///< coordinates that no wrench reaches
+  LeftOut left_out;
 };
 
 /// A mechanism, a scene and a request, compiled: the constants of the recursion.
 template <typename T>
-struct Plan {
-  int coordinates = 0;
-  bool efforts = true;
-  bool static_motion = false;
-  bool twists = false;
-  Vec3<T> gamma_root{};  ///< -g, m/s^2
+struct Plan : PlanUse {
+  PlainWrench<T> root_wrench{};  ///< (3.5) of the root body, which rests
   std::vector<Body<T>> bodies;
+  std::vector<JointPosition<T>> angles;
+  std::vector<JointPosition<T>> slides;
   std::vector<ReactionOutput<T>> child_axes;
   std::vector<ReactionOutput<T>> root_axes;
   std::vector<AppliedOutside<T>> applied;
@@ -65,7 +149,7 @@ struct Plan {
 Plan<long double> compilePlan(const Mechanism& mechanism, const Scene& scene,
                               const Request& request);
 
-/// The same plan with every constant rounded once.
+/// The same plan with every constant rounded once. T: float or double.
 template <typename T>
 Plan<T> roundPlan(const Plan<long double>& plan);
 

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "virtual_work_dynamics/instruction_set.h"
+#include "virtual_work_dynamics/inverse_dynamics.h"
+
+namespace virtual_work_dynamics {
+
+/// How the arrays of a block of N samples of C numbers lie in memory.
+enum class BlockLayout {
+  kStructureOfArrays,  ///< number c of sample n at [c * N + n]
+  kRowMajor            ///< number c of sample n at [n * C + c]
+};
+
+/// Motion of N samples. The arrays belong to the caller.
+template <typename Real>
+struct MotionBlock {
+  std::size_t samples = 0;
+  const Real* q = nullptr;    ///< coordinates() numbers a sample, rad or m
+  const Real* qd = nullptr;   ///< rad/s or m/s
+  const Real* qdd = nullptr;  ///< rad/s^2 or m/s^2
+};
+
+/// Where results of N samples go. The arrays belong to the caller; null: not wanted.
+template <typename Real>
+struct ResultBlock {
+  Real* effort = nullptr;      ///< coordinates() numbers a sample, N m or N
+  Real* child_axes = nullptr;  ///< fx fy fz tx ty tz for each of Request::child_axes, N and N m
+  Real* root_axes = nullptr;   ///< the same for each of Request::root_axes
+  Real* poses = nullptr;       ///< for each of Request::root_axes: x y z, then R_0K by rows
+  Real* twists = nullptr;      ///< for each of Request::root_axes: vx vy vz wx wy wz, root axes
+};
+
+/// Inverse dynamics of blocks of samples, several samples in each vector instruction and blocks
+/// divided among threads. Real: double or float. One instance serves one caller at a time.
+template <typename Real>
+class BlockInverseDynamics {
+ public:
+  /// Takes over the compiled plan of `inverse_dynamics`, which need not outlive it. Starts
+  /// `threads` - 1 threads, which sleep between blocks.
+  /// @throws Error when `threads` is less than 1 or the instruction set is not supported.
+  explicit BlockInverseDynamics(const InverseDynamics& inverse_dynamics, int threads = 1,
+                                InstructionSet instruction_set = chosenInstructionSet());
+  ~BlockInverseDynamics();
+  BlockInverseDynamics(BlockInverseDynamics&&) noexcept;
+  BlockInverseDynamics& operator=(BlockInverseDynamics&&) noexcept;
+
+  std::size_t coordinates() const;
+  const Request& request() const;
+  int threads() const;
+  InstructionSet instructionSet() const;
+
+  /// Efforts and reactions of all samples; the numbers of a sample do not depend on its place in
+  /// the block, on the layout or on the number of threads. Does not allocate.
+  /// @throws MotionError when an input array is missing although the mechanism has coordinates, or
+  ///   an output array is given that the request leaves out.
+  void compute(BlockLayout layout, const MotionBlock<Real>& motion,
+               const ResultBlock<Real>& results);
+
+  /// As Workspace::setAppliedWrench(), for all samples from the next block on.
+  void setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
+                        const Eigen::Vector3d& torque);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace virtual_work_dynamics
