@@ -20,13 +20,18 @@ test_packages=(
 )
 demo_packages=("${run_packages[@]}" python3-matplotlib)
 rviz_packages=("${run_packages[@]}" python3-yaml rviz)
+benchmark_packages=(
+  libbenchmark-dev liborocos-kdl-dev
+)
 
 usage() {
   cat <<END
-Usage: scripts/install_dependencies.sh [--build] [--run] [--test] [--demo] [--rviz] [--list]
+Usage: scripts/install_dependencies.sh [--build] [--run] [--test] [--demo] [--rviz]
+                                       [--benchmark] [--list]
 
 Installs the packages needed to build (always), to run the launch files (--run), to run the tests
-(--test), to run the demo (--demo) and to show robots in RViz (--rviz).
+(--test), to run the demo (--demo), to show robots in RViz (--rviz) and to build the measurements
+and the libraries they compare with (--benchmark).
   --list  only print the names of the packages
 Works on Debian 12, whose archive has ROS 1. On Ubuntu 20.04 with ROS Noetic, let rosdep do it:
   rosdep install --from-paths . --ignore-src
@@ -42,6 +47,7 @@ for argument in "$@"; do
     --test) wanted+=("${test_packages[@]}") ;;
     --demo) wanted+=("${demo_packages[@]}") ;;
     --rviz) wanted+=("${rviz_packages[@]}") ;;
+    --benchmark) wanted+=("${benchmark_packages[@]}") ;;
     --list) list=true ;;
     -h | --help) usage; exit 0 ;;
     *) echo "install_dependencies.sh: unknown option $argument" >&2; usage >&2; exit 2 ;;

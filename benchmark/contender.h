@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "robots.h"
+
+namespace virtual_work_dynamics {
+
+constexpr char kEfforts[] = "efforts";
+constexpr char kEffortsAndReactions[] = "efforts+reactions";
+
+/// What is timed, in the words of the result table.
+struct Label {
+  std::string method;     ///< "virtual_work", "kdl_chain", ...
+  std::string precision;  ///< "double", "float", "long double"
+  std::string mode;       ///< "single" or "block_<layout>_<instruction set>"
+  std::string outputs;    ///< kEfforts or kEffortsAndReactions
+  int threads = 1;
+};
+
+/// Results of one sample, for comparison with the reference; rounded to the contender's precision
+/// and then kept.
+struct SampleResults {
+  std::vector<long double> efforts;  ///< of each generalized coordinate, N m or N
+  /// fx fy fz tx ty tz of each movable joint in the axes of its child link; empty for kEfforts.
+  std::vector<long double> reactions;
+};
+
+/// One way of computing the inverse dynamics of a scene, set up and ready to run.
+class Contender {
+ public:
+  virtual ~Contender() = default;
+
+  /// Samples that one call computes, a divisor or a multiple of kStates.
+  virtual std::size_t samplesPerCall() const { return 1; }
+  /// Computes the next `calls` * samplesPerCall() samples: the scene's states in order, round and
+  /// round. The loop is inside, so that no virtual call is timed.
+  virtual void run(std::size_t calls) = 0;
+  /// The given sample of the last call. Not timed.
+  virtual SampleResults results(std::size_t sample) const = 0;
+};
+
+/// A contender that can be set up. The scene must outlive it.
+struct Offer {
+  Label label;
+  std::function<std::unique_ptr<Contender>()> make;
+};
+
+/// All that can compute the scene, in the order of the report.
+std::vector<Offer> offersFor(const BenchmarkScene& scene);
+
+/// Goes round the states.
+class StateCycle {
+ public:
+  std::size_t next() {
+    const std::size_t state = state_;
+    state_ = (state_ + 1) % kStates;
+    return state;
+  }
+
+ private:
+  std::size_t state_ = 0;
+};
+
+}  // namespace virtual_work_dynamics

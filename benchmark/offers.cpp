@@ -1,0 +1,18 @@
+#include "offers.h"
+
+namespace virtual_work_dynamics {
+
+std::vector<Offer> offersFor(const BenchmarkScene& scene) {
+  std::vector<Offer> offers;
+  offerKdl(scene, offers);
+#ifdef VWD_WITH_MUJOCO
+  offerMujoco(scene, offers);
+#endif
+#ifdef VWD_WITH_DART
+  offerDart(scene, offers);
+#endif
+  offerOwnSingle(scene, offers);
+  return offers;
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "contender.h"
+
+namespace virtual_work_dynamics {
+
+// Each appends what it has for a scene; a peer that cannot compute it appends nothing.
+
+/// One sample after another by InverseDynamics.
+void offerOwnSingle(const BenchmarkScene& scene, std::vector<Offer>& offers);
+/// KDL: ChainIdSolver_RNE as kdl_parser would build the chain, the same with fixed joints merged,
+/// and TreeIdSolver_RNE.
+void offerKdl(const BenchmarkScene& scene, std::vector<Offer>& offers);
+#ifdef VWD_WITH_MUJOCO
+void offerMujoco(const BenchmarkScene& scene, std::vector<Offer>& offers);
+#endif
+#ifdef VWD_WITH_DART
+void offerDart(const BenchmarkScene& scene, std::vector<Offer>& offers);
+#endif
+
+}  // namespace virtual_work_dynamics

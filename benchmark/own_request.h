@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "contender.h"
+#include "peer_input.h"
+#include "virtual_work_dynamics/inverse_dynamics.h"
+
+namespace virtual_work_dynamics {
+
+/// What a label's outputs are as a request: efforts, and every movable joint's reaction in the
+/// child link's axes.
+inline Request ownRequest(const BenchmarkScene& scene, const std::string& outputs) {
+  Request request;
+  if (outputs == kEffortsAndReactions) {
+    for (const int joint : movableJoints(scene.mechanism)) {
+      request.child_axes.push_back(scene.mechanism.joints()[joint].name);
+    }
+  }
+  return request;
+}
+
+inline Scene ownScene(const BenchmarkScene& benchmark_scene) {
+  Scene scene;
+  scene.gravity = benchmark_scene.gravity;
+  return scene;
+}
+
+}  // namespace virtual_work_dynamics

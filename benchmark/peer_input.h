@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "contender.h"
+#include "robots.h"
+
+namespace virtual_work_dynamics {
+
+// Other libraries know no mimic joints and number joints, not generalized coordinates.
+
+/// Indices of the joints that move, mimic joints among them.
+std::vector<int> movableJoints(const Mechanism& mechanism);
+
+/// Motions of the given joints, one entry for each.
+std::vector<Motion> jointMotions(const Mechanism& mechanism, const std::vector<Motion>& motions,
+                                 const std::vector<int>& joints);
+
+/// Efforts of the generalized coordinates from those of the given joints.
+std::vector<long double> coordinateEfforts(const Mechanism& mechanism,
+                                           const std::vector<int>& joints,
+                                           const Eigen::VectorXd& joint_efforts);
+
+/// The same mechanism without fixed joints: their links are part of the links that carry them.
+/// Movable joints, and so coordinates, keep their order.
+Mechanism withoutFixedJoints(const Mechanism& mechanism);
+
+/// Joints from the root to the tip when the mechanism is one serial chain, fixed joints included;
+/// links beside it are allowed when they have no mass and carry nothing. Otherwise empty.
+std::vector<int> serialPath(const Mechanism& mechanism);
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,129 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <memory>
+
+#include "cores.h"
+#include "measurement.h"
+#include "offline/output_file.h"
+#include "result_table.h"
+#include "robots.h"
+#include "work_precision_options.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+struct Effort {
+  int rounds;
+  double seconds;  // for each contender in a round
+};
+constexpr Effort kUsual{15, 10e-3};
+constexpr Effort kQuick{5, 2e-3};
+
+bool among(const std::vector<std::string>& names, const std::string& name) {
+  return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// One line that is written over, on a terminal only.
+void showProgress(const std::string& text) {
+  if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r\033[K%s", text.c_str());
+}
+
+// Names of the wanted scenes; says which have no file.
+std::vector<std::string> scenesToTime(const WorkPrecisionOptions& options) {
+  std::vector<std::string> names;
+  for (const std::string& name : sceneNames()) {
+    if (!among(options.scenes, name)) continue;
+    const std::string missing = missingFile(name);
+    if (missing.empty()) {
+      names.push_back(name);
+    } else {
+      std::fprintf(stderr, "%s: skipped, %s is not there\n", name.c_str(), missing.c_str());
+    }
+  }
+  return names;
+}
+
+std::vector<Offer> wantedOffers(const BenchmarkScene& scene, const WorkPrecisionOptions& options) {
+  std::vector<Offer> offers;
+  for (Offer& offer : offersFor(scene)) {
+    if (among(options.methods, offer.label.method)) offers.push_back(std::move(offer));
+  }
+  return offers;
+}
+
+int list(const WorkPrecisionOptions& options) {
+  std::printf("scene,method,precision,mode,outputs,threads\n");
+  for (const std::string& name : scenesToTime(options)) {
+    const BenchmarkScene scene = makeScene(name);
+    for (const Offer& offer : wantedOffers(scene, options)) {
+      const Label& label = offer.label;
+      std::printf("%s,%s,%s,%s,%s,%d\n", name.c_str(), label.method.c_str(),
+                  label.precision.c_str(), label.mode.c_str(), label.outputs.c_str(),
+                  label.threads);
+    }
+  }
+  return 0;
+}
+
+int run(const WorkPrecisionOptions& options) {
+  std::unique_ptr<OutputFile> output;
+  if (!options.output.empty()) output = std::make_unique<OutputFile>(options.output);
+  const int core = stayOnOneCore();
+  if (core < 0) std::fprintf(stderr, "Not allowed to stay on one core; times may scatter.\n");
+  if (core >= 0) std::printf("On core %d; what has several threads, on all cores.\n", core);
+
+  const Effort& effort = options.quick ? kQuick : kUsual;
+  const int rounds = options.rounds > 0 ? options.rounds : effort.rounds;
+  const std::vector<std::string> names = scenesToTime(options);
+  std::vector<ResultRow> all_rows;
+  bool disagreed = false;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string head =
+        "[" + std::to_string(i + 1) + "/" + std::to_string(names.size()) + "] " + names[i];
+    showProgress(head + ": compared with 113 bits");
+    const BenchmarkScene scene = makeScene(names[i]);
+    std::vector<Candidate> candidates =
+        checkedCandidates(scene, wantedOffers(scene, options), disagreed);
+    timeInTurn(candidates, rounds, effort.seconds, [&](int round) {
+      showProgress(head + ": round " + std::to_string(round + 1) + " of " + std::to_string(rounds));
+    });
+    std::vector<ResultRow> rows;
+    for (const Candidate& candidate : candidates) rows.push_back(resultRow(names[i], candidate));
+    showProgress("");
+    std::printf("%s", resultTable(names[i], rows).c_str());
+    std::fflush(stdout);
+    all_rows.insert(all_rows.end(), rows.begin(), rows.end());
+  }
+  if (output) {
+    output->write(resultCsv(all_rows));
+    output->commit();
+  }
+  return disagreed ? 1 : 0;
+}
+
+int runProgram(const std::vector<std::string>& arguments) {
+  try {
+    const WorkPrecisionOptions options = parseOptions(arguments);
+    if (options.help) {
+      std::printf("%s", kWorkPrecisionHelp);
+      return 0;
+    }
+    return options.list ? list(options) : run(options);
+  } catch (const OptionError& error) {
+    std::fprintf(stderr, "work_precision: %s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "work_precision: %s\n", error.what());
+    return 1;
+  }
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics
+
+int main(int argc, char** argv) {
+  return virtual_work_dynamics::runProgram({argv + 1, argv + argc});
+}

@@ -1,0 +1,82 @@
+#include "work_precision_options.h"
+
+#include <algorithm>
+
+#include "robots.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+int parseRounds(const std::string& text) {
+  constexpr std::size_t kMostDigits = 4;
+  const bool digits = !text.empty() && text.size() <= kMostDigits &&
+                      text.find_first_not_of("0123456789") == std::string::npos;
+  if (!digits || std::stoi(text) < 1) {
+    throw OptionError("--rounds: '" + text + "' is no number from 1 to 9999");
+  }
+  return std::stoi(text);
+}
+
+std::string knownScene(const std::string& name) {
+  const std::vector<std::string> names = sceneNames();
+  if (std::find(names.begin(), names.end(), name) != names.end()) return name;
+  throw OptionError("--scene: there is no scene '" + name + "'; --list shows all");
+}
+
+}  // namespace
+
+const char kWorkPrecisionHelp[] =
+    R"(work_precision: run time and error of inverse dynamics, beside other libraries
+
+  work_precision [options]
+
+  --output FILE    all results as CSV; FILE is complete or not there
+  --quick          shorter and fewer rounds: every scene in less than a minute
+  --scene NAME     only this scene; may be repeated
+  --method NAME    only this method, as "virtual_work"; may be repeated
+  --rounds N       how often every contender is timed (default: 15, with --quick: 5)
+  --list           say what would be timed
+  --help           this text
+
+All contenders of a scene compute the same 16 random states. Each is compared with an evaluation in
+113 bits first; one that disagrees is named, not timed, and makes the exit status 1. Then they are
+timed in turn, round after round; times are the median, least and largest of the rounds.
+max_relative_error is the largest error of an effort over the largest effort of its state, or of a
+reaction's force or moment over the largest force or moment, whichever is worst.
+
+A contender of one thread stays on one core, and its time is the time for which the thread ran;
+those of several threads may use all cores and are timed by the clock.
+
+Exit status: 0 done, 1 something is wrong or disagrees, 2 wrong usage.
+)";
+
+WorkPrecisionOptions parseOptions(const std::vector<std::string>& arguments) {
+  WorkPrecisionOptions options;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& option = arguments[i];
+    const auto value = [&] {
+      if (i + 1 == arguments.size()) throw OptionError(option + " needs a value");
+      return arguments[++i];
+    };
+    if (option == "--output") {
+      options.output = value();
+    } else if (option == "--scene") {
+      options.scenes.push_back(knownScene(value()));
+    } else if (option == "--method") {
+      options.methods.push_back(value());
+    } else if (option == "--rounds") {
+      options.rounds = parseRounds(value());
+    } else if (option == "--quick") {
+      options.quick = true;
+    } else if (option == "--list") {
+      options.list = true;
+    } else if (option == "--help" || option == "-h") {
+      options.help = true;
+    } else {
+      throw OptionError("unknown option '" + option + "'");
+    }
+  }
+  return options;
+}
+
+}  // namespace virtual_work_dynamics
