@@ -38,8 +38,9 @@ class OwnSingle : public Contender {
 
 void offerOwnSingle(const BenchmarkScene& scene, std::vector<Offer>& offers) {
   for (const char* outputs : {kEfforts, kEffortsAndReactions}) {
-    offers.push_back({{"virtual_work", "double", "single", outputs, 1},
-                      [&scene, outputs] { return std::make_unique<OwnSingle>(scene, outputs); }});
+    const Label label{"virtual_work", "double", "single", outputs, 1};
+    offers.push_back(
+        {label, [&scene, outputs] { return std::make_unique<OwnSingle>(scene, outputs); }});
   }
 }
 
