@@ -21,7 +21,7 @@ test_packages=(
 demo_packages=("${run_packages[@]}" python3-matplotlib)
 rviz_packages=("${run_packages[@]}" python3-yaml rviz)
 benchmark_packages=(
-  libbenchmark-dev libdart-dev libmujoco-dev liborocos-kdl-dev
+  libbenchmark-dev libdart-dev libmujoco-dev liborocos-kdl-dev valgrind
 )
 
 usage() {

@@ -1,0 +1,100 @@
+#!/bin/bash
+# Instructions per sample, counted by callgrind.
+set -euo pipefail
+
+usage() {
+  cat <<'END2'
+Usage: scripts/count_instructions.sh [--samples N] [--method METHOD]... [--program FILE] SCENE...
+
+Prints, as CSV, how many instructions a sample takes: of the package's own ways of computing it and
+of KDL's solvers. Unlike times, they do not depend on what else the machine does. Valgrind knows no
+AVX-512, so its builds are left out.
+  --samples   how many are counted, at least (64)
+  --method    only this one, as "virtual_work"; may be repeated (virtual_work, kdl_chain, kdl_tree)
+  --program   callgrind_sample where it is built already; otherwise it is built, without ROS, in
+              build/benchmark
+  SCENE       as work_precision --list names them: six_axis_arm, chain_100, ...
+END2
+}
+
+repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+samples=64
+methods=()
+program=
+scenes=()
+while [[ $# -gt 0 ]]; do
+  case "$1" in
+    -h | --help) usage; exit 0 ;;
+    --samples | --method | --program)
+      [[ $# -ge 2 ]] || { echo "count_instructions.sh: $1 needs a value" >&2; exit 2; }
+      case "$1" in
+        --samples) samples=$2 ;;
+        --method) methods+=("$2") ;;
+        --program) program=$2 ;;
+      esac
+      shift ;;
+    -*) echo "count_instructions.sh: unknown option $1" >&2; usage >&2; exit 2 ;;
+    *) scenes+=("$1") ;;
+  esac
+  shift
+done
+if [[ ${#scenes[@]} -eq 0 ]]; then
+  echo "count_instructions.sh: which scene?" >&2
+  usage >&2
+  exit 2
+fi
+if [[ ! "$samples" =~ ^[1-9][0-9]*$ ]]; then
+  echo "count_instructions.sh: --samples: '$samples' is no positive number" >&2
+  exit 2
+fi
+if [[ ${#methods[@]} -eq 0 ]]; then methods=(virtual_work kdl_chain kdl_tree); fi
+if ! command -v valgrind >/dev/null; then
+  echo "count_instructions.sh: there is no valgrind; scripts/install_dependencies.sh --benchmark" >&2
+  exit 1
+fi
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+if [[ -z "$program" ]]; then
+  build=$repository/build/benchmark
+  if ! { cmake -S "$repository" -B "$build" -DVWD_CORE_ONLY=ON -DVWD_BUILD_BENCHMARKS=ON \
+           -DBUILD_TESTING=OFF && cmake --build "$build" --target callgrind_sample -- \
+           -j"${JOBS:-$(nproc)}"; } >"$work/build.log" 2>&1; then
+    tail -n 40 "$work/build.log" >&2
+    echo "count_instructions.sh: building failed" >&2
+    exit 1
+  fi
+  program=$build/benchmark/callgrind_sample
+fi
+
+# wanted <contender>: whether it is one of the methods, and valgrind can run it.
+wanted() {
+  local method
+  [[ "$1" != *_avx512,* ]] || return 1
+  for method in "${methods[@]}"; do
+    [[ "$1" != "$method",* ]] || return 0
+  done
+  return 1
+}
+
+echo "scene,method,precision,mode,outputs,samples,instructions_per_sample"
+for scene in "${scenes[@]}"; do
+  "$program" "$scene" >"$work/contenders"
+  while IFS= read -r contender; do
+    wanted "$contender" || continue
+    if ! counted=$(valgrind --tool=callgrind --callgrind-out-file=/dev/null \
+        --collect-atstart=no --toggle-collect=countedRun \
+        "$program" "$scene" "$contender" "$samples" 2>"$work/valgrind.log" </dev/null); then
+      tail -n 20 "$work/valgrind.log" >&2
+      echo "count_instructions.sh: $scene: $contender: failed under valgrind" >&2
+      exit 1
+    fi
+    instructions=$(sed -n 's/^.*Collected : \([0-9]*\)$/\1/p' "$work/valgrind.log")
+    if [[ -z "$instructions" || "$instructions" == 0 ]]; then
+      echo "count_instructions.sh: $scene: $contender: valgrind counted nothing" >&2
+      exit 1
+    fi
+    echo "$scene,$contender,$counted,$(((instructions + counted / 2) / counted))"
+  done <"$work/contenders"
+done
