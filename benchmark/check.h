@@ -16,8 +16,9 @@ class Yardstick {
   /// The largest error over all states: of an effort over the largest effort of the state, of a
   /// reaction's force or moment over the state's largest force or moment. Infinite when a result
   /// is not finite. Runs the contender over all states, or as long as one of its calls is.
-  /// @throws Error when the contender gives another number of results.
-  double maxRelativeError(Contender& contender) const;
+  /// @throws Error when the contender gives another number of results: reactions where none are
+  /// due, too.
+  double maxRelativeError(Contender& contender, bool with_reactions) const;
 
  private:
   struct State {
@@ -25,7 +26,8 @@ class Yardstick {
     std::vector<Reference113::Wrench> reactions;
     Real113 largest_effort = 0, largest_force = 0, largest_moment = 0;
   };
-  static Real113 relativeError(const SampleResults& results, const State& state);
+  static Real113 relativeError(const SampleResults& results, const State& state,
+                               bool with_reactions);
 
   std::vector<State> states_;
 };
