@@ -2,9 +2,13 @@
 
 Import it before matplotlib.pyplot: it chooses the backend, which needs no screen.
 """
+import math
+
 import matplotlib
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402 (the backend has to be chosen first)
+from matplotlib.colors import to_rgb  # noqa: E402
+from matplotlib.ticker import LogLocator, NullFormatter  # noqa: E402
 
 DPI = 150
 WIDE = (9.0, 5.6)  # inches
@@ -52,6 +56,11 @@ def method_color(method):
     return METHODS[method][1] if method in METHODS else OTHER_COLOR
 
 
+def readable(color):
+    """A colour of the palette, dark enough for text on white."""
+    return tuple(0.72 * part for part in to_rgb(color))
+
+
 def mode_name(mode):
     return MODES[mode][0] if mode in MODES else mode.replace('_', ' ')
 
@@ -78,6 +87,25 @@ def new_figure(size=WIDE, rows=1, columns=1, **options):
     """(figure, axes) that leave room for all labels."""
     use_style()
     return plt.subplots(rows, columns, figsize=size, constrained_layout=True, **options)
+
+
+def label_ticks(axis, decades, power=False):
+    """Numbers at 1, 2 and 5 on a logarithmic axis that spans few decades; as powers of ten or
+    plain."""
+    if decades < 3.5:
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(_powers if power else _plain)
+    axis.set_minor_formatter(NullFormatter())
+
+
+def _plain(value, _position=None):
+    return '{:,.0f}'.format(value) if value >= 1000 else '{:g}'.format(value)
+
+
+def _powers(value, _position=None):
+    exponent = math.floor(math.log10(value) + 1e-9)
+    digit = round(value / 10.0 ** exponent)
+    return '$%s10^{%d}$' % ('' if digit == 1 else r'%d\times ' % digit, exponent)
 
 
 def save(figure, path):
