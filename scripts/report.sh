@@ -1,0 +1,89 @@
+#!/bin/bash
+# Run time and error of the inverse dynamics beside other libraries, measured and reported.
+set -euo pipefail
+
+usage() {
+  cat <<END
+Usage: scripts/report.sh [--quick] [--no-install] [--output FOLDER]
+
+Installs what is needed, builds in build/benchmark (without ROS), measures, and writes into FOLDER
+  report.md            the results, with plots; begin here
+  estimator.md         error of estimated accelerations
+  work_precision.csv, leave_out.csv, estimator.csv   the measurements
+Quiet machine wanted: nothing else should run.
+  --quick       fewer and shorter rounds: a minute or less once everything is built
+  --no-install  do not install packages first
+  --output      where to write (report/ in this repository)
+END
+}
+
+repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+install=true
+quick=()
+output=$repository/report
+while [[ $# -gt 0 ]]; do
+  case "$1" in
+    --quick) quick=(--quick) ;;
+    --no-install) install=false ;;
+    --output)
+      [[ -n "${2:-}" ]] || { echo "report.sh: --output needs a folder" >&2; exit 2; }
+      output=$2
+      shift ;;
+    -h | --help) usage; exit 0 ;;
+    *) echo "report.sh: unknown option $1" >&2; usage >&2; exit 2 ;;
+  esac
+  shift
+done
+mkdir -p "$output"
+output=$(realpath "$output")
+cd "$repository"
+build=$repository/build/benchmark
+log=$repository/build/benchmark.log
+programs=(work_precision leave_out estimator_error)
+export PATH=/usr/bin:$PATH PYTHONDONTWRITEBYTECODE=1
+read -r load _ </proc/loadavg
+
+if $install; then scripts/install_dependencies.sh --build --benchmark; fi
+
+step=0
+announce() {
+  step=$((step + 1))
+  echo "[$step/6] $* ($SECONDS s)"
+}
+
+announce "Building in ${build#"$repository"/}, output in ${log#"$repository"/} ..."
+mkdir -p "$build"
+if ! { cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DVWD_CORE_ONLY=ON \
+    -DVWD_BUILD_BENCHMARKS=ON -DBUILD_TESTING=OFF &&
+    cmake --build "$build" --target "${programs[@]}" -- -j"${JOBS:-$(nproc)}"; } >"$log" 2>&1; then
+  grep -E -A 5 'error|Error' "$log" | head -n 40 >&2 || tail -n 40 "$log" >&2
+  echo "report.sh: the build failed; its whole output is in $log" >&2
+  exit 1
+fi
+
+# measure PROGRAM RESULT: leaves RESULT in the output folder.
+measure() {
+  rm -f "$output/$2"
+  "$build/benchmark/$1" "${quick[@]}" --output "$output/$2"
+}
+
+announce "Run time and error beside other libraries"
+disagreement=false
+measure work_precision work_precision.csv || disagreement=true
+if [[ ! -f "$output/work_precision.csv" ]]; then
+  echo "report.sh: work_precision has failed" >&2
+  exit 1
+fi
+announce "What leaving out saves"
+measure leave_out leave_out.csv
+announce "Error of estimated accelerations"
+measure estimator_error estimator.csv
+/usr/bin/python3 benchmark/estimator_page.py "$output"
+announce "Plots and tables"
+/usr/bin/python3 benchmark/report.py "${quick[@]}" --build "$build" --load "$load" "$output"
+announce "Done."
+if $disagreement; then
+  echo "report.sh: a contender disagrees with the reference or failed; it is named above, and not" \
+    "in the report" >&2
+  exit 1
+fi
