@@ -44,6 +44,10 @@ export PATH=/usr/bin:$PATH PYTHONDONTWRITEBYTECODE=1
 read -r load _ </proc/loadavg
 
 if $install; then scripts/install_dependencies.sh --build --benchmark; fi
+/usr/bin/python3 -c 'import matplotlib' 2>/dev/null || {
+  echo "report.sh: Python's matplotlib is missing (Debian, Ubuntu: python3-matplotlib)" >&2
+  exit 1
+}
 
 step=0
 announce() {
