@@ -1,6 +1,7 @@
 """Makes report.md and its plots from what the benchmark programs measured, for scripts/report.sh.
 
-FOLDER holds work_precision.csv and leave_out.csv, and estimator.md if the estimator was measured.
+FOLDER holds work_precision.csv and leave_out.csv; instructions.csv if instructions were counted,
+and estimator.md if the estimator was measured.
 """
 import argparse
 import concurrent.futures
@@ -16,7 +17,8 @@ import report_pages as pages
 from plot_joints import plot_joints
 from plot_leave_out import plot_leave_out
 from plot_work_precision import plot_work_precision
-from report_data import LEAVE_OUT, WORK_PRECISION, JointCounts, LeaveOut, ReportError, WorkPrecision
+from report_data import (INSTRUCTIONS, LEAVE_OUT, WORK_PRECISION, Instructions, JointCounts,
+                         LeaveOut, ReportError, WorkPrecision)
 
 REPOSITORY = pathlib.Path(__file__).resolve().parent.parent
 REPORT = 'report.md'
@@ -38,6 +40,14 @@ def estimator_section(folder):
         return 'The estimator was not measured in this run.\n'
     return ('Accelerations from joint states have a page of their own: '
             '[error of the estimator against window and lag](%s).\n' % ESTIMATOR)
+
+
+def instructions_section(folder, data):
+    if not (folder / INSTRUCTIONS).is_file():
+        return 'They were not counted in this run: a quick one does not, and it takes valgrind.\n'
+    return ('Counted by callgrind, which runs the program on a simulated processor; unlike times, '
+            'they do\nnot depend on what else the machine does. It knows no AVX-512.\n\n'
+            + pages.instructions_table(Instructions(folder / INSTRUCTIONS), data))
 
 
 def leave_out_tables(omissions):
@@ -67,6 +77,7 @@ def text(folder, data, omissions, joints, build, arguments):
                         for scene in data.scenes),
         joints_plot=md.image('Run time over number of joints', JOINTS_PLOT),
         joint_costs=pages.joint_costs_table(data, joints),
+        instructions=instructions_section(folder, data),
         leave_out_plot=md.image('Operations and run time of plans that leave something out',
                                 LEAVE_OUT_PLOT),
         leave_out=leave_out_tables(omissions),

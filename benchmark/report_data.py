@@ -8,6 +8,7 @@ import xml.etree.ElementTree as ElementTree
 
 WORK_PRECISION = 'work_precision.csv'
 LEAVE_OUT = 'leave_out.csv'
+INSTRUCTIONS = 'instructions.csv'
 OWN = 'virtual_work'
 # Peers that work_precision knows. A method that is not listed here is reported all the same.
 KNOWN_PEERS = ('kdl_chain', 'kdl_tree', 'mujoco', 'dart', 'pinocchio', 'rbdl')
@@ -162,6 +163,23 @@ class LeaveOut:
 
     def of_scene(self, scene):
         return [row for row in self.rows if row.scene == scene]
+
+
+class Instructions:
+    """What callgrind counted, by scene and way."""
+
+    COLUMNS = ('scene', 'method', 'precision', 'mode', 'outputs', 'instructions_per_sample')
+
+    def __init__(self, path):
+        table = Table(path, self.COLUMNS)
+        self.counts = {}
+        for row in table.rows:
+            way = Way(table.name(row, 'method'), table.name(row, 'precision', PRECISIONS),
+                      table.name(row, 'mode'), table.name(row, 'outputs', (EFFORTS, ALL)), 1)
+            self.counts[table.name(row, 'scene'), way] = table.count(
+                row, 'instructions_per_sample')
+        self.scenes = list(dict.fromkeys(scene for scene, _ in self.counts))
+        self.ways = list(dict.fromkeys(way for _, way in self.counts))
 
 
 class JointCounts:

@@ -218,6 +218,24 @@ def leave_out_table(omissions, scene):
                      'operations', 'run time'], lines, left=2)
 
 
+def instructions_table(instructions, data):
+    """Instructions and ns of a sample, by way and scene."""
+    rows = []
+    for way in instructions.ways:
+        row = _way_cells(way)
+        row.insert(1, way.precision.replace('_', ' '))
+        for scene in instructions.scenes:
+            count = instructions.counts.get((scene, way))
+            timed = data.find(scene, way)
+            row += [md.NONE if count is None else '{:,}'.format(count),
+                    md.ns(timed.ns if timed else None)]
+        rows.append(row)
+    header = ['method', 'number type'] + WAY_COLUMNS[1:]
+    for scene in instructions.scenes:
+        header += [scene_title(scene) + ': instructions', 'ns']
+    return md.table(header, rows, left=4)
+
+
 def spread(data):
     """How far the rounds of one measurement lie apart, over all measurements."""
     spreads = sorted((row.ns_max / row.ns_min - 1, row.scene, row.way) for row in data.rows)

@@ -9,9 +9,10 @@ Usage: scripts/report.sh [--quick] [--no-install] [--output FOLDER]
 Installs what is needed, builds in build/benchmark (without ROS), measures, and writes into FOLDER
   report.md            the results, with plots; begin here
   estimator.md         error of estimated accelerations
-  work_precision.csv, leave_out.csv, estimator.csv   the measurements
+  work_precision.csv, leave_out.csv, estimator.csv, instructions.csv   the measurements
 Quiet machine wanted: nothing else should run.
-  --quick       fewer and shorter rounds: a minute or less once everything is built
+  --quick       fewer and shorter rounds, instructions not counted: a minute or less once
+                everything is built
   --no-install  do not install packages first
   --output      where to write (report/ in this repository)
 END
@@ -39,7 +40,8 @@ output=$(realpath "$output")
 cd "$repository"
 build=$repository/build/benchmark
 log=$repository/build/benchmark.log
-programs=(work_precision leave_out estimator_error)
+programs=(work_precision leave_out estimator_error callgrind_sample)
+counted_scenes=(six_axis_arm seven_axis_arm chain_100)
 export PATH=/usr/bin:$PATH PYTHONDONTWRITEBYTECODE=1
 read -r load _ </proc/loadavg
 
@@ -52,7 +54,7 @@ if $install; then scripts/install_dependencies.sh --build --benchmark; fi
 step=0
 announce() {
   step=$((step + 1))
-  echo "[$step/6] $* ($SECONDS s)"
+  echo "[$step/7] $* ($SECONDS s)"
 }
 
 announce "Building in ${build#"$repository"/}, output in ${log#"$repository"/} ..."
@@ -83,6 +85,17 @@ measure leave_out leave_out.csv
 announce "Error of estimated accelerations"
 measure estimator_error estimator.csv
 /usr/bin/python3 benchmark/estimator_page.py "$output"
+rm -f "$output/instructions.csv"
+if [[ ${#quick[@]} -gt 0 ]]; then
+  announce "Instructions per sample: not counted in a quick run"
+elif ! command -v valgrind >/dev/null; then
+  announce "Instructions per sample: not counted, there is no valgrind"
+else
+  announce "Instructions per sample, of ${counted_scenes[*]}"
+  scripts/count_instructions.sh --program "$build/benchmark/callgrind_sample" \
+    "${counted_scenes[@]}" >"$output/instructions.csv.part"
+  mv "$output/instructions.csv.part" "$output/instructions.csv"
+fi
 announce "Plots and tables"
 /usr/bin/python3 benchmark/report.py "${quick[@]}" --build "$build" --load "$load" "$output"
 announce "Done."
