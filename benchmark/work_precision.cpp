@@ -54,6 +54,18 @@ std::vector<Offer> wantedOffers(const BenchmarkScene& scene, const WorkPrecision
   return offers;
 }
 
+// A chain is what every method can compute.
+void checkMethods(const std::vector<std::string>& methods) {
+  const BenchmarkScene scene = makeScene("chain_2");
+  const std::vector<Offer> offers = offersFor(scene);
+  for (const std::string& method : methods) {
+    const auto known = [&](const Offer& offer) { return offer.label.method == method; };
+    if (std::none_of(offers.begin(), offers.end(), known)) {
+      throw OptionError("--method: this build has no method '" + method + "'; --list shows all");
+    }
+  }
+}
+
 int list(const WorkPrecisionOptions& options) {
   std::printf("scene,method,precision,mode,outputs,threads\n");
   for (const std::string& name : scenesToTime(options)) {
@@ -111,6 +123,7 @@ int runProgram(const std::vector<std::string>& arguments) {
       std::printf("%s", kWorkPrecisionHelp);
       return 0;
     }
+    checkMethods(options.methods);
     return options.list ? list(options) : run(options);
   } catch (const OptionError& error) {
     std::fprintf(stderr, "work_precision: %s\n", error.what());

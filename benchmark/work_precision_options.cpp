@@ -47,6 +47,16 @@ reaction's force or moment over the largest force or moment, whichever is worst.
 A contender of one thread stays on one core, and its time is the time for which the thread ran;
 those of several threads may use all cores and are timed by the clock.
 
+Methods
+  kdl_chain         KDL's ChainIdSolver_RNE, a segment for each link as kdl_parser makes them; only
+                    for serial robots and efforts
+  kdl_chain_lumped  the same with fixed joints merged: KDL at its best
+  kdl_tree          KDL's TreeIdSolver_RNE, a segment for each link; only efforts
+  mujoco            mj_kinematics, mj_comPos, mj_comVel and mj_rne or mj_rnePostConstraint, with
+                    fixed joints merged; its reactions stay in root axes, about a common point
+  dart              Skeleton::computeInverseDynamics with fixed joints merged
+  virtual_work      this package; reactions of all movable joints in the axes of the child link
+
 Exit status: 0 done, 1 something is wrong or disagrees, 2 wrong usage.
 )";
 
