@@ -49,7 +49,7 @@ if [[ ! "$samples" =~ ^[1-9][0-9]*$ ]]; then
 fi
 if [[ ${#methods[@]} -eq 0 ]]; then methods=(virtual_work kdl_chain kdl_tree); fi
 if ! command -v valgrind >/dev/null; then
-  echo "count_instructions.sh: there is no valgrind; scripts/install_dependencies.sh --benchmark" >&2
+  echo "count_instructions.sh: no valgrind; see scripts/install_dependencies.sh --benchmark" >&2
   exit 1
 fi
 
