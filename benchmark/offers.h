@@ -10,6 +10,9 @@ namespace virtual_work_dynamics {
 
 /// One sample after another by InverseDynamics.
 void offerOwnSingle(const BenchmarkScene& scene, std::vector<Offer>& offers);
+/// Blocks of samples by BlockInverseDynamics: in each layout, by each build that this machine runs,
+/// by one thread and by two.
+void offerOwnBlocks(const BenchmarkScene& scene, std::vector<Offer>& offers);
 /// KDL: ChainIdSolver_RNE as kdl_parser would build the chain, the same with fixed joints merged,
 /// and TreeIdSolver_RNE.
 void offerKdl(const BenchmarkScene& scene, std::vector<Offer>& offers);
