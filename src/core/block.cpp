@@ -57,7 +57,7 @@ struct BlockInverseDynamics<Real>::Impl {
                                           request.poses ? 12 * in_root_axes : 0,
                                           request.twists ? 6 * in_root_axes : 0};
     std::copy(std::begin(numbers), std::end(numbers), columns);
-    std::size_t tile_size = 0;
+    std::size_t tile_size = width * width * sizeof(Real);  // behind the last, see toColumns()
     for (const std::size_t count : columns) tile_size += count * width * sizeof(Real);
     for (int i = 0; i < thread_count; ++i) {
       scratch.emplace_back(kernel.scratchSize(view));

@@ -223,6 +223,7 @@ class Compiler {
         output.permutes = false;
       } else {
         output.sign[i] = column[output.row[i]];
+        if (output.sign[i] < 0) output.flips = true;
       }
     }
     return output;

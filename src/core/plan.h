@@ -28,6 +28,13 @@ enum class AxisDirection : unsigned char {
 
 /// What of a body matters to the request, and how the sweeps reach it.
 struct BodyUse {
+  /// Revolute, moved one to one by its coordinate, with inertia, and reached from the body before
+  /// it: the kernel asks nothing else of its motion.
+  bool plain_motion = false;
+  /// Revolute, drives one effort one to one, and handed to the body before it.
+  bool plain_wrench = false;
+  int feeds = -1;  ///< the body that is reached from this one, next in the sweep; -1: none
+
   int parent = -1;
   Mobility mobility = Mobility::kFixed;
   AxisDirection axis = AxisDirection::kOblique;  ///< of this body's z axis in its parent's Z frame
@@ -38,10 +45,12 @@ struct BodyUse {
   bool wrench_outlives = false;  ///< the sum of (3.8) is read again after the sweep
   bool has_inertia = false;
 
-  // Constants that are zero.
-  bool centred = false;    ///< h
-  bool diagonal = false;   ///< the entries of G off its diagonal
-  bool at_parent = false;  ///< p_PoZo_P
+  // Constants that are zero, so that their products are left out.
+  bool centred = false;   ///< h
+  bool diagonal = false;  ///< the entries of G off its diagonal
+  bool offset_x = true;   ///< not: the components of p_PoZo_P
+  bool offset_y = true;
+  bool offset_z = true;
 
   bool parent_rests = false;     ///< the parent neither turns nor accelerates, but for -g
   bool rest_along_z = false;     ///< and gamma is along the joint axis, or zero
@@ -94,6 +103,7 @@ struct ReactionOutput {
   /// `row[i]` with `sign[i]`.
   Mat3<T> R_KZ{};
   bool permutes = false;
+  bool flips = false;  ///< and a sign is -1
   int row[3] = {0, 1, 2};
   T sign[3] = {T(1), T(1), T(1)};
   bool drop_active = false;  ///< the component along the joint axis is reported as zero

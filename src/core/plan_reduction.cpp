@@ -43,6 +43,7 @@ class Reduction {
     linkSweepOut();
     linkSweepIn();
     markEfforts();
+    markPlain();
   }
 
  private:
@@ -67,7 +68,10 @@ class Reduction {
       body.has_inertia = body.wrench_needed && !inertialess(body);
       body.centred = isZero(body.h);
       body.diagonal = body.G.xy == 0 && body.G.xz == 0 && body.G.yz == 0;
-      body.at_parent = isZero(body.p_PoZo_P);
+      const bool slides = body.mobility == Mobility::kPrismatic;
+      body.offset_x = body.p_PoZo_P.x != 0 || (slides && body.R_PZ.xz != 0);
+      body.offset_y = body.p_PoZo_P.y != 0 || (slides && body.R_PZ.yz != 0);
+      body.offset_z = body.p_PoZo_P.z != 0 || (slides && body.R_PZ.zz != 0);
       if (wanted[k] && !has_load_[k]) plan_.left_out.massless.push_back(names_[k]);
     }
     for (auto* outputs : {&plan_.child_axes, &plan_.root_axes}) {
@@ -200,6 +204,8 @@ class Reduction {
         Body<Real>& parent = bodies_[body.parent];
         if (parent.own_slot < 0) parent.own_slot = plan_.slots++;
         body.parent_slot = parent.own_slot;
+      } else if (!body.parent_rests) {
+        bodies_[last].feeds = k;
       }
       last = k;
     }
@@ -238,6 +244,17 @@ class Reduction {
     }
     for (int i = 0; i < plan_.coordinates; ++i) {
       if (!driven[i]) plan_.zero_efforts.push_back(i);
+    }
+  }
+
+  void markPlain() {
+    for (std::size_t k = 1; k < bodies_.size(); ++k) {
+      Body<Real>& body = bodies_[k];
+      if (body.mobility != Mobility::kRevolute || body.geared || body.angle < 0) continue;
+      body.plain_motion = body.motion_needed && body.has_inertia && !body.parent_rests &&
+                          body.parent_slot < 0 && body.own_slot < 0;
+      body.plain_wrench = body.wrench_needed && body.drives && !body.summed && body.hands_on &&
+                          !body.wrench_outlives;
     }
   }
 

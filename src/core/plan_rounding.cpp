@@ -56,6 +56,7 @@ ReactionOutput<T> rounded(const ReactionOutput<Real>& from) {
   output.body = from.body;
   output.R_KZ = rounded<T>(from.R_KZ);
   output.permutes = from.permutes;
+  output.flips = from.flips;
   std::copy(std::begin(from.row), std::end(from.row), output.row);
   for (int i = 0; i < 3; ++i) output.sign[i] = T(from.sign[i]);
   output.drop_active = from.drop_active;

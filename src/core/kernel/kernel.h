@@ -67,7 +67,8 @@ struct Kernel {
   void (*one)(const PlanView<R>&, const KernelInputs<R>&, const KernelOutputs<R>&, void* scratch);
   /// `width` neighbouring samples.
   void (*pack)(const PlanView<R>&, const KernelInputs<R>&, const KernelOutputs<R>&, void* scratch);
-  /// From `width` rows of `columns` numbers to columns of `width` numbers, and back.
+  /// From `width` rows of `columns` numbers to columns of `width` numbers, and back. A tile has
+  /// room for `width` columns at least; what the rows do not fill is written, and read, too.
   void (*toColumns)(const R* rows, std::size_t columns, R* tile);
   void (*toRows)(const R* tile, std::size_t columns, R* rows);
 };

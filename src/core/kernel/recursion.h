@@ -48,31 +48,78 @@ VWD_INLINE Vec3<T> originInParent(const Body<R>& body, const T& slide) {
 
 /// sum + U r.
 template <typename S, typename T>
-VWD_INLINE Vec3<T> accelerationOf(const Mat3<T>& U, const Vec3<S>& r, const Vec3<T>& sum) {
+VWD_INLINE Vec3<T> addProduct(const Vec3<T>& sum, const Mat3<T>& U, const Vec3<S>& r) {
   return {addDot(sum.x, r.x, r.y, r.z, Vec3<T>{U.xx, U.xy, U.xz}),
           addDot(sum.y, r.x, r.y, r.z, Vec3<T>{U.yx, U.yy, U.yz}),
           addDot(sum.z, r.x, r.y, r.z, Vec3<T>{U.zx, U.zy, U.zz})};
 }
 
-/// Motion of a body from its parent's: (2.5), (2.7) with b = gamma_p + U_p r.
-template <bool kStatic, typename T, typename R>
-VWD_INLINE void propagateMotion(const Body<R>& body, const JointMotion<T>& joint,
-                                BodyMotion<T>& motion) {
-  if (!kStatic) {
-    if (body.mobility == Mobility::kPrismatic) {
-      motion.gamma = accelerationOf(motion.U, originInParent(body, joint.slide), motion.gamma);
-    } else if (!body.at_parent) {
-      motion.gamma = accelerationOf(motion.U, body.p_PoZo_P, motion.gamma);
-    }
+/// gamma + U r for the origin r of a body in its parent; components that are zero are left out.
+template <typename S, typename T, typename R>
+VWD_INLINE Vec3<T> accelerationOf(const Body<R>& body, const BodyMotion<T>& motion,
+                                  const Vec3<S>& r) {
+  const Mat3<T>& U = motion.U;
+  Vec3<T> b = motion.gamma;
+  if (body.offset_z) b = {mulAdd(r.z, U.xz, b.x), mulAdd(r.z, U.yz, b.y), mulAdd(r.z, U.zz, b.z)};
+  if (body.offset_y) b = {mulAdd(r.y, U.xy, b.x), mulAdd(r.y, U.yy, b.y), mulAdd(r.y, U.zy, b.z)};
+  if (body.offset_x) b = {mulAdd(r.x, U.xx, b.x), mulAdd(r.x, U.yx, b.y), mulAdd(r.x, U.zx, b.z)};
+  return b;
+}
+
+/// moment + r x force for the same r.
+template <typename S, typename T, typename R>
+VWD_INLINE Vec3<T> momentAt(const Body<R>& body, const Vec3<T>& moment, const Vec3<S>& r,
+                            const Vec3<T>& force) {
+  Vec3<T> sum = moment;
+  if (body.offset_z) {
+    sum.x = subMul(sum.x, r.z, force.y);
+    sum.y = mulAdd(r.z, force.x, sum.y);
   }
-  forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
-    if (!kStatic) {
-      motion.w = toChild<axis.value>(body.R_PZ, motion.w);
-      motion.alpha = toChild<axis.value>(body.R_PZ, motion.alpha);
-    }
-    motion.gamma = toChild<axis.value>(body.R_PZ, motion.gamma);
-  });
-  if (body.mobility == Mobility::kRevolute) {
+  if (body.offset_y) {
+    sum.x = mulAdd(r.y, force.z, sum.x);
+    sum.z = subMul(sum.z, r.y, force.x);
+  }
+  if (body.offset_x) {
+    sum.y = subMul(sum.y, r.x, force.z);
+    sum.z = mulAdd(r.x, force.y, sum.z);
+  }
+  return sum;
+}
+
+/// What arrives at a body from its parent, in the parent's axes: omega, epsilon and, of its own
+/// origin, b = gamma_p + U_p r.
+template <typename T>
+struct Arrival {
+  Vec3<T> w;
+  Vec3<T> alpha;
+  Vec3<T> b;
+};
+
+template <bool kStatic, typename T, typename R>
+VWD_INLINE void arriveAt(const Body<R>& body, const T* slides, const BodyMotion<T>& parent,
+                         Arrival<T>& arrival) {
+  arrival.b = parent.gamma;
+  if (kStatic) return;
+  arrival.w = parent.w;
+  arrival.alpha = parent.alpha;
+  if (body.mobility == Mobility::kPrismatic) {
+    arrival.b = accelerationOf(body, parent, originInParent(body, slides[body.slide]));
+  } else {
+    arrival.b = accelerationOf(body, parent, body.p_PoZo_P);
+  }
+}
+
+/// Motion of a body from its parent's: (2.5), (2.7). kPlain: see BodyUse::plain.
+template <bool kStatic, bool kPlain, AxisDirection kAxis, typename T, typename R>
+VWD_INLINE void propagateMotion(const Body<R>& body, const JointMotion<T>& joint,
+                                const Arrival<T>& arrival, BodyMotion<T>& motion) {
+  const Mobility mobility = kPlain ? Mobility::kRevolute : body.mobility;
+  if (!kStatic) {
+    motion.w = toChild<kAxis>(body.R_PZ, arrival.w);
+    motion.alpha = toChild<kAxis>(body.R_PZ, arrival.alpha);
+  }
+  motion.gamma = toChild<kAxis>(body.R_PZ, arrival.b);
+  if (mobility == Mobility::kRevolute) {
     motion.gamma = transposeTimes(joint.Rz, motion.gamma);
     if (kStatic) return;
     motion.w = transposeTimes(joint.Rz, motion.w);
@@ -81,7 +128,7 @@ VWD_INLINE void propagateMotion(const Body<R>& body, const JointMotion<T>& joint
     motion.alpha.x = mulAdd(joint.qd, motion.w.y, motion.alpha.x);  // (2.7), w x u3 =
     motion.alpha.y = subMul(motion.alpha.y, joint.qd, motion.w.x);  //   (w_y, -w_x, 0)
     motion.alpha.z = motion.alpha.z + joint.qdd;
-  } else if (body.mobility == Mobility::kPrismatic && !kStatic) {
+  } else if (mobility == Mobility::kPrismatic && !kStatic) {
     const T qd2 = joint.qd + joint.qd;
     motion.gamma.x = mulAdd(qd2, motion.w.y, motion.gamma.x);  // (2.7), 2 v w x u3
     motion.gamma.y = subMul(motion.gamma.y, qd2, motion.w.x);
@@ -143,7 +190,7 @@ VWD_INLINE PlainWrench<T> inertiaWrench(const Body<R>& body, const BodyMotion<T>
     turningMoment(body, motion.U, plus, minus);
   }
   if (!body.centred) {
-    if (!kStatic) force = accelerationOf(motion.U, h, force);
+    if (!kStatic) force = addProduct(force, motion.U, h);
     plus = {mulAdd(h.y, gamma.z, plus.x), mulAdd(h.z, gamma.x, plus.y),
             mulAdd(h.x, gamma.y, plus.z)};
     minus = {mulAdd(h.z, gamma.y, minus.x), mulAdd(h.x, gamma.z, minus.y),
@@ -169,20 +216,19 @@ VWD_INLINE PlainWrench<T> startWrench(const Body<R>& body, const BodyMotion<T>& 
 }
 
 /// (3.8): what a body's wrench adds to its parent's, in the parent's frame and about its origin.
-template <typename T, typename R>
+template <bool kPlain, AxisDirection kAxis, typename T, typename R>
 VWD_INLINE PlainWrench<T> toParent(const Body<R>& body, const JointMotion<T>& joint,
                                    PlainWrench<T> wrench) {
-  if (body.mobility == Mobility::kRevolute) {
+  const Mobility mobility = kPlain ? Mobility::kRevolute : body.mobility;
+  if (mobility == Mobility::kRevolute) {
     wrench = {times(joint.Rz, wrench.force), times(joint.Rz, wrench.torque)};
   }
-  forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
-    wrench.force = toParent<axis.value>(body.R_PZ, wrench.force);
-    wrench.torque = toParent<axis.value>(body.R_PZ, wrench.torque);
-  });
-  if (body.mobility == Mobility::kPrismatic) {
-    wrench.torque = addCross(wrench.torque, originInParent(body, joint.slide), wrench.force);
-  } else if (!body.at_parent) {
-    wrench.torque = addCross(wrench.torque, body.p_PoZo_P, wrench.force);
+  wrench.force = toParent<kAxis>(body.R_PZ, wrench.force);
+  wrench.torque = toParent<kAxis>(body.R_PZ, wrench.torque);
+  if (mobility == Mobility::kPrismatic) {
+    wrench.torque = momentAt(body, wrench.torque, originInParent(body, joint.slide), wrench.force);
+  } else {
+    wrench.torque = momentAt(body, wrench.torque, body.p_PoZo_P, wrench.force);
   }
   return wrench;
 }

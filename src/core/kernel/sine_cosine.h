@@ -113,10 +113,10 @@ VWD_INLINE void sineCosine(const Pack<R, kWidth>& angle, Pack<R, kWidth>& sine,
 
   // The last bits of `shifted` are those of k: odd quadrants swap, and the signs go round.
   const Bits quadrant = (Bits)shifted.v;
-  const Bits odd = -(quadrant & 1);
+  const Bits odd = (quadrant & 1) != 0;
   constexpr int kToSign = 8 * sizeof(Integer) - 2;
-  sine = T((Vector)(((s & ~odd) | (c & odd)) ^ ((quadrant & 2) << kToSign)));
-  cosine = T((Vector)(((c & ~odd) | (s & odd)) ^ (((quadrant + 1) & 2) << kToSign)));
+  sine = T((Vector)((odd ? c : s) ^ ((quadrant & 2) << kToSign)));
+  cosine = T((Vector)((odd ? s : c) ^ (((quadrant + 1) & 2) << kToSign)));
   lanes.inside &= (angle.v <= Constants::range) & (angle.v >= -Constants::range);
 }
 

@@ -41,15 +41,18 @@ VWD_INLINE void slidePositions(const PlanView<R>& plan, const KernelInputs<R>& i
   }
 }
 
-template <bool kStatic, typename T, typename R>
+template <bool kStatic, bool kPlain, typename T, typename R>
 VWD_INLINE JointMotion<T> jointMotion(const Body<R>& body, const KernelInputs<R>& in,
                                       const Scratch<T, R>& scratch) {
   JointMotion<T> joint;
-  if (body.angle >= 0) joint.Rz = {scratch.cosines[body.angle], scratch.sines[body.angle]};
-  if (body.slide >= 0) joint.slide = scratch.slides[body.slide];
-  if (!kStatic && body.coordinate >= 0) {
-    joint.qd = coordinateOf<T>(in.qd, in.stride, body.coordinate, body.geared, body.multiplier);
-    joint.qdd = coordinateOf<T>(in.qdd, in.stride, body.coordinate, body.geared, body.multiplier);
+  if (kPlain || body.angle >= 0) {
+    joint.Rz = {scratch.cosines[body.angle], scratch.sines[body.angle]};
+  }
+  if (!kPlain && body.slide >= 0) joint.slide = scratch.slides[body.slide];
+  if (!kStatic && (kPlain || body.coordinate >= 0)) {
+    const bool geared = !kPlain && body.geared;
+    joint.qd = coordinateOf<T>(in.qd, in.stride, body.coordinate, geared, body.multiplier);
+    joint.qdd = coordinateOf<T>(in.qdd, in.stride, body.coordinate, geared, body.multiplier);
   }
   return joint;
 }
@@ -60,28 +63,78 @@ VWD_INLINE PlainWrench<T> constantWrench(const PlainWrench<R>& wrench) {
           {T(wrench.torque.x), T(wrench.torque.y), T(wrench.torque.z)}};
 }
 
+/// The next body of sweepOut(), where it is reached from this one.
+template <bool kStatic, typename T, typename R>
+VWD_INLINE void feedNext(const PlanView<R>& plan, const Body<R>& body, const Scratch<T, R>& scratch,
+                         const BodyMotion<T>& motion, Arrival<T>& arrival) {
+  if (body.feeds > 0) {
+    arriveAt<kStatic>(plan.bodies[body.feeds], scratch.slides, motion, arrival);
+  }
+}
+
+/// A body of sweepOut() that is plain.
+template <bool kStatic, AxisDirection kAxis, typename T, typename R>
+VWD_INLINE void movePlainBody(const PlanView<R>& plan, const Body<R>& body,
+                              const KernelInputs<R>& in, const Scratch<T, R>& scratch,
+                              Arrival<T>& arrival, PlainWrench<T>& wrench) {
+  BodyMotion<T> motion;
+  propagateMotion<kStatic, true, kAxis>(body, jointMotion<kStatic, true>(body, in, scratch),
+                                        arrival, motion);
+  wrench = inertiaWrench<kStatic>(body, motion);
+  feedNext<kStatic>(plan, body, scratch, motion, arrival);
+}
+
+/// And one that is on a parent at rest.
+template <bool kStatic, typename T, typename R>
+VWD_INLINE void startBody(const PlanView<R>& plan, const Body<R>& body, const KernelInputs<R>& in,
+                          const Scratch<T, R>& scratch, Arrival<T>& arrival,
+                          PlainWrench<T>& wrench) {
+  BodyMotion<T> motion;
+  startMotion<kStatic>(body, jointMotion<kStatic, false>(body, in, scratch), motion);
+  if (body.has_inertia) wrench = startWrench<kStatic>(body, motion);
+  if (body.own_slot >= 0) scratch.slots[body.own_slot] = motion;
+  feedNext<kStatic>(plan, body, scratch, motion, arrival);
+}
+
+template <bool kStatic, typename T, typename R>
+VWD_INLINE void moveBody(const PlanView<R>& plan, const Body<R>& body, const KernelInputs<R>& in,
+                         const Scratch<T, R>& scratch, Arrival<T>& arrival,
+                         PlainWrench<T>& wrench) {
+  if (body.parent_slot >= 0) {
+    arriveAt<kStatic>(body, scratch.slides, scratch.slots[body.parent_slot], arrival);
+  }
+  BodyMotion<T> motion;
+  const JointMotion<T> joint = jointMotion<kStatic, false>(body, in, scratch);
+  forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
+    propagateMotion<kStatic, false, axis.value>(body, joint, arrival, motion);
+  });
+  if (body.has_inertia) wrench = inertiaWrench<kStatic>(body, motion);
+  if (body.own_slot >= 0) scratch.slots[body.own_slot] = motion;
+  feedNext<kStatic>(plan, body, scratch, motion, arrival);
+}
+
 /// Root to leaves: motions (2.5)-(2.7) and the wrenches (3.5) of the single bodies.
 template <bool kStatic, typename T, typename R>
 VWD_INLINE void sweepOut(const PlanView<R>& plan, const KernelInputs<R>& in,
                          const Scratch<T, R>& scratch) {
-  const PlainWrench<T> none = constantWrench<T>(PlainWrench<R>{});
   scratch.wrenches[0] = constantWrench<T>(plan.root_wrench);
-  BodyMotion<T> motion{};
+  Arrival<T> arrival;
   for (int k = 1; k < plan.body_count; ++k) {
     const Body<R>& body = plan.bodies[k];
-    if (!body.has_inertia && body.wrench_needed) scratch.wrenches[k] = none;
-    if (!body.motion_needed) continue;
-    const JointMotion<T> joint = jointMotion<kStatic>(body, in, scratch);
-    if (body.parent_rests) {
-      startMotion<kStatic>(body, joint, motion);
-    } else {
-      if (body.parent_slot >= 0) motion = scratch.slots[body.parent_slot];
-      propagateMotion<kStatic>(body, joint, motion);
+    PlainWrench<T>& wrench = scratch.wrenches[k];
+    if (body.plain_motion) {
+      forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
+        movePlainBody<kStatic, axis.value>(plan, body, in, scratch, arrival, wrench);
+      });
+      continue;
     }
-    if (body.own_slot >= 0) scratch.slots[body.own_slot] = motion;
-    if (!body.has_inertia) continue;
-    scratch.wrenches[k] = body.parent_rests ? startWrench<kStatic>(body, motion)
-                                            : inertiaWrench<kStatic>(body, motion);
+    if (!body.has_inertia && body.wrench_needed) wrench = constantWrench<T>(PlainWrench<R>{});
+    if (!body.motion_needed) continue;
+    if (body.parent_rests) {
+      startBody<kStatic>(plan, body, in, scratch, arrival, wrench);
+    } else {
+      moveBody<kStatic>(plan, body, in, scratch, arrival, wrench);
+    }
   }
 }
 
@@ -109,22 +162,31 @@ VWD_INLINE void dropActive(Mobility mobility, PlainWrench<T>& wrench) {
   if (mobility == Mobility::kPrismatic) wrench.force.z = T(0);
 }
 
+template <typename T, typename R>
+VWD_INLINE Vec3<T> flipped(const ReactionOutput<R>& output, const Vec3<T>& v) {
+  return {output.sign[0] * v.x, output.sign[1] * v.y, output.sign[2] * v.z};
+}
+
 /// A reported wrench in the axes of R_KZ, as six numbers.
 template <typename T, typename R>
 VWD_INLINE void storeWrench(const ReactionOutput<R>& output, PlainWrench<T> wrench,
                             Mobility mobility, R* to, std::size_t stride) {
   if (output.drop_active) dropActive(mobility, wrench);
   if (output.permutes) {
+    if (output.flips) {
+      wrench.force = flipped(output, wrench.force);
+      wrench.torque = flipped(output, wrench.torque);
+    }
     R* const torque = to + 3 * stride;
     const std::size_t x = static_cast<std::size_t>(output.row[0]) * stride;
     const std::size_t y = static_cast<std::size_t>(output.row[1]) * stride;
     const std::size_t z = static_cast<std::size_t>(output.row[2]) * stride;
-    store(to + x, output.sign[0] * wrench.force.x);
-    store(to + y, output.sign[1] * wrench.force.y);
-    store(to + z, output.sign[2] * wrench.force.z);
-    store(torque + x, output.sign[0] * wrench.torque.x);
-    store(torque + y, output.sign[1] * wrench.torque.y);
-    store(torque + z, output.sign[2] * wrench.torque.z);
+    store(to + x, wrench.force.x);
+    store(to + y, wrench.force.y);
+    store(to + z, wrench.force.z);
+    store(torque + x, wrench.torque.x);
+    store(torque + y, wrench.torque.y);
+    store(torque + z, wrench.torque.z);
     return;
   }
   storeVector(times(output.R_KZ, wrench.force), to, stride);
@@ -154,19 +216,39 @@ VWD_INLINE void sweepIn(const PlanView<R>& plan, const KernelInputs<R>& in,
   for (int k = plan.body_count - 1; k >= 0; --k) {
     const Body<R>& body = plan.bodies[k];
     if (!body.wrench_needed) continue;
-    PlainWrench<T> wrench = scratch.wrenches[k];
+    const PlainWrench<T>& own = scratch.wrenches[k];
+    PlainWrench<T> wrench;
     if (body.takes_from_next) {
-      wrench = {wrench.force + handed.force, wrench.torque + handed.torque};
+      wrench = {own.force + handed.force, own.torque + handed.torque};
+    } else {
+      wrench = {{own.force.x, own.force.y, own.force.z},
+                {own.torque.x, own.torque.y, own.torque.z}};
     }
-    if (body.drives && out.effort) addEffort(body, wrench, out);
+    if (body.plain_wrench) {
+      if (out.effort) {
+        store(out.effort + static_cast<std::size_t>(body.coordinate) * out.stride, wrench.torque.z);
+      }
+    } else if (body.drives && out.effort) {
+      addEffort(body, wrench, out);
+    }
     if (body.child_axes >= 0 && out.child_axes) {
       storeWrench(plan.child_axes[body.child_axes], wrench, body.mobility,
                   out.child_axes + 6 * static_cast<std::size_t>(body.child_axes) * out.stride,
                   out.stride);
     }
+    if (body.plain_wrench) {
+      const JointMotion<T> joint = jointMotion<true, true>(body, in, scratch);
+      forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
+        handed = toParent<true, axis.value>(body, joint, wrench);
+      });
+      continue;
+    }
     if (body.wrench_outlives) scratch.wrenches[k] = wrench;
     if (!body.hands_on && !body.adds_to_parent) continue;
-    handed = toParent(body, jointMotion<true>(body, in, scratch), wrench);
+    const JointMotion<T> joint = jointMotion<true, false>(body, in, scratch);
+    forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
+      handed = toParent<false, axis.value>(body, joint, wrench);
+    });
     if (body.adds_to_parent) {
       PlainWrench<T>& parent = scratch.wrenches[body.parent];
       parent = {parent.force + handed.force, parent.torque + handed.torque};
@@ -198,11 +280,12 @@ VWD_INLINE void sweepPoses(const PlanView<R>& plan, const KernelInputs<R>& in,
     if (!body.pose_needed) continue;
     const BodyPose<T>& parent = scratch.poses[body.parent];
     if (out.twists) {
-      JointMotion<T> joint = jointMotion<kStatic>(body, in, scratch);
+      JointMotion<T> joint = jointMotion<kStatic, false>(body, in, scratch);
       if (kStatic) joint.qd = T(0);
       scratch.poses[k] = propagatePose<true>(body, joint, parent);
     } else {
-      scratch.poses[k] = propagatePose<false>(body, jointMotion<true>(body, in, scratch), parent);
+      scratch.poses[k] =
+          propagatePose<false>(body, jointMotion<true, false>(body, in, scratch), parent);
     }
   }
 }

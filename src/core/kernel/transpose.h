@@ -103,7 +103,7 @@ VWD_INLINE void blockToRows(const R* tile, std::size_t columns, std::size_t firs
 }
 
 /// From kWidth rows of `columns` numbers to `columns` columns of kWidth numbers. The last block of
-/// columns overlaps the one before where it must.
+/// columns overlaps the one before where it must; the tile has room for kWidth columns at least.
 template <typename R, int kWidth>
 void toColumns(const R* rows, std::size_t columns, R* tile) {
   if (columns >= kWidth) {
@@ -121,7 +121,7 @@ void toColumns(const R* rows, std::size_t columns, R* tile) {
     }
   }
   transpose(block);
-  for (std::size_t c = 0; c < columns; ++c) store(tile + c * kWidth, Pack<R, kWidth>(block[c]));
+  for (std::size_t c = 0; c < kWidth; ++c) store(tile + c * kWidth, Pack<R, kWidth>(block[c]));
 }
 
 template <typename R, int kWidth>
@@ -132,8 +132,8 @@ void toRows(const R* tile, std::size_t columns, R* rows) {
     }
     return blockToRows<R, kWidth>(tile, columns, columns - kWidth, rows);
   }
-  typename VectorOf<R, kWidth>::Type block[kWidth] = {};
-  for (std::size_t c = 0; c < columns; ++c) block[c] = load<Pack<R, kWidth>>(tile + c * kWidth).v;
+  typename VectorOf<R, kWidth>::Type block[kWidth];
+  for (std::size_t c = 0; c < kWidth; ++c) block[c] = load<Pack<R, kWidth>>(tile + c * kWidth).v;
   transpose(block);
   for (std::size_t i = 0; i < kWidth; ++i) {
     if (i * columns + kWidth <= kWidth * columns) {  // the next row is written after this one
