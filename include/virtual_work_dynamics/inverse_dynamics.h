@@ -114,8 +114,12 @@ class Workspace {
 
  private:
   friend class InverseDynamics;
+  friend class SampleBlock;
   struct Scratch;
   explicit Workspace(const InverseDynamics::Impl& plan);
+  // Takes results as they stand in rows of a ResultBlock; poses are turned into quaternions.
+  void assign(const double* effort, const double* child_axes, const double* root_axes,
+              const double* poses, const double* twists);
 
   Eigen::VectorXd effort_;
   std::vector<Wrench> child_axes_;

@@ -15,6 +15,8 @@ struct Motion {
         qd(Eigen::VectorXd::Zero(coordinates)),
         qdd(Eigen::VectorXd::Zero(coordinates)) {}
 
+  bool finite() const { return q.allFinite() && qd.allFinite() && qdd.allFinite(); }
+
   Eigen::VectorXd q;    ///< positions, rad or m
   Eigen::VectorXd qd;   ///< velocities, rad/s or m/s
   Eigen::VectorXd qdd;  ///< accelerations, rad/s^2 or m/s^2

@@ -14,8 +14,8 @@ struct PlanSummary {
   std::size_t multiplications = 0;
   std::size_t additions = 0;
   std::size_t sines_and_cosines = 0;  ///< pairs, one for each turning joint that matters
-  /// One line for each kind of thing left out, with names: "2 fixed joints merged into their
-  /// parents: tool0, ee_fixed".
+  /// One line for each kind of thing left out, with names: "fixed joints, merged into their parents
+  /// (2): tool0, ee_fixed".
   std::vector<std::string> left_out;
 
   /// The same as lines of text for a reader.

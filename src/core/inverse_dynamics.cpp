@@ -1,6 +1,6 @@
 #include "virtual_work_dynamics/inverse_dynamics.h"
 
-#include <cmath>
+#include <algorithm>
 #include <utility>
 
 #include "core/aligned_memory.h"
@@ -124,6 +124,15 @@ Workspace::Workspace(const InverseDynamics::Impl& impl)
       poses_(impl.request.poses ? impl.plan.root_axes.size() : 0),
       twists_(impl.request.twists ? impl.plan.root_axes.size() : 0),
       scratch_(new Scratch(impl)) {}
+
+void Workspace::assign(const double* effort, const double* child_axes, const double* root_axes,
+                       const double* poses, const double* twists) {
+  std::copy(effort, effort + effort_.size(), effort_.data());
+  std::copy(child_axes, child_axes + 6 * child_axes_.size(), numbersOf(child_axes_));
+  std::copy(root_axes, root_axes + 6 * root_axes_.size(), numbersOf(root_axes_));
+  std::copy(twists, twists + 6 * twists_.size(), numbersOf(twists_));
+  for (std::size_t i = 0; i < poses_.size(); ++i) poses_[i] = poseOf(poses + kPoseNumbers * i);
+}
 
 Workspace::~Workspace() = default;
 Workspace::Workspace(Workspace&&) noexcept = default;

@@ -125,7 +125,7 @@ struct LeftOut {
   std::vector<std::string> unneeded;  ///< bodies that reach no requested result
   std::vector<std::string> massless;  ///< whose wrench is zero
   std::vector<std::string> idle;      ///< whose position matters to no requested result
-  std::size_t at_rest = 0;            ///< bodies whose parent neither turns nor accelerates
+  std::vector<std::string> at_rest;   ///< whose parent neither turns nor accelerates
   bool velocity_terms = false;
   bool gravity = false;
 };

@@ -51,8 +51,9 @@ Counted cosineOf(const Counted& a) {
   return a;
 }
 
+// "what (2): name, name".
 std::string listed(const char* what, const std::vector<std::string>& names) {
-  std::string line = std::to_string(names.size()) + ' ' + what + ": ";
+  std::string line = std::string(what) + " (" + std::to_string(names.size()) + "): ";
   for (std::size_t i = 0; i < names.size(); ++i) line += (i ? ", " : "") + names[i];
   return line;
 }
@@ -63,21 +64,18 @@ std::vector<std::string> linesOf(const Plan<double>& plan) {
   const auto list = [&](const char* what, const std::vector<std::string>& names) {
     if (!names.empty()) lines.push_back(listed(what, names));
   };
-  list("fixed joints merged into their parents", out.merged);
+  list("fixed joints, merged into their parents", out.merged);
   list("joints that reach no requested result", out.unneeded);
-  list("joints that carry no inertia and no applied wrench, so that their reaction is zero",
+  list("reactions that are zero, as nothing with mass and no applied wrench hangs on them",
        out.massless);
-  list("joints whose position matters to no requested result", out.idle);
-  if (out.at_rest > 0) {
-    lines.push_back(std::to_string(out.at_rest) +
-                    " bodies on the root: the terms of its motion, which is none");
-  }
-  if (out.velocity_terms) lines.push_back("all terms of velocities and accelerations: static");
-  if (out.gravity) lines.push_back("gravity: zero");
+  list("positions that matter to no requested result", out.idle);
+  list("motion of the parent, which rests", out.at_rest);
+  if (out.velocity_terms) lines.push_back("velocities and accelerations: the scene is static");
+  if (out.gravity) lines.push_back("gravity: it is zero");
   if (!plan.efforts) lines.push_back("efforts: not requested");
   if (plan.child_axes.empty()) lines.push_back("reactions in link axes: not requested");
   if (plan.root_axes.empty()) lines.push_back("reactions in root axes: not requested");
-  if (!plan.any_pose) lines.push_back("poses of the bodies: nothing needs them");
+  if (!plan.any_pose) lines.push_back("poses: nothing requested needs them");
   return lines;
 }
 
@@ -121,7 +119,7 @@ std::vector<std::string> PlanSummary::lines() const {
   std::vector<std::string> lines = {
       "one sample: " + std::to_string(multiplications) + " multiplications, " +
       std::to_string(additions) + " additions, " + std::to_string(sines_and_cosines) +
-      " sines and cosines; " + std::to_string(bodies) + " bodies, the root among them"};
+      " sines and cosines; bodies, with the root: " + std::to_string(bodies)};
   for (const std::string& line : left_out) lines.push_back("left out: " + line);
   return lines;
 }

@@ -160,7 +160,7 @@ class Reduction {
       gamma[k] = body.gamma_rest = transposeTimes(body.R_PZ, gamma[body.parent]);
       body.rest_along_z = body.gamma_rest.x == 0 && body.gamma_rest.y == 0;
       rests[k] = body.mobility == Mobility::kFixed;
-      ++plan_.left_out.at_rest;
+      plan_.left_out.at_rest.push_back(kept_names_[k]);
     }
   }
 

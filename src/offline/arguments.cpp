@@ -1,6 +1,7 @@
 #include "offline/arguments.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <set>
@@ -16,6 +17,7 @@ constexpr char kHelp[] =
 
   inverse_dynamics_offline --urdf ROBOT.urdf --motion MOTION.csv [options]
   inverse_dynamics_offline --urdf ROBOT.urdf --check [options]
+  inverse_dynamics_offline --urdf ROBOT.urdf --explain [options]
 
 Input
   --urdf FILE           robot description
@@ -30,10 +32,14 @@ What is computed
   --axes root|child     axes of the reactions: of the root link (default) or of the child link
   --reactions LIST      all (every movable joint; the default), none, or joints separated by
                         commas; fixed joints and "ground" by name only
+  --no-efforts          reactions only
+  --threads N           divides the rows among N threads (default: 1)
 
 Output
   --output FILE         result as CSV (default: standard output); FILE is complete or not there
   --check               say what the robot is and what is doubtful about it, compute nothing
+  --explain             say what a sample costs and what is left out of its computation because
+                        nothing that is asked for needs it; compute nothing
   --help                this text
   --version             the version of the package
 
@@ -102,6 +108,15 @@ void parseReactions(const std::string& text, Arguments& arguments) {
   }
 }
 
+int parseThreads(const std::string& text) {
+  constexpr double kMost = 1024;
+  double value = 0;
+  if (!parseNumber(text, value) || value != std::floor(value) || value < 1 || value > kMost) {
+    throw UsageError("--threads: '" + text + "' is no whole number from 1 to 1024");
+  }
+  return static_cast<int>(value);
+}
+
 using Setter = std::function<void(const std::string& value, Arguments& arguments)>;
 
 const std::map<std::string, Setter>& optionsWithValue() {
@@ -115,23 +130,19 @@ const std::map<std::string, Setter>& optionsWithValue() {
       {"--axes",
        [](const auto& value, auto& arguments) { arguments.child_axes = parseChildAxes(value); }},
       {"--reactions", parseReactions},
+      {"--threads",
+       [](const auto& value, auto& arguments) { arguments.threads = parseThreads(value); }},
   };
   return options;
 }
 
 const std::map<std::string, bool Arguments::*>& switches() {
   static const std::map<std::string, bool Arguments::*> options{
-      {"--check", &Arguments::check},
-      {"--help", &Arguments::help},
+      {"--check", &Arguments::check},     {"--explain", &Arguments::explain},
+      {"--help", &Arguments::help},       {"--no-efforts", &Arguments::no_efforts},
       {"--version", &Arguments::version},
   };
   return options;
-}
-
-void refuseReserved(const std::string& option) {
-  if (option == "--explain" || option == "--threads") {
-    throw UsageError(option + " is not available yet");
-  }
 }
 
 // Goes through the words of a command line.
@@ -150,7 +161,6 @@ class Parser {
     const std::size_t equals = word.find('=');
     const std::string option = word.substr(0, equals);
     const bool has_value = equals != std::string::npos;
-    refuseReserved(option);
     const auto with_value = optionsWithValue().find(option);
     const auto without_value = switches().find(option);
     if (with_value == optionsWithValue().end() && without_value == switches().end()) {
@@ -188,8 +198,8 @@ Arguments parseArguments(const std::vector<std::string>& words) {
   const Arguments arguments = Parser(words).parse();
   if (arguments.help || arguments.version) return arguments;
   if (arguments.urdf.empty()) throw UsageError("--urdf FILE is missing");
-  if (arguments.motion.empty() && !arguments.check) {
-    throw UsageError("--motion FILE is missing (it may be left out with --check only)");
+  if (arguments.motion.empty() && !arguments.check && !arguments.explain) {
+    throw UsageError("--motion FILE is missing (only --check and --explain need none)");
   }
   return arguments;
 }

@@ -26,7 +26,10 @@ struct Arguments {
   bool child_axes = false;                 ///< reactions in child link axes rather than root axes
   std::optional<ReactionSelection> reactions;  ///< instead of the scene's
   std::vector<std::string> reaction_names;     ///< of ReactionSelection::kNamed
+  bool no_efforts = false;
+  int threads = 1;
   bool check = false;
+  bool explain = false;
   bool help = false;  ///< nothing behind --help or --version is looked at
   bool version = false;
 };

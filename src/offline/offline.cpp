@@ -18,6 +18,7 @@
 #include "virtual_work_dynamics/motion_completion.h"
 #include "virtual_work_dynamics/motion_csv.h"
 #include "virtual_work_dynamics/number_text.h"
+#include "virtual_work_dynamics/sample_block.h"
 #include "virtual_work_dynamics/scene_reader.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
@@ -26,6 +27,8 @@ namespace {
 
 // Times may be known this coarsely, in parts of their mean spacing, before estimates suffer.
 constexpr double kFineTimes = 1e-6;
+// Rows of a thread between two hand-overs.
+constexpr std::size_t kRowsAtOnce = 512;
 
 struct MotionFile {
   MotionTable table;
@@ -42,9 +45,11 @@ Scene loadScene(const Arguments& arguments) {
   return scene;
 }
 
-Request requestOf(const Mechanism& mechanism, const Scene& scene, bool child_axes) {
+Request requestOf(const Mechanism& mechanism, const Scene& scene, const Arguments& arguments) {
   Request request;
-  (child_axes ? request.child_axes : request.root_axes) = requestedReactions(mechanism, scene);
+  request.efforts = !arguments.no_efforts;
+  (arguments.child_axes ? request.child_axes : request.root_axes) =
+      requestedReactions(mechanism, scene);
   return request;
 }
 
@@ -133,34 +138,30 @@ void complete(const std::string& path, const Mechanism& mechanism, const Scene& 
   std::cerr << "note: " << path << ": estimated from the rows around each row: " << missing << "\n";
 }
 
-void takeRow(const MotionTable& table, Eigen::Index row, Motion& motion) {
-  if (table.joints.empty()) return;
-  motion.q = table.positions.row(row).transpose();
-  motion.qd = table.velocities.row(row).transpose();
-  motion.qdd = table.accelerations.row(row).transpose();
-}
-
-void compute(const InverseDynamics& dynamics, const MotionFile& file, const std::string& path,
+void compute(const InverseDynamics& dynamics, const MotionFile& file, const Arguments& arguments,
              ResultWriter& writer) {
-  Workspace workspace = dynamics.makeWorkspace();
-  Motion motion(dynamics.coordinates());
+  SampleBlock block(dynamics, kRowsAtOnce * static_cast<std::size_t>(arguments.threads),
+                    arguments.threads);
+  Workspace results = dynamics.makeWorkspace();
   const std::size_t rows = file.table.times.size();
   std::size_t overflowed = 0;
   std::size_t first_line = 0;
   {
     Progress progress(std::cerr, isatty(STDERR_FILENO) == 1);
-    for (std::size_t row = 0; row < rows; ++row) {
-      takeRow(file.table, static_cast<Eigen::Index>(row), motion);
-      dynamics.compute(motion, workspace);
-      if (!workspace.finite() && ++overflowed == 1) first_line = file.lines[row];
-      const bool child_axes = !dynamics.request().child_axes.empty();
-      writer.writeRow(file.table.times[row], workspace.effort(),
-                      child_axes ? workspace.childAxes() : workspace.rootAxes());
-      progress.update(row + 1, rows);
+    for (std::size_t first = 0; first < rows; first += block.capacity()) {
+      const std::size_t count = std::min(block.capacity(), rows - first);
+      block.compute(file.table, first, count);
+      for (std::size_t i = 0; i < count; ++i) {
+        block.read(i, results);
+        if (!results.finite() && ++overflowed == 1) first_line = file.lines[first + i];
+        writer.writeRow(file.table.times[first + i], results.effort(),
+                        arguments.child_axes ? results.childAxes() : results.rootAxes());
+        progress.update(first + i + 1, rows);
+      }
     }
   }
   if (overflowed == 0) return;
-  std::cerr << "warning: " << path << ": results of " << overflowed << " row"
+  std::cerr << "warning: " << arguments.motion << ": results of " << overflowed << " row"
             << (overflowed == 1 ? "" : "s") << " overflow, first of line " << first_line
             << "; their cells are empty\n";
 }
@@ -178,8 +179,7 @@ void check(const Arguments& arguments, const Mechanism& mechanism) {
   printDoubts(std::cout, mechanism);
   std::cout << std::flush;  // before what is wrong ends up on the other stream
   const Scene scene = loadScene(arguments);
-  const InverseDynamics dynamics(mechanism, scene,
-                                 requestOf(mechanism, scene, arguments.child_axes));
+  const InverseDynamics dynamics(mechanism, scene, requestOf(mechanism, scene, arguments));
   printReactions(dynamics.request());
   std::cout << std::flush;
   if (!arguments.motion.empty()) {
@@ -195,24 +195,34 @@ void check(const Arguments& arguments, const Mechanism& mechanism) {
   std::cout << "The robot can run.\n" << std::flush;
 }
 
+void explain(const Arguments& arguments, const Mechanism& mechanism) {
+  const Scene scene = loadScene(arguments);
+  const InverseDynamics dynamics(mechanism, scene, requestOf(mechanism, scene, arguments));
+  for (const std::string& line : dynamics.summary().lines()) std::cout << line << "\n";
+  std::cout << std::flush;
+}
+
 }  // namespace
 
 void runOffline(const Arguments& arguments) {
   refuseToOverwriteInput(arguments);
   const Mechanism mechanism = readUrdfFile(arguments.urdf);
-  if (arguments.check) return check(arguments, mechanism);
+  if (arguments.check) check(arguments, mechanism);
+  if (arguments.explain) explain(arguments, mechanism);
+  if (arguments.check || arguments.explain) return;
   printDoubts(std::cerr, mechanism);
   const Scene scene = loadScene(arguments);
-  const InverseDynamics dynamics(mechanism, scene,
-                                 requestOf(mechanism, scene, arguments.child_axes));
+  const InverseDynamics dynamics(mechanism, scene, requestOf(mechanism, scene, arguments));
   const Request& request = dynamics.request();
-  const std::string header = resultHeader(
-      mechanism.coordinateNames(), arguments.child_axes ? request.child_axes : request.root_axes);
+  const std::vector<std::string> no_names;
+  const std::string header =
+      resultHeader(request.efforts ? mechanism.coordinateNames() : no_names,
+                   arguments.child_axes ? request.child_axes : request.root_axes);
   MotionFile motion = readMotion(arguments.motion, mechanism);
   complete(arguments.motion, mechanism, scene, motion);
   OutputFile file(arguments.output);
   ResultWriter writer(file, header);
-  compute(dynamics, motion, arguments.motion, writer);
+  compute(dynamics, motion, arguments, writer);
   writer.finish();
 }
 

@@ -4,6 +4,10 @@
 
 namespace virtual_work_dynamics {
 
+namespace {
+constexpr std::size_t kPointsAtOnce = 64;
+}
+
 Request requestFor(const Audience& audience, const std::vector<std::string>& joints, bool twist) {
   Request request;
   request.efforts = audience.effort || audience.trajectory;
@@ -16,7 +20,8 @@ Request requestFor(const Audience& audience, const std::vector<std::string>& joi
   return request;
 }
 
-std::string describe(const Request& request) {
+std::string describe(const InverseDynamics& dynamics) {
+  const Request& request = dynamics.request();
   std::string text;
   const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
   if (request.efforts) add("efforts");
@@ -28,7 +33,10 @@ std::string describe(const Request& request) {
   }
   if (request.poses) add("poses");
   if (request.twists) add("twists");
-  return text.empty() ? "nothing" : text;
+  if (text.empty()) return "nothing";
+  const PlanSummary summary = dynamics.summary();
+  return text + "; " + std::to_string(summary.multiplications) + " multiplications and " +
+         std::to_string(summary.additions) + " additions a sample";
 }
 
 ActivePlan::ActivePlan(const Mechanism& mechanism, const Scene& scene, const Request& request,
@@ -36,6 +44,7 @@ ActivePlan::ActivePlan(const Mechanism& mechanism, const Scene& scene, const Req
     : audience(std::move(who)),
       dynamics(mechanism, scene, request),
       results(dynamics.makeWorkspace()),
+      points(dynamics, kPointsAtOnce),
       messages(mechanism, request, frame_prefix) {}
 
 }  // namespace virtual_work_dynamics

@@ -5,6 +5,7 @@
 
 #include "ros/output_messages.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
+#include "virtual_work_dynamics/sample_block.h"
 
 namespace virtual_work_dynamics {
 
@@ -27,8 +28,8 @@ struct Audience {
 /// @param joints whose reactions the scene asks for.
 Request requestFor(const Audience& audience, const std::vector<std::string>& joints, bool twist);
 
-/// One line for the user.
-std::string describe(const Request& request);
+/// One line for the user: what is computed, and its operations.
+std::string describe(const InverseDynamics& dynamics);
 
 /// An audience compiled: plan, memory and messages that belong together, so that whatever is
 /// published from one of these is complete.
@@ -40,6 +41,7 @@ struct ActivePlan {
   Audience audience;
   InverseDynamics dynamics;
   Workspace results;
+  SampleBlock points;  ///< of trajectories
   OutputMessages messages;
 };
 

@@ -41,16 +41,6 @@ EstimatorSettings checkedSettings(const Mechanism& mechanism, EstimatorSettings 
   return settings;
 }
 
-std::string stampText(std::int64_t stamp_ns) {
-  std::string fraction = std::to_string(stamp_ns % 1000000000);
-  fraction.insert(0, 9 - fraction.size(), '0');
-  return std::to_string(stamp_ns / 1000000000) + "." + fraction;
-}
-
-bool isFinite(const Motion& motion) {
-  return motion.q.allFinite() && motion.qd.allFinite() && motion.qdd.allFinite();
-}
-
 }  // namespace
 
 InverseDynamicsNode::Task::Task(const InverseDynamicsParameters& parameters)
@@ -63,8 +53,7 @@ InverseDynamicsNode::Task::Task(const InverseDynamicsParameters& parameters)
     throw UrdfError("parameter " + parameters.robot_description_key + ": robot '" +
                     mechanism.name() + "' has no joint that moves");
   }
-  // Compiled only for what it throws.
-  const InverseDynamics everything(mechanism, scene);
+  plan_lines = InverseDynamics(mechanism, scene).summary().lines();
 }
 
 InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parameters)
@@ -128,6 +117,10 @@ void InverseDynamicsNode::logSummary(const InverseDynamicsParameters& parameters
       task_.reactions.empty() ? "none" : shortList(task_.reactions).c_str(),
       numberText(g.x()).c_str(), numberText(g.y()).c_str(), numberText(g.z()).c_str(),
       accelerations.c_str(), parameters.scene_given ? "scene from ~scene" : "default scene");
+  std::string plan;
+  for (const std::string& line : task_.plan_lines) plan += (plan.empty() ? "" : "\n  ") + line;
+  ROS_INFO("With subscribers to everything (%s instructions): %s",
+           toString(chosenInstructionSet()).c_str(), plan.c_str());
 }
 
 // One message that cannot be dealt with, for want of memory say, does not end the node.
@@ -218,12 +211,16 @@ void InverseDynamicsNode::evaluate(ros::Time receipt) {
 }
 
 bool InverseDynamicsNode::compute(ActivePlan& plan, std::int64_t stamp_ns) {
-  if (!isFinite(motion_)) return false;
+  if (!motion_.finite()) return false;
   const auto start = Clock::now();
   plan.dynamics.compute(motion_, plan.results);
   const auto end = Clock::now();
   counters_.run_times.record(
       std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count());
+  return fillMessages(plan, stamp_ns);
+}
+
+bool InverseDynamicsNode::fillMessages(ActivePlan& plan, std::int64_t stamp_ns) {
   if (!plan.results.finite()) return false;
   plan.messages.fill(stamp_ns, motion_, plan.results);
   return true;
@@ -277,7 +274,8 @@ void InverseDynamicsNode::respond(ActivePlan& plan,
                             trajectory_.table.positions.cols());
     bool complete = true;
     for (std::size_t i = 0; i < points; ++i) {
-      if (!compute(plan, trajectory_, i)) {
+      if (i % plan.points.capacity() == 0) computePoints(plan, i);
+      if (!readPoint(plan, i)) {
         complete = false;
         continue;
       }
@@ -305,8 +303,7 @@ void InverseDynamicsNode::playDue() {
   if (played_.empty()) player_.stop();
 }
 
-bool InverseDynamicsNode::compute(ActivePlan& plan, const TrajectoryMotion& trajectory,
-                                  std::size_t point) {
+void InverseDynamicsNode::takePoint(const TrajectoryMotion& trajectory, std::size_t point) {
   const MotionTable& table = trajectory.table;
   const auto row = static_cast<Eigen::Index>(point);
   motion_.q = table.positions.row(row);
@@ -314,9 +311,36 @@ bool InverseDynamicsNode::compute(ActivePlan& plan, const TrajectoryMotion& traj
   motion_.qdd = table.accelerations.row(row);
   if (task_.scene.static_motion) motion_.qd.setZero();
   counters_.points.add();
-  if (compute(plan, trajectory.stamps_ns[point])) return true;
+}
+
+void InverseDynamicsNode::dropPoint(std::size_t point) {
   drop(trajectory_subscriber_.getTopic(), DropReason::kOverflow,
        "not finite at point " + std::to_string(point + 1));
+}
+
+bool InverseDynamicsNode::compute(ActivePlan& plan, const TrajectoryMotion& trajectory,
+                                  std::size_t point) {
+  takePoint(trajectory, point);
+  if (compute(plan, trajectory.stamps_ns[point])) return true;
+  dropPoint(point);
+  return false;
+}
+
+void InverseDynamicsNode::computePoints(ActivePlan& plan, std::size_t first) {
+  const std::size_t count = std::min(plan.points.capacity(), trajectory_.stamps_ns.size() - first);
+  const auto start = Clock::now();
+  plan.points.compute(trajectory_.table, first, count);
+  const auto end = Clock::now();
+  const auto share = std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count() /
+                     static_cast<std::int64_t>(count);
+  for (std::size_t i = 0; i < count; ++i) counters_.run_times.record(share);
+}
+
+bool InverseDynamicsNode::readPoint(ActivePlan& plan, std::size_t point) {
+  takePoint(trajectory_, point);
+  plan.points.read(point % plan.points.capacity(), plan.results);
+  if (motion_.finite() && fillMessages(plan, trajectory_.stamps_ns[point])) return true;
+  dropPoint(point);
   return false;
 }
 
@@ -353,7 +377,7 @@ void InverseDynamicsNode::adaptPlan() {
   if (audience == audience_) return;
   try {
     std::unique_ptr<ActivePlan> plan = compile(audience);
-    diagnostics_.setPlan(outputs_.names(audience), describe(plan->dynamics.request()));
+    diagnostics_.setPlan(outputs_.names(audience), describe(plan->dynamics));
     plans_.offer(std::move(plan));
     audience_ = audience;
   } catch (const std::exception& error) {

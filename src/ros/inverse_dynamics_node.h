@@ -53,6 +53,7 @@ class InverseDynamicsNode {
     Scene scene;
     std::vector<std::string> reactions;        ///< joints whose reaction the scene asks for
     std::vector<std::string> reaction_topics;  ///< their topics
+    std::vector<std::string> plan_lines;       ///< PlanSummary of everything the scene asks for
     EstimatorSettings estimator;
   };
 
@@ -68,8 +69,15 @@ class InverseDynamicsNode {
   void take(const trajectory_msgs::JointTrajectory& message, ros::Time receipt);
   void respond(ActivePlan& plan, const trajectory_msgs::JointTrajectory& message);
   void playDue();
+  // One sample, or one point; false, and said why, when its results are not finite.
   bool compute(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t point);
   bool compute(ActivePlan& plan, std::int64_t stamp_ns);
+  // As many points of trajectory_ from `first` on as the plan takes at once; then one of them.
+  void computePoints(ActivePlan& plan, std::size_t first);
+  bool readPoint(ActivePlan& plan, std::size_t point);
+  void takePoint(const TrajectoryMotion& trajectory, std::size_t point);
+  bool fillMessages(ActivePlan& plan, std::int64_t stamp_ns);
+  void dropPoint(std::size_t point);
   void drop(const std::string& topic, DropReason reason, const std::string& text);
 
   // The node's own thread.

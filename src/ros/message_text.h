@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace virtual_work_dynamics {
@@ -16,6 +17,13 @@ std::string shortList(const Names& names) {
     text += (count++ == 0 ? "" : ", ") + name;
   }
   return text;
+}
+
+/// Seconds with all nine decimals.
+inline std::string stampText(std::int64_t stamp_ns) {
+  std::string fraction = std::to_string(stamp_ns % 1000000000);
+  fraction.insert(0, 9 - fraction.size(), '0');
+  return std::to_string(stamp_ns / 1000000000) + "." + fraction;
 }
 
 }  // namespace virtual_work_dynamics

@@ -70,7 +70,7 @@ TEST_F(OfflineToolErrors, WrongUsageIsToldWithAHint) {
   const std::string good = "--urdf p.urdf --motion m.csv --output r.csv ";
   EXPECT_EQ(usage(""), "--urdf FILE is missing");
   EXPECT_EQ(usage("--urdf p.urdf"),
-            "--motion FILE is missing (it may be left out with --check only)");
+            "--motion FILE is missing (only --check and --explain need none)");
   EXPECT_EQ(usage(good + "--gravitiy '0 0 0'"), "unknown option '--gravitiy'");
   EXPECT_EQ(usage(good + "extra"), "unexpected argument 'extra'");
   EXPECT_EQ(usage(good + "--motion=n.csv"), "--motion is given twice");
@@ -89,11 +89,20 @@ TEST_F(OfflineToolErrors, WrongUsageIsToldWithAHint) {
             "--reactions: there is an empty name in 'hinge,,ground'");
 }
 
-TEST_F(OfflineToolErrors, OptionsOfLaterVersionsAreRefused) {
+TEST_F(OfflineToolErrors, ThreadsAreAWholeNumber) {
   const std::string good = "--urdf p.urdf --motion m.csv --output r.csv ";
-  EXPECT_EQ(usage(good + "--explain"), "--explain is not available yet");
-  EXPECT_EQ(usage(good + "--threads 4"), "--threads is not available yet");
-  EXPECT_EQ(usage(good + "--threads=4"), "--threads is not available yet");
+  for (const std::string text : {"0", "-1", "1.5", "two", "1025", "nan"}) {
+    EXPECT_EQ(usage(good + "--threads=" + text),
+              "--threads: '" + text + "' is no whole number from 1 to 1024");
+  }
+  EXPECT_EQ(usage(good + "--explain=yes"), "--explain takes no value");
+}
+
+TEST_F(OfflineToolErrors, AnUnknownInstructionSetIsNamed) {
+  write("p.urdf", kPendulum);
+  const Run result = run("--urdf p.urdf --explain", "VIRTUAL_WORK_DYNAMICS_INSTRUCTION_SET=mmx");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_TRUE(contains(result.err, "'mmx' is none of baseline, avx2, avx512")) << result.err;
 }
 
 TEST_F(OfflineToolErrors, AnInputIsNeverOverwritten) {
