@@ -16,7 +16,7 @@ constexpr char kEffortsAndReactions[] = "efforts+reactions";
 /// What is timed, in the words of the result table.
 struct Label {
   std::string method;     ///< "virtual_work", "kdl_chain", ...
-  std::string precision;  ///< "double", "float", "long double"
+  std::string precision;  ///< "double", "float", "long_double"
   std::string mode;       ///< "single" or "block_<layout>_<instruction set>"
   std::string outputs;    ///< kEfforts or kEffortsAndReactions
   int threads = 1;

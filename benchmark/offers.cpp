@@ -12,6 +12,7 @@ std::vector<Offer> offersFor(const BenchmarkScene& scene) {
   offerDart(scene, offers);
 #endif
   offerOwnSingle(scene, offers);
+  offerOwnLongDouble(scene, offers);
   offerOwnBlocks(scene, offers);
   return offers;
 }

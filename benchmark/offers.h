@@ -10,6 +10,8 @@ namespace virtual_work_dynamics {
 
 /// One sample after another by InverseDynamics.
 void offerOwnSingle(const BenchmarkScene& scene, std::vector<Offer>& offers);
+/// The same recursion on long double.
+void offerOwnLongDouble(const BenchmarkScene& scene, std::vector<Offer>& offers);
 /// Blocks of samples by BlockInverseDynamics: in each layout, by each build that this machine runs,
 /// by one thread and by two.
 void offerOwnBlocks(const BenchmarkScene& scene, std::vector<Offer>& offers);

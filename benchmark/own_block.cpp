@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "offers.h"
 #include "own_request.h"
 #include "virtual_work_dynamics/block.h"
@@ -8,20 +6,17 @@ namespace virtual_work_dynamics {
 namespace {
 
 // Arrays of a block stay in a core's second-level cache: fewer samples for long chains, down to the
-// widest vector's.
-constexpr std::size_t kMostSamples = 1024;
-constexpr std::size_t kLeastSamples = 16;
+// widest vector's. Counts are odd multiples of the states: see BlockLayout on powers of two.
+constexpr std::size_t kMostRounds = 63;
 constexpr std::size_t kCacheBytes = std::size_t(1) << 20;
-// Waking up a thread takes microseconds, so that threads are for long blocks only.
-constexpr std::size_t kLongerForThreads = 8;
 
 template <typename Real>
 std::size_t samplesOf(std::size_t numbers_in_sample, int threads) {
-  std::size_t samples = kMostSamples;
-  while (samples > kLeastSamples && samples * numbers_in_sample * sizeof(Real) > kCacheBytes) {
-    samples /= 2;
+  std::size_t rounds = kMostRounds;
+  while (rounds > 1 && rounds * kStates * numbers_in_sample * sizeof(Real) > kCacheBytes) {
+    rounds = (rounds - 1) / 2;
   }
-  return threads > 1 ? samples * kLongerForThreads : samples;
+  return rounds * kStates * static_cast<std::size_t>(threads);
 }
 
 // One array of `width` numbers for each sample in the given layout.

@@ -15,13 +15,14 @@ run_packages=(
 )
 test_packages=(
   "${run_packages[@]}"
-  binutils catkin-lint clang-format-14 libgtest-dev librostest-dev locales
+  binutils catkin-lint clang-format-14 libbenchmark-dev libgtest-dev liborocos-kdl-dev
+  librostest-dev locales
   python3-numpy python3-rostest
 )
 demo_packages=("${run_packages[@]}" python3-matplotlib)
 rviz_packages=("${run_packages[@]}" python3-yaml rviz)
 benchmark_packages=(
-  libbenchmark-dev libdart-dev libmujoco-dev liborocos-kdl-dev valgrind
+  libbenchmark-dev libdart-dev libmujoco-dev liborocos-kdl-dev python3-matplotlib valgrind
 )
 
 usage() {

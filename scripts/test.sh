@@ -7,8 +7,8 @@ usage() {
 Usage: scripts/test.sh [--no-install]
 
 Builds with warnings as errors and runs: unit tests, tests through ROS, the core's tests under the
-address and undefined-behaviour sanitizers, the format check, catkin_lint, and a check that the core
-library links nothing of ROS. Each check counts like a test. Results are in build/test_results/.
+address and undefined-behaviour sanitizers, the measurements' agreement with other libraries, the
+format check, catkin_lint, and a check that the core library links nothing of ROS. Each check counts like a test. Results are in build/test_results/.
   --no-install  do not install packages first
 END
 }
@@ -66,6 +66,17 @@ sanitized_core_tests() {
       --gtest_output="xml:$results/sanitized_core_tests.junit/core_tests.xml")
 }
 
+# Every contender of a scene is compared with the reference before it is timed.
+contenders_agree() {
+  local build=$repository/build/checked_benchmark
+  local scenes=(--scene pendulum --scene six_axis_arm --scene chain_10)
+  cmake -S . -B "$build" -DVWD_CORE_ONLY=ON -DVWD_BUILD_BENCHMARKS=ON \
+    -DVWD_WARNINGS_AS_ERRORS=ON -DBUILD_TESTING=OFF &&
+    cmake --build "$build" -- -j"${JOBS:-$(nproc)}" &&
+    "$build/benchmark/work_precision" --quick --rounds 1 "${scenes[@]}" \
+      --output "$results/work_precision.csv"
+}
+
 format() {
   command -v clang-format-14 >/dev/null || { echo "clang-format-14 is missing"; return 1; }
   find include src test benchmark -name '*.h' -o -name '*.cpp' | sort |
@@ -98,6 +109,7 @@ if check build_without_warnings build; then
   check core_links_no_ros core_links_no_ros || true
 fi
 check sanitized_core_tests sanitized_core_tests || true
+check contenders_agree contenders_agree || true
 check format format || true
 check catkin_lint lint || true
 

@@ -8,7 +8,9 @@
 
 namespace virtual_work_dynamics {
 
-/// How the arrays of a block of N samples of C numbers lie in memory.
+/// How the arrays of a block of N samples of C numbers lie in memory. Columns whose distance is a
+/// multiple of 4096 bytes, as with 1024 doubles, compete for the same places in the caches: other
+/// numbers of samples are faster.
 enum class BlockLayout {
   kStructureOfArrays,  ///< number c of sample n at [c * N + n]
   kRowMajor            ///< number c of sample n at [n * C + c]

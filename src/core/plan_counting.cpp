@@ -44,10 +44,7 @@ Counted operator*(double a, const Counted& b) {
 Counted operator*(const Counted& a, double b) {
   return a * Counted(b);
 }
-Counted sineOf(const Counted& a) {
-  return a;
-}
-Counted cosineOf(const Counted& a) {
+Counted uncounted(const Counted& a) {
   return a;
 }
 
@@ -103,7 +100,7 @@ PlanSummary summarize(const Plan<double>& plan) {
                                      plan.twists ? twists.data() : nullptr,
                                      1};
   counted = {};
-  plainAngles(view, in, scratch);
+  plainAngles(view, in, scratch, uncounted, uncounted);
   evaluate(view, in, out, scratch);
 
   PlanSummary summary;

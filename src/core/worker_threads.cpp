@@ -1,5 +1,6 @@
 #include "core/worker_threads.h"
 
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -7,28 +8,48 @@
 
 namespace virtual_work_dynamics {
 
+namespace {
+
+// A thread that waits looks this often before it sleeps: some tens of microseconds, in which the
+// next of a series of blocks arrives.
+constexpr int kLooks = 2000;
+
+template <typename Condition>
+bool happensSoon(Condition condition) {
+  for (int i = 0; i < kLooks; ++i) {
+    if (condition()) return true;
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
+#endif
+  }
+  return false;
+}
+
+}  // namespace
+
 struct WorkerThreads::Shared {
   std::mutex mutex;
   std::condition_variable start;
   std::condition_variable done;
   Work work = nullptr;
   void* context = nullptr;
-  unsigned round = 0;  // grows by one with each run()
-  int working = 0;
-  bool stop = false;
+  std::atomic<unsigned> round{0};  // grows by one with each run()
+  std::atomic<int> working{0};
+  std::atomic<bool> stop{false};
   std::vector<std::thread> threads;
 
   void serve(int index) {
-    unsigned seen = 0;
-    std::unique_lock<std::mutex> lock(mutex);
-    while (true) {
-      start.wait(lock, [&] { return stop || round != seen; });
+    for (unsigned seen = 0;; ++seen) {
+      const auto called = [&] { return stop || round != seen; };
+      if (!happensSoon(called)) {
+        std::unique_lock<std::mutex> lock(mutex);
+        start.wait(lock, called);
+      }
       if (stop) return;
-      seen = round;
-      lock.unlock();
       work(context, index);
-      lock.lock();
-      if (--working == 0) done.notify_one();
+      if (--working > 0) continue;
+      const std::lock_guard<std::mutex> lock(mutex);  // between run()'s look and its sleep
+      done.notify_one();
     }
   }
 
@@ -68,8 +89,10 @@ void WorkerThreads::run(Work work, void* context) {
   }
   shared_->start.notify_all();
   work(context, 0);
+  const auto finished = [&] { return shared_->working == 0; };
+  if (happensSoon(finished)) return;
   std::unique_lock<std::mutex> lock(shared_->mutex);
-  shared_->done.wait(lock, [&] { return shared_->working == 0; });
+  shared_->done.wait(lock, finished);
 }
 
 }  // namespace virtual_work_dynamics

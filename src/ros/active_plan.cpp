@@ -20,8 +20,7 @@ Request requestFor(const Audience& audience, const std::vector<std::string>& joi
   return request;
 }
 
-std::string describe(const InverseDynamics& dynamics) {
-  const Request& request = dynamics.request();
+std::string describe(const Request& request) {
   std::string text;
   const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
   if (request.efforts) add("efforts");
@@ -33,10 +32,15 @@ std::string describe(const InverseDynamics& dynamics) {
   }
   if (request.poses) add("poses");
   if (request.twists) add("twists");
-  if (text.empty()) return "nothing";
+  return text.empty() ? "nothing" : text;
+}
+
+std::string operationsOf(const InverseDynamics& dynamics) {
   const PlanSummary summary = dynamics.summary();
-  return text + "; " + std::to_string(summary.multiplications) + " multiplications and " +
-         std::to_string(summary.additions) + " additions a sample";
+  if (summary.multiplications + summary.additions == 0) return "";
+  return std::to_string(summary.multiplications) + " multiplications, " +
+         std::to_string(summary.additions) + " additions, " +
+         std::to_string(summary.sines_and_cosines) + " sines and cosines";
 }
 
 ActivePlan::ActivePlan(const Mechanism& mechanism, const Scene& scene, const Request& request,

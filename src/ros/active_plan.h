@@ -28,8 +28,11 @@ struct Audience {
 /// @param joints whose reactions the scene asks for.
 Request requestFor(const Audience& audience, const std::vector<std::string>& joints, bool twist);
 
-/// One line for the user: what is computed, and its operations.
-std::string describe(const InverseDynamics& dynamics);
+/// One line for the user.
+std::string describe(const Request& request);
+
+/// One line for the user: what a sample costs. Empty when nothing is computed.
+std::string operationsOf(const InverseDynamics& dynamics);
 
 /// An audience compiled: plan, memory and messages that belong together, so that whatever is
 /// published from one of these is complete.

@@ -36,11 +36,13 @@ Diagnostics::Diagnostics(const Counters& counters_read, RunTimeHistogram& run_ti
   updater_.add("inverse dynamics", this, &Diagnostics::report);
 }
 
-void Diagnostics::setPlan(const std::vector<std::string>& outputs, const std::string& plan) {
+void Diagnostics::setPlan(const std::vector<std::string>& outputs, const std::string& plan,
+                          const std::string& operations) {
   outputs_.clear();
   for (const std::string& output : outputs) outputs_ += (outputs_.empty() ? "" : ", ") + output;
   if (outputs.empty()) outputs_ = "none";
   plan_ = plan;
+  operations_ = operations;
 }
 
 void Diagnostics::update(JointWatch::Clock::time_point now) {
@@ -87,6 +89,7 @@ void Diagnostics::report(DiagnosticStatusWrapper& status) {
   status.add("joints waited for", missing.empty() ? "none" : shortList(missing));
   status.add("subscribed outputs", outputs_);
   status.add("computed", plan_);
+  if (!operations_.empty()) status.add("operations a sample", operations_);
   before_ = now;
 }
 

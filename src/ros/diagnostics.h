@@ -20,7 +20,8 @@ class Diagnostics {
               const std::string& robot, double period);
 
   /// What the node is at: the subscribed outputs and what they make it compute.
-  void setPlan(const std::vector<std::string>& outputs, const std::string& plan);
+  void setPlan(const std::vector<std::string>& outputs, const std::string& plan,
+               const std::string& operations);
 
   /// Publishes when the period is over.
   void update(JointWatch::Clock::time_point now);
@@ -54,6 +55,7 @@ class Diagnostics {
   Before before_;
   RunTimeHistogram::Summary latest_run_times_;
   std::string outputs_ = "none";
+  std::string operations_;
   std::string plan_ = "nothing";
   diagnostic_updater::Updater updater_;
 };

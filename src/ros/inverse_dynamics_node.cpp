@@ -331,9 +331,8 @@ void InverseDynamicsNode::computePoints(ActivePlan& plan, std::size_t first) {
   const auto start = Clock::now();
   plan.points.compute(trajectory_.table, first, count);
   const auto end = Clock::now();
-  const auto share = std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count() /
-                     static_cast<std::int64_t>(count);
-  for (std::size_t i = 0; i < count; ++i) counters_.run_times.record(share);
+  const std::chrono::nanoseconds share = (end - start) / count;
+  for (std::size_t i = 0; i < count; ++i) counters_.run_times.record(share.count());
 }
 
 bool InverseDynamicsNode::readPoint(ActivePlan& plan, std::size_t point) {
@@ -377,7 +376,8 @@ void InverseDynamicsNode::adaptPlan() {
   if (audience == audience_) return;
   try {
     std::unique_ptr<ActivePlan> plan = compile(audience);
-    diagnostics_.setPlan(outputs_.names(audience), describe(plan->dynamics));
+    diagnostics_.setPlan(outputs_.names(audience), describe(plan->dynamics.request()),
+                         operationsOf(plan->dynamics));
     plans_.offer(std::move(plan));
     audience_ = audience;
   } catch (const std::exception& error) {

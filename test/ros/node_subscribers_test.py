@@ -54,6 +54,7 @@ class Subscribers(NodeTest):
         values = self.settled()
         self.assertEqual(values['samples computed'], '0')
         self.assertEqual(values['computed'], 'nothing')
+        self.assertNotIn('operations a sample', values)
         self.assertFalse([key for key in values if key.startswith('run time')])
         values = self.node.wait_for_count('samples nobody listened for', self.sent - WINDOW + 1)
         self.assertEqual(values['samples computed'], '0')
@@ -62,7 +63,9 @@ class Subscribers(NodeTest):
         computed = 0
         for topic, (kind, work) in WORK.items():
             recorder = self.node.record(topic, kind)
-            self.assertEqual(self.node.wait_for_plan(topic)['computed'], work)
+            values = self.node.wait_for_plan(topic)
+            self.assertEqual(values['computed'], work)
+            self.assertRegex(values['operations a sample'], r'^[1-9]\d* multiplications, ')
             start = self.sent
             self.publish(WINDOW)
             # The first topic waits for a window, the others find it full.

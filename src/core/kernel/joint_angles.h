@@ -52,15 +52,15 @@ VWD_INLINE void sampleAngles(const PlanView<R>& plan, const KernelInputs<R>& in,
   }
 }
 
-/// The same for number types that know their own sine and cosine.
-template <typename T, typename R>
+/// The same for other number types, by functions of their own.
+template <typename T, typename R, typename Function>
 VWD_INLINE void plainAngles(const PlanView<R>& plan, const KernelInputs<R>& in,
-                            const Scratch<T, R>& scratch) {
+                            const Scratch<T, R>& scratch, Function sine_of, Function cosine_of) {
   for (int i = 0; i < plan.angle_count; ++i) {
     const JointPosition<R>& joint = plan.angles[i];
     const T angle = positionOf<T>(joint, in);
-    scratch.cosines[i] = cosineOf(angle);
-    scratch.sines[i] = sineOf(angle);
+    scratch.cosines[i] = cosine_of(angle);
+    scratch.sines[i] = sine_of(angle);
     if (joint.turned) {
       turnByPhase(joint.phase_cos, joint.phase_sin, scratch.cosines[i], scratch.sines[i]);
     }

@@ -1,0 +1,77 @@
+# The package beside other libraries: those that are found.
+find_path(VWD_KDL_TREE_SOLVER kdl/treeidsolver_recursive_newton_euler.hpp
+  HINTS ${orocos_kdl_INCLUDE_DIRS})
+# Not by MuJoCo's package configuration: Debian's names a folder that does not exist.
+find_path(VWD_MUJOCO_INCLUDE_DIR mujoco/mujoco.h)
+find_library(VWD_MUJOCO_LIBRARY mujoco)
+find_package(DART QUIET)
+set(peers kdl)
+
+# --- beside other libraries ------------------------------------------------------------------------
+add_library(benchmark_contenders STATIC
+  check.cpp
+  kdl.cpp
+  offers.cpp
+  own_block.cpp
+  own_long_double.cpp
+  own_single.cpp
+  peer_input.cpp
+  robots.cpp)
+target_include_directories(benchmark_contenders PRIVATE ../src)
+set_source_files_properties(own_long_double.cpp PROPERTIES COMPILE_FLAGS "${kernel_flags}")
+target_include_directories(benchmark_contenders SYSTEM PRIVATE ${orocos_kdl_INCLUDE_DIRS})
+target_compile_definitions(benchmark_contenders PRIVATE
+  VWD_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+  VWD_SHARED_DATA="${VWD_SHARED_DATA}")
+target_link_libraries(benchmark_contenders
+  PUBLIC ${PROJECT_NAME} quadmath
+  PRIVATE ${orocos_kdl_LIBRARIES} ${PROJECT_NAME}_warnings)
+if(VWD_KDL_TREE_SOLVER)  # since KDL 1.5
+  target_compile_definitions(benchmark_contenders PRIVATE VWD_WITH_KDL_TREE)
+endif()
+
+if(VWD_MUJOCO_INCLUDE_DIR AND VWD_MUJOCO_LIBRARY)
+  list(APPEND peers mujoco)
+  target_sources(benchmark_contenders PRIVATE mujoco.cpp)
+  target_compile_definitions(benchmark_contenders PRIVATE VWD_WITH_MUJOCO)
+  target_include_directories(benchmark_contenders SYSTEM PRIVATE ${VWD_MUJOCO_INCLUDE_DIR})
+  target_link_libraries(benchmark_contenders PRIVATE ${VWD_MUJOCO_LIBRARY})
+endif()
+if(DART_FOUND)
+  list(APPEND peers dart)
+  target_sources(benchmark_contenders PRIVATE dart.cpp)
+  target_compile_definitions(benchmark_contenders PRIVATE VWD_WITH_DART)
+  target_include_directories(benchmark_contenders SYSTEM PRIVATE ${DART_INCLUDE_DIRS})
+  target_link_libraries(benchmark_contenders PRIVATE ${DART_LIBRARIES})
+endif()
+string(REPLACE ";" ", " peers "${peers}")
+message(STATUS "Libraries to compare with: ${peers}")
+
+add_executable(work_precision
+  ../src/offline/output_file.cpp
+  cores.cpp
+  measurement.cpp
+  result_table.cpp
+  work_precision.cpp
+  work_precision_options.cpp)
+target_include_directories(work_precision PRIVATE ../src)
+target_link_libraries(work_precision
+  PRIVATE benchmark_contenders benchmark::benchmark ${PROJECT_NAME}_warnings)
+
+add_executable(callgrind_sample callgrind_sample.cpp)
+target_link_libraries(callgrind_sample PRIVATE benchmark_contenders ${PROJECT_NAME}_warnings)
+
+# --- what leaving out saves --------------------------------------------------------------------------
+add_executable(leave_out
+  ../src/offline/output_file.cpp
+  cores.cpp
+  leave_out.cpp
+  omissions.cpp
+  same_numbers.cpp)
+target_include_directories(leave_out PRIVATE ../src)
+target_link_libraries(leave_out PRIVATE benchmark_contenders ${PROJECT_NAME}_warnings)
+
+if(NOT VWD_CORE_ONLY)
+  install(TARGETS callgrind_sample work_precision
+    RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+endif()
