@@ -17,7 +17,7 @@ add_library(benchmark_contenders STATIC
   own_single.cpp
   peer_input.cpp
   robots.cpp)
-target_include_directories(benchmark_contenders PRIVATE ../src)
+target_include_directories(benchmark_contenders PRIVATE ../src PUBLIC ../test/core)  # the yardstick
 set_source_files_properties(own_long_double.cpp PROPERTIES COMPILE_FLAGS "${kernel_flags}")
 target_include_directories(benchmark_contenders SYSTEM PRIVATE ${orocos_kdl_INCLUDE_DIRS})
 target_compile_definitions(benchmark_contenders PRIVATE

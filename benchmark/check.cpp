@@ -9,10 +9,6 @@
 namespace virtual_work_dynamics {
 namespace {
 
-Real113 norm(const Vector113& v) {
-  return sqrtq(dot(v, v));
-}
-
 // An absolute error, made relative; no result may differ where all of them are zero. NaN stays.
 Real113 relative(Real113 error, Real113 largest) {
   return error == 0 ? Real113(0) : error / largest;
@@ -27,12 +23,14 @@ void checkCount(const char* what, std::size_t count, std::size_t expected) {
 }  // namespace
 
 Yardstick::Yardstick(const BenchmarkScene& scene) {
+  Scene gravity_only;
+  gravity_only.gravity = scene.gravity;
   for (const Motion& motion : scene.motions) {
-    const Reference113 reference(scene.mechanism, scene.gravity, motion);
+    const Reference113 reference(scene.mechanism, gravity_only, motion);
     State state;
     state.efforts = reference.efforts();
     for (const Real113 effort : state.efforts) {
-      state.largest_effort = std::max(state.largest_effort, fabsq(effort));
+      state.largest_effort = std::max(state.largest_effort, magnitude(effort));
     }
     for (const int joint : movableJoints(scene.mechanism)) {
       state.reactions.push_back(reference.childAxes(joint));
@@ -59,7 +57,7 @@ double Yardstick::maxRelativeError(Contender& contender, bool with_reactions) co
       }
       const Real113 error = relativeError(results, states_[state], with_reactions);
       seen[state] = std::move(results);
-      if (!finiteq(error)) return std::numeric_limits<double>::infinity();
+      if (!isFinite(error)) return std::numeric_limits<double>::infinity();
       largest = std::max(largest, error);
     }
   }
@@ -76,7 +74,7 @@ Real113 Yardstick::relativeError(const SampleResults& results, const State& stat
     largest = std::max(largest, error);
   };
   for (std::size_t i = 0; i < state.efforts.size(); ++i) {
-    take(relative(fabsq(results.efforts[i] - state.efforts[i]), state.largest_effort));
+    take(relative(magnitude(results.efforts[i] - state.efforts[i]), state.largest_effort));
   }
   const std::size_t reactions = with_reactions ? state.reactions.size() : 0;
   checkCount("numbers of reactions", results.reactions.size(), 6 * reactions);

@@ -1,16 +1,61 @@
 #pragma once
 
-#include <quadmath.h>
-
+#include <cfloat>
+#include <cmath>
 #include <vector>
+
+// A number of 113 bits; the long double constants of a Mechanism are exact in it. Where the
+// compiler has none, VWD_HAS_REAL113 stays undefined.
+#if LDBL_MANT_DIG == 113
+#define VWD_HAS_REAL113
+namespace virtual_work_dynamics {
+using Real113 = long double;
+inline Real113 sine(Real113 x) {
+  return std::sin(x);
+}
+inline Real113 cosine(Real113 x) {
+  return std::cos(x);
+}
+inline Real113 root(Real113 x) {
+  return std::sqrt(x);
+}
+inline Real113 magnitude(Real113 x) {
+  return std::fabs(x);
+}
+inline bool isFinite(Real113 x) {
+  return std::isfinite(x);
+}
+}  // namespace virtual_work_dynamics
+#elif defined(__SIZEOF_FLOAT128__) && __has_include(<quadmath.h>)
+#define VWD_HAS_REAL113
+#include <quadmath.h>
+namespace virtual_work_dynamics {
+using Real113 = __float128;
+inline Real113 sine(Real113 x) {
+  return sinq(x);
+}
+inline Real113 cosine(Real113 x) {
+  return cosq(x);
+}
+inline Real113 root(Real113 x) {
+  return sqrtq(x);
+}
+inline Real113 magnitude(Real113 x) {
+  return fabsq(x);
+}
+inline bool isFinite(Real113 x) {
+  return finiteq(x);
+}
+}  // namespace virtual_work_dynamics
+#endif
+
+#ifdef VWD_HAS_REAL113
 
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
+#include "virtual_work_dynamics/scene.h"
 
 namespace virtual_work_dynamics {
-
-/// A number of 113 bits; the long double constants of a Mechanism are exact in it.
-using Real113 = __float128;
 
 struct Vector113 {
   Real113 x = 0, y = 0, z = 0;
@@ -28,10 +73,14 @@ inline Vector113 operator*(Real113 s, const Vector113& v) {
 inline Real113 dot(const Vector113& a, const Vector113& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
+inline Real113 norm(const Vector113& v) {
+  return root(dot(v, v));
+}
 inline Vector113 cross(const Vector113& a, const Vector113& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-inline Vector113 toVector113(const Vector3l& v) {
+template <typename Vector>
+Vector113 toVector113(const Vector& v) {
   return {v.x(), v.y(), v.z()};
 }
 
@@ -62,12 +111,12 @@ class Reference113 {
     Vector113 force, torque;
   };
 
-  Reference113(const Mechanism& mechanism, const Eigen::Vector3d& gravity, const Motion& motion)
+  Reference113(const Mechanism& mechanism, const Scene& scene, const Motion& motion)
       : mechanism_(mechanism), links_(mechanism.links().size()) {
     const int joints = static_cast<int>(mechanism.joints().size());
-    for (int k = 0; k < joints; ++k) moveLink(k, motion);
-    const Vector113 g{gravity.x(), gravity.y(), gravity.z()};
-    for (int i = 0; i <= joints; ++i) balanceLink(i, g);
+    for (int k = 0; k < joints; ++k) moveLink(k, motion, scene.static_motion);
+    for (int i = 0; i <= joints; ++i) balanceLink(i, toVector113(scene.gravity));
+    for (const AppliedWrench& applied : scene.applied_wrenches) subtract(applied);
     for (int k = joints - 1; k >= 0; --k) addToParent(k);
   }
 
@@ -85,11 +134,15 @@ class Reference113 {
     return efforts;
   }
 
-  /// Wrench of the parent on the child about the joint origin, axes of the child link.
+  /// Wrench of the parent on the child about the joint origin, axes of the child link; joint -1:
+  /// of ground on the root link.
   Wrench childAxes(int joint) const {
     const LinkState& link = links_[joint + 1];
     return {transposed(link.R, link.force), transposed(link.R, link.torque)};
   }
+
+  /// The same in root axes.
+  Wrench rootAxes(int joint) const { return {links_[joint + 1].force, links_[joint + 1].torque}; }
 
  private:
   struct LinkState {
@@ -101,22 +154,22 @@ class Reference113 {
 
   // Rodrigues' formula; `axis` is a unit vector.
   static Matrix113 rotation(const Vector113& axis, Real113 angle) {
-    const Real113 s = sinq(angle), c = cosq(angle);
+    const Real113 s = sine(angle), c = cosine(angle);
     const auto turned = [&](const Vector113& v) {
       return c * v + s * cross(axis, v) + (1 - c) * dot(axis, v) * axis;
     };
     return {turned({1, 0, 0}), turned({0, 1, 0}), turned({0, 0, 1})};
   }
 
-  void moveLink(int k, const Motion& motion) {
+  void moveLink(int k, const Motion& motion, bool rests) {
     const Joint& joint = mechanism_.joints()[k];
     const LinkState& parent = links_[joint.parent_link];
     LinkState& link = links_[k + 1];
     const int c = joint.coordinate;
     const Real113 multiplier = joint.multiplier;
     const Real113 q = c < 0 ? Real113(0) : multiplier * motion.q[c] + joint.offset;
-    const Real113 qd = c < 0 ? Real113(0) : multiplier * motion.qd[c];
-    const Real113 qdd = c < 0 ? Real113(0) : multiplier * motion.qdd[c];
+    const Real113 qd = c < 0 || rests ? Real113(0) : multiplier * motion.qd[c];
+    const Real113 qdd = c < 0 || rests ? Real113(0) : multiplier * motion.qdd[c];
 
     const Matrix113 R_joint = parent.R * toMatrix113(joint.R_PK);
     const Vector113 axis = R_joint * toVector113(joint.axis_K);
@@ -150,6 +203,16 @@ class Reference113 {
     link.torque = link.R * (I * alpha_K + cross(w_K, I * w_K)) + cross(r, link.force);
   }
 
+  void subtract(const AppliedWrench& applied) {
+    LinkState& link = links_[mechanism_.linkIndex(applied.link)];
+    const Matrix113 R = applied.axes == Axes::kLink ? link.R : Matrix113();
+    const Vector113 force = R * toVector113(applied.force);
+    const Vector113 moment =
+        R * toVector113(applied.torque) + cross(link.R * toVector113(applied.at), force);
+    link.force = link.force - force;
+    link.torque = link.torque - moment;
+  }
+
   void addToParent(int k) {
     const LinkState& link = links_[k + 1];
     LinkState& parent = links_[mechanism_.joints()[k].parent_link];
@@ -162,3 +225,5 @@ class Reference113 {
 };
 
 }  // namespace virtual_work_dynamics
+
+#endif  // VWD_HAS_REAL113
