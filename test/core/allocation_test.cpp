@@ -2,9 +2,11 @@
 
 #include <cstdlib>
 #include <memory>
+#include <vector>
 
 #include "allocation_guard.h"
 #include "sample_robots.h"
+#include "virtual_work_dynamics/block.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/motion_estimator.h"
 #include "virtual_work_dynamics/run_time_histogram.h"
@@ -59,6 +61,41 @@ TEST(InverseDynamics, ComputeDoesNotAllocate) {
   }
   EXPECT_TRUE(workspace.finite());
   EXPECT_EQ(guard.allocations(), 0u);
+}
+
+template <typename Real>
+void expectBlocksDoNotAllocate(BlockLayout layout, int threads) {
+  RandomRobot robot(5, 20);
+  const Mechanism mechanism = readUrdf(robot.urdf());
+  const Scene scene = busyScene();
+  Request request;
+  request.child_axes = request.root_axes = requestedReactions(mechanism, scene);
+  request.poses = request.twists = true;
+  const InverseDynamics dynamics(mechanism, scene, request);
+  BlockInverseDynamics<Real> block(dynamics, threads);
+  constexpr std::size_t kSamples = 101;
+  const std::size_t reactions = request.root_axes.size();
+  const std::vector<Real> motion(block.coordinates() * kSamples, Real(0.5));
+  std::vector<Real> effort(motion.size()), child_axes(6 * reactions * kSamples),
+      root_axes(child_axes.size()), poses(2 * child_axes.size()), twists(child_axes.size());
+  const AllocationGuard guard;
+  for (int i = 0; i < 10; ++i) {
+    block.compute(
+        layout, {kSamples, motion.data(), motion.data(), motion.data()},
+        {effort.data(), child_axes.data(), root_axes.data(), poses.data(), twists.data()});
+    block.setAppliedWrench(1, Eigen::Vector3d(i, 0, 0), Eigen::Vector3d::Zero());
+  }
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_NE(effort.back(), 0);
+}
+
+TEST(BlockInverseDynamics, ComputeDoesNotAllocate) {
+  for (const BlockLayout layout : {BlockLayout::kStructureOfArrays, BlockLayout::kRowMajor}) {
+    for (const int threads : {1, 2}) {
+      expectBlocksDoNotAllocate<double>(layout, threads);
+      expectBlocksDoNotAllocate<float>(layout, threads);
+    }
+  }
 }
 
 TEST(MotionEstimator, SamplesDoNotAllocate) {
