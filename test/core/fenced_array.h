@@ -9,8 +9,9 @@
 
 namespace virtual_work_dynamics {
 
-/// Zeroed numbers next to a page that nobody may touch: whoever reads or writes past that edge of
-/// the array crashes. On its other side, up to the page there, are bytes that are watched.
+/// Numbers next to a page that nobody may touch: whoever reads or writes past that edge of the
+/// array crashes. On its other side, up to the page there, are bytes that are watched. All bytes
+/// are the same to begin with.
 template <typename Real>
 class FencedArray {
  public:
@@ -29,7 +30,6 @@ class FencedArray {
     }
     std::memset(begin_, kUntouched, inside_);
     data_ = edge == kFenceBehind ? begin_ + inside_ - size_ : begin_;
-    std::memset(data_, 0, size_);
   }
   ~FencedArray() { ::munmap(all_, mapped_); }
   FencedArray(const FencedArray&) = delete;
