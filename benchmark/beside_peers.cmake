@@ -9,16 +9,16 @@ set(peers kdl)
 
 # --- beside other libraries ------------------------------------------------------------------------
 add_library(benchmark_contenders STATIC
-  check.cpp
-  kdl.cpp
-  offers.cpp
-  own_block.cpp
-  own_long_double.cpp
-  own_single.cpp
-  peer_input.cpp
-  robots.cpp)
-target_include_directories(benchmark_contenders PRIVATE ../src PUBLIC ../test/core)  # the yardstick
-set_source_files_properties(own_long_double.cpp PROPERTIES COMPILE_FLAGS "${kernel_flags}")
+  contenders/check.cpp
+  contenders/kdl.cpp
+  contenders/offers.cpp
+  contenders/own_block.cpp
+  contenders/own_long_double.cpp
+  contenders/own_single.cpp
+  contenders/peer_input.cpp
+  contenders/robots.cpp)
+target_include_directories(benchmark_contenders PRIVATE ../src PUBLIC contenders ../test/core)  # the yardstick
+set_source_files_properties(contenders/own_long_double.cpp PROPERTIES COMPILE_FLAGS "${kernel_flags}")
 target_include_directories(benchmark_contenders SYSTEM PRIVATE ${orocos_kdl_INCLUDE_DIRS})
 target_compile_definitions(benchmark_contenders PRIVATE
   VWD_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
@@ -32,14 +32,14 @@ endif()
 
 if(VWD_MUJOCO_INCLUDE_DIR AND VWD_MUJOCO_LIBRARY)
   list(APPEND peers mujoco)
-  target_sources(benchmark_contenders PRIVATE mujoco.cpp)
+  target_sources(benchmark_contenders PRIVATE contenders/mujoco.cpp)
   target_compile_definitions(benchmark_contenders PRIVATE VWD_WITH_MUJOCO)
   target_include_directories(benchmark_contenders SYSTEM PRIVATE ${VWD_MUJOCO_INCLUDE_DIR})
   target_link_libraries(benchmark_contenders PRIVATE ${VWD_MUJOCO_LIBRARY})
 endif()
 if(DART_FOUND)
   list(APPEND peers dart)
-  target_sources(benchmark_contenders PRIVATE dart.cpp)
+  target_sources(benchmark_contenders PRIVATE contenders/dart.cpp)
   target_compile_definitions(benchmark_contenders PRIVATE VWD_WITH_DART)
   target_include_directories(benchmark_contenders SYSTEM PRIVATE ${DART_INCLUDE_DIRS})
   target_link_libraries(benchmark_contenders PRIVATE ${DART_LIBRARIES})

@@ -57,5 +57,5 @@ export PATH=/usr/bin:$PATH PYTHONDONTWRITEBYTECODE=1
 set +u  # ROS's setup files use variables that may be unset
 source "$workspace/devel/setup.bash"
 set -u
-exec /usr/bin/python3 "$repository/benchmark/measure_ros.py" \
+exec /usr/bin/python3 "$repository/benchmark/ros/measure_ros.py" \
   --programs "$workspace/devel/lib/virtual_work_dynamics" "${arguments[@]}"

@@ -84,7 +84,7 @@ announce "What leaving out saves"
 measure leave_out leave_out.csv
 announce "Error of estimated accelerations"
 measure estimator_error estimator.csv
-/usr/bin/python3 benchmark/estimator_page.py "$output"
+/usr/bin/python3 benchmark/report/estimator_page.py "$output"
 rm -f "$output/instructions.csv"
 if [[ ${#quick[@]} -gt 0 ]]; then
   announce "Instructions per sample: not counted in a quick run"
@@ -97,7 +97,7 @@ else
   mv "$output/instructions.csv.part" "$output/instructions.csv"
 fi
 announce "Plots and tables"
-/usr/bin/python3 benchmark/report.py "${quick[@]}" --build "$build" --load "$load" "$output"
+/usr/bin/python3 benchmark/report/report.py "${quick[@]}" --build "$build" --load "$load" "$output"
 announce "Done."
 if $disagreement; then
   echo "report.sh: a contender disagrees with the reference or failed; it is named above, and not" \

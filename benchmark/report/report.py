@@ -20,7 +20,7 @@ from plot_work_precision import plot_work_precision
 from report_data import (INSTRUCTIONS, LEAVE_OUT, WORK_PRECISION, Instructions, JointCounts,
                          LeaveOut, ReportError, WorkPrecision)
 
-REPOSITORY = pathlib.Path(__file__).resolve().parent.parent
+REPOSITORY = pathlib.Path(__file__).resolve().parent.parent.parent
 REPORT = 'report.md'
 ESTIMATOR = 'estimator.md'
 JOINTS_PLOT = 'joints.png'

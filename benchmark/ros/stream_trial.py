@@ -12,7 +12,7 @@ import yaml
 from recorded_run import COPY, DIAGNOSTICS, INPUT, NODE, RecordedRun
 from ros_session import SessionError
 
-REPOSITORY = pathlib.Path(__file__).resolve().parent.parent
+REPOSITORY = pathlib.Path(__file__).resolve().parent.parent.parent
 PARAMETERS = REPOSITORY / 'config' / 'inverse_dynamics.yaml'
 RECORDER_BUFFER = 2048  # MB, as in inverse_dynamics.launch
 RECORDER = '/recorder'
