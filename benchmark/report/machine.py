@@ -11,7 +11,6 @@ INSTRUCTIONS = (('avx2', 'AVX2'), ('fma', 'FMA'), ('avx512f', 'AVX-512F'),
 LIBRARIES = (  # name, Debian package, pkg-config module, folder in CMake's cache
     ('Eigen', 'libeigen3-dev', 'eigen3', 'Eigen3_DIR'),
     ('Google Benchmark', 'libbenchmark-dev', 'benchmark', 'benchmark_DIR'),
-    ('SLEEF', 'libsleef-dev', 'sleef', 'sleef_DIR'),
     ('orocos_kdl', 'liborocos-kdl-dev', 'orocos-kdl', 'orocos_kdl_DIR'),
     ('MuJoCo', 'libmujoco-dev', 'mujoco', 'mujoco_DIR'),
     ('DART', 'libdart-dev', 'dart', 'dart_DIR'),

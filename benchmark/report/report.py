@@ -93,7 +93,7 @@ def write(folder, arguments):
     omissions = LeaveOut(folder / LEAVE_OUT)
     build = machine.Build(arguments.build)
     shared = build.value('VWD_SHARED_DATA') or REPOSITORY.parent / 'shared'
-    counts = JointCounts([REPOSITORY / 'urdf', REPOSITORY / 'benchmark',
+    counts = JointCounts([REPOSITORY / 'urdf', REPOSITORY / 'benchmark' / 'contenders',
                           pathlib.Path(shared) / 'robots'])
     joints = {scene: counts.of(scene) for scene in data.scenes if counts.of(scene)}
     progress('plots of error over run time')

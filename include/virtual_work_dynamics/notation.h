@@ -7,6 +7,8 @@
 //   Z         the same body re-oriented so that the joint axis is +z, the paper's u3;
 //             Zo == Ko. The recursion runs in Z frames, the public interface in K frames
 //   Cm        the centre of mass
+//   Q, Rz     R_PZ of a revolute joint is Q Rz(q + phase): Q turns the parent's z axis into the
+//             joint's by as few products as that takes, Rz turns about the joint axis
 //   R_PK      rotation matrix: components in K -> components in P
 //   p_PoKo_P  position vector from Po to Ko, expressed in P
 //   w_K, F_K  angular velocity, force; expressed in K
@@ -24,6 +26,7 @@
 //   epsilon_{k0}     alpha                  absolute angular acceleration               rad/s^2
 //   gamma_{k0}       gamma                  absolute acceleration of O_k, less gravity  m/s^2
 //   w~w~ + eps~      U                      acceleration gradient: a(r) = gamma + U r   1/s^2
+//   -                arrival                w, alpha and b = gamma_p + U_p r, parent's axes
 //   m_k, r_k^C       mass, p_KoCm_K         mass, centre of mass                        kg, m
 //   m_k r_k^C        h                      first moment of mass about O_k              kg m
 //   J_k              (from G)               inertia about O_k                           kg m^2
