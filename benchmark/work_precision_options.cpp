@@ -57,8 +57,8 @@ Methods
   dart              Skeleton::computeInverseDynamics with fixed joints merged
   virtual_work      this package; reactions of all movable joints in the axes of the child link.
                     Mode "single" is one sample a call; "block_<layout>_<instruction set>" up to
-                    1008 samples, fewer where their arrays would exceed 1 MiB but at least 16, for
-                    each thread. Errors of float include those of its rounded input
+                    1008 samples, fewer where their arrays would exceed 1 MiB but at least 16; four
+                    times that for each of several threads. Errors of float include those of its rounded input
 
 Exit status: 0 done, 1 something is wrong or disagrees, 2 wrong usage.
 )";

@@ -9,6 +9,8 @@ namespace {
 // widest vector's. Counts are odd multiples of the states: see BlockLayout on powers of two.
 constexpr std::size_t kMostRounds = 63;
 constexpr std::size_t kCacheBytes = std::size_t(1) << 20;
+// Starting threads takes microseconds: they are for long blocks.
+constexpr std::size_t kLongerForThreads = 4;
 
 template <typename Real>
 std::size_t samplesOf(std::size_t numbers_in_sample, int threads) {
@@ -16,7 +18,8 @@ std::size_t samplesOf(std::size_t numbers_in_sample, int threads) {
   while (rounds > 1 && rounds * kStates * numbers_in_sample * sizeof(Real) > kCacheBytes) {
     rounds = (rounds - 1) / 2;
   }
-  return rounds * kStates * static_cast<std::size_t>(threads);
+  const std::size_t samples = rounds * kStates * static_cast<std::size_t>(threads);
+  return threads > 1 ? kLongerForThreads * samples : samples;
 }
 
 // One array of `width` numbers for each sample in the given layout.

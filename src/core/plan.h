@@ -54,6 +54,7 @@ struct BodyUse {
 
   bool parent_rests = false;     ///< the parent neither turns nor accelerates, but for -g
   bool rest_along_z = false;     ///< and gamma is along the joint axis, or zero
+  bool weightless = false;       ///< and gamma of this body is zero
   bool takes_from_next = false;  ///< a child's wrench arrives in registers
   bool hands_on = false;         ///< its wrench goes to the parent in registers
   bool adds_to_parent = false;   ///< its wrench goes to the parent in memory

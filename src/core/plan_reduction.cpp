@@ -159,6 +159,7 @@ class Reduction {
       if (!body.parent_rests) continue;
       gamma[k] = body.gamma_rest = transposeTimes(body.R_PZ, gamma[body.parent]);
       body.rest_along_z = body.gamma_rest.x == 0 && body.gamma_rest.y == 0;
+      body.weightless = isZero(body.gamma_rest) && body.mobility != Mobility::kPrismatic;
       rests[k] = body.mobility == Mobility::kFixed;
       plan_.left_out.at_rest.push_back(kept_names_[k]);
     }

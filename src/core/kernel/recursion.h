@@ -202,7 +202,9 @@ VWD_INLINE PlainWrench<T> inertiaWrench(const Body<R>& body, const BodyMotion<T>
 /// The same for a body on a parent at rest: U has the four entries of a turn about z.
 template <bool kStatic, typename T, typename R>
 VWD_INLINE PlainWrench<T> startWrench(const Body<R>& body, const BodyMotion<T>& motion) {
-  PlainWrench<T> wrench = inertiaWrench<true>(body, motion);
+  const T zero = T(0);
+  PlainWrench<T> wrench{{zero, zero, zero}, {zero, zero, zero}};
+  if (!body.weightless) wrench = inertiaWrench<true>(body, motion);
   if (kStatic || body.mobility != Mobility::kRevolute) return wrench;
   const Mat3<T>& U = motion.U;
   const Vec3<R>& h = body.h;
