@@ -152,6 +152,11 @@ TEST(PlanSummary, CountsAPrismaticJoint) {
                          kGradient + kInertia + 2 * kAddVector + 2 * kMatrixTimesVector + kAddCross;
   EXPECT_EQ(costOfOneMore(chainAlong(frame, JointType::kPrismatic), false, false, false, false),
             prismatic);
+
+  // Alone on the root: m gamma and h x gamma of a body that does not turn, and gamma.z + qdd.
+  const PlanSummary summary = summaryOf(chainAlong(frame, JointType::kPrismatic)(1), Scene(), {});
+  EXPECT_EQ(costOf(summary), (Cost{3 + 6, 6 + 3}) + (Cost{0, 1}));
+  EXPECT_EQ(summary.sines_and_cosines, 0u);
 }
 
 Scene pendulumScene() {
