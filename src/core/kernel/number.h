@@ -8,9 +8,15 @@
 #include <cstdint>
 #include <cstring>
 
-/// Inlined in every build: no copy compiled for one instruction set can serve another.
+/// Inlined in every build: no copy compiled for one instruction set can serve another. But for the
+/// address sanitizer's checks, which would take the compiler minutes and gigabytes.
+#if defined(__SANITIZE_ADDRESS__)
+#define VWD_INLINE inline
+#define VWD_LAMBDA
+#else
 #define VWD_INLINE inline __attribute__((always_inline))
 #define VWD_LAMBDA __attribute__((always_inline))
+#endif
 
 namespace virtual_work_dynamics {
 namespace {  // see kernel.h
