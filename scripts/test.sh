@@ -8,7 +8,9 @@ Usage: scripts/test.sh [--no-install]
 
 Builds with warnings as errors and runs: unit tests, tests through ROS, the core's tests under the
 address and undefined-behaviour sanitizers, the measurements' agreement with other libraries, the
-format check, catkin_lint, and a check that the core library links nothing of ROS. Each check counts like a test. Results are in build/test_results/.
+format check, catkin_lint, and checks that the core library links nothing of ROS and that nothing
+compiled for special instructions can serve elsewhere. Each check counts like a test. Results are in
+build/test_results/.
   --no-install  do not install packages first
 END
 }
@@ -90,6 +92,15 @@ core_links_no_ros() {
   ! grep -E -i 'ros|xmlrpc|catkin' <<<"$needed"
 }
 
+# Weak and unique symbols are those that the linker may take from any object.
+kernels_share_no_code() {
+  local objects
+  mapfile -t objects < <(find "$workspace/build" -path '*core/kernel/*.o')
+  [[ ${#objects[@]} -ge 3 ]] || { echo "only ${#objects[@]} objects of kernels"; return 1; }
+  printf '%s\n' "${objects[@]}"
+  ! nm --demangle "${objects[@]}" | grep -E '^[0-9a-f]+ [WVu] '
+}
+
 # Ignored: find_package(catkin) behind an option, which counts as out of order; scripts, which are run
 # from the repository; include folders of dependencies; urdfdom, which package.xml has by its rosdep
 # name, liburdfdom-dev.
@@ -107,6 +118,7 @@ if $install; then scripts/install_dependencies.sh --test; fi
 if check build_without_warnings build; then
   check run_tests run_tests || true
   check core_links_no_ros core_links_no_ros || true
+  check kernels_share_no_code kernels_share_no_code || true
 fi
 check sanitized_core_tests sanitized_core_tests || true
 check contenders_agree contenders_agree || true

@@ -7,7 +7,7 @@ namespace virtual_work_dynamics {
 /// Vector instructions of the recursion's builds. The same source compiled for each; builds with
 /// fused multiply-add agree bit for bit.
 enum class InstructionSet {
-  kBaseline,  ///< what the compiler assumes of every machine: 2 doubles or 4 floats, no FMA
+  kBaseline,  ///< what the compiler assumes of every machine: 2 doubles or 4 floats
   kAvx2,      ///< AVX2 and FMA: 4 doubles or 8 floats
   kAvx512     ///< AVX-512 F, DQ: 8 doubles or 16 floats
 };

@@ -66,13 +66,15 @@ class InverseDynamics {
   /// Number of generalized coordinates: the length of q, qd, qdd and of the effort.
   Eigen::Index coordinates() const;
   const Request& request() const;
+  InstructionSet instructionSet() const;
   /// What was left out, and the operations that remain. Allocates; runs the recursion once.
   PlanSummary summary() const;
 
   /// Memory for compute(). Allocates; compute() then does not.
   Workspace makeWorkspace() const;
 
-  /// Efforts and reactions of one sample, into the workspace. Does not allocate.
+  /// Efforts and reactions of one sample, into the workspace. Does not allocate. Angles may be
+  /// any finite number; a mimic joint's, multiplier * q + offset, is rounded to double.
   /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is
   /// another
   ///   plan's.
@@ -81,6 +83,7 @@ class InverseDynamics {
  private:
   struct Impl;
   friend class Workspace;
+  friend class SampleBlock;
   template <typename Real>
   friend class BlockInverseDynamics;
   std::unique_ptr<const Impl> impl_;
@@ -117,6 +120,7 @@ class Workspace {
   friend class SampleBlock;
   struct Scratch;
   explicit Workspace(const InverseDynamics::Impl& plan);
+  void requirePlan(const InverseDynamics::Impl* plan) const;
   // Takes results as they stand in rows of a ResultBlock; poses are turned into quaternions.
   void assign(const double* effort, const double* child_axes, const double* root_axes,
               const double* poses, const double* twists);

@@ -13,6 +13,7 @@ namespace virtual_work_dynamics {
 class SampleBlock {
  public:
   /// @param capacity most rows of a block; they are divided among `threads`.
+  /// Its instructions are those of `inverse_dynamics`, which must outlive it.
   /// @throws Error when `threads` is less than 1.
   SampleBlock(const InverseDynamics& inverse_dynamics, std::size_t capacity, int threads = 1);
   ~SampleBlock();
@@ -28,7 +29,8 @@ class SampleBlock {
   void compute(const MotionTable& table, std::size_t first, std::size_t count);
 
   /// Results of sample `index` of the last block, into a workspace of the same InverseDynamics.
-  /// Does not allocate.
+  /// Does not allocate. @throws MotionError when there is no such sample, or the workspace is
+  /// another plan's.
   void read(std::size_t index, Workspace& workspace) const;
 
  private:

@@ -57,6 +57,9 @@ struct BlockInverseDynamics<Real>::Impl {
                                           request.poses ? 12 * in_root_axes : 0,
                                           request.twists ? 6 * in_root_axes : 0};
     std::copy(std::begin(numbers), std::end(numbers), columns);
+    const bool outputs[] = {request.efforts, !plan.child_axes.empty(), in_root_axes > 0,
+                            request.poses, request.twists};
+    std::copy(std::begin(outputs), std::end(outputs), requested);
     std::size_t tile_size = width * width * sizeof(Real);  // behind the last, see toColumns()
     for (const std::size_t count : columns) tile_size += count * width * sizeof(Real);
     for (int i = 0; i < thread_count; ++i) {
@@ -76,7 +79,7 @@ struct BlockInverseDynamics<Real>::Impl {
       }
     }
     for (int i = kInputs; i < kArrays; ++i) {
-      if (columns[i] == 0 && arrays.outputs[i - kInputs]) {
+      if (!requested[i - kInputs] && arrays.outputs[i - kInputs]) {
         throw MotionError(std::string("block: ") + kNames[i] + " was not requested");
       }
     }
@@ -99,10 +102,10 @@ struct BlockInverseDynamics<Real>::Impl {
 
   void computeInPlace(const BlockArrays<Real>& arrays, std::size_t first,
                       std::size_t thread) const {
-    const auto at = [&](Real* array) { return array ? array + first : nullptr; };
+    const auto at = [first](auto* array) { return array ? array + first : nullptr; };
     kernel.pack(view,
-                {arrays.inputs[0] + first, arrays.inputs[1] + first, arrays.inputs[2] + first,
-                 arrays.samples, applied.data()},
+                {at(arrays.inputs[0]), at(arrays.inputs[1]), at(arrays.inputs[2]), arrays.samples,
+                 applied.data()},
                 {at(arrays.outputs[0]), at(arrays.outputs[1]), at(arrays.outputs[2]),
                  at(arrays.outputs[3]), at(arrays.outputs[4]), arrays.samples},
                 scratch[thread].get());
@@ -118,6 +121,7 @@ struct BlockInverseDynamics<Real>::Impl {
 
     for (int i = 0; i < kInputs; ++i) {
       const Real* const from = arrays.inputs[i];
+      if (columns[i] == 0) continue;
       if (whole_rows) {
         kernel.toColumns(from + first * columns[i], columns[i], tile[i]);
         continue;
@@ -135,7 +139,7 @@ struct BlockInverseDynamics<Real>::Impl {
                 scratch[thread].get());
     for (int i = kInputs; i < kArrays; ++i) {
       Real* const to = arrays.outputs[i - kInputs];
-      if (!to) continue;
+      if (!to || columns[i] == 0) continue;
       if (whole_rows) {
         kernel.toRows(tile[i], columns[i], to + first * columns[i]);
         continue;
@@ -160,7 +164,8 @@ struct BlockInverseDynamics<Real>::Impl {
   InstructionSet instruction_set;
   const Kernel<Real>& kernel;
   std::size_t width;
-  std::size_t columns[kArrays];  // numbers a sample of each array
+  std::size_t columns[kArrays];       // numbers a sample of each array
+  bool requested[kArrays - kInputs];  // of the outputs
   AppliedValues<Real> applied;
   std::vector<AlignedMemory> scratch, tiles;  // of each thread
   WorkerThreads workers;

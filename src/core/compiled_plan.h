@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/kernel/kernel.h"
+#include "core/kernel/kernel_choice.h"
 #include "core/plan.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 
@@ -8,18 +8,19 @@ namespace virtual_work_dynamics {
 
 /// The inside of an InverseDynamics, which blocks share.
 struct InverseDynamics::Impl {
-  Impl(const Mechanism& mechanism, const Scene& scene, const Request& wanted,
-       InstructionSet instruction_set)
+  Impl(const Mechanism& mechanism, const Scene& scene, const Request& wanted, InstructionSet set)
       : request(wanted),
         exact(compilePlan(mechanism, scene, wanted)),
         plan(roundPlan<double>(exact)),
         view(viewOf(plan)),
-        kernel(&kernelFor<double>(instruction_set)) {}
+        instruction_set(set),
+        kernel(&kernelFor<double>(set)) {}
 
   Request request;
   Plan<long double> exact;
   Plan<double> plan;
   PlanView<double> view;
+  InstructionSet instruction_set;
   const Kernel<double>* kernel;
 };
 

@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "core/kernel/kernel.h"
+#include "core/kernel/kernel_choice.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {

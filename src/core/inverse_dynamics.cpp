@@ -86,6 +86,10 @@ const Request& InverseDynamics::request() const {
   return impl_->request;
 }
 
+InstructionSet InverseDynamics::instructionSet() const {
+  return impl_->instruction_set;
+}
+
 PlanSummary InverseDynamics::summary() const {
   return summarize(impl_->plan);
 }
@@ -99,9 +103,7 @@ void InverseDynamics::compute(const Motion& motion, Workspace& workspace) const 
   checkSize("q", motion.q.size(), plan.coordinates);
   checkSize("qd", motion.qd.size(), plan.coordinates);
   checkSize("qdd", motion.qdd.size(), plan.coordinates);
-  if (workspace.scratch_->plan != impl_.get()) {
-    throw MotionError("the workspace belongs to another InverseDynamics");
-  }
+  workspace.requirePlan(impl_.get());
   Workspace::Scratch& scratch = *workspace.scratch_;
   const KernelInputs<double> in = {motion.q.data(), motion.qd.data(), motion.qdd.data(), 1,
                                    scratch.applied.data()};
@@ -124,6 +126,10 @@ Workspace::Workspace(const InverseDynamics::Impl& impl)
       poses_(impl.request.poses ? impl.plan.root_axes.size() : 0),
       twists_(impl.request.twists ? impl.plan.root_axes.size() : 0),
       scratch_(new Scratch(impl)) {}
+
+void Workspace::requirePlan(const InverseDynamics::Impl* plan) const {
+  if (scratch_->plan != plan) throw MotionError("the workspace belongs to another InverseDynamics");
+}
 
 void Workspace::assign(const double* effort, const double* child_axes, const double* root_axes,
                        const double* poses, const double* twists) {

@@ -122,11 +122,18 @@ class Reduction {
     }
   }
 
+  // Ancestors of what is used stay, idle ones too, so that every body has its parent.
   void dropUnused() {
+    std::vector<bool> stays(bodies_.size(), false);
+    stays[0] = true;
+    for (std::size_t k = bodies_.size(); k-- > 1;) {
+      if (used(bodies_[k])) stays[k] = true;
+      if (stays[k]) stays[bodies_[k].parent] = true;
+    }
     std::vector<int> renumbered(bodies_.size(), -1);
     std::vector<Body<Real>> kept;
     for (std::size_t k = 0; k < bodies_.size(); ++k) {
-      if (k > 0 && !used(bodies_[k])) continue;
+      if (!stays[k]) continue;
       renumbered[k] = static_cast<int>(kept.size());
       kept.push_back(bodies_[k]);
       kept_names_.push_back(names_[k]);
@@ -161,7 +168,7 @@ class Reduction {
       body.rest_along_z = body.gamma_rest.x == 0 && body.gamma_rest.y == 0;
       body.weightless = isZero(body.gamma_rest) && body.mobility != Mobility::kPrismatic;
       rests[k] = body.mobility == Mobility::kFixed;
-      plan_.left_out.at_rest.push_back(kept_names_[k]);
+      if (body.motion_needed) plan_.left_out.at_rest.push_back(kept_names_[k]);
     }
   }
 
@@ -182,7 +189,7 @@ class Reduction {
       if (body.mobility == Mobility::kFixed) continue;
       if (!positionMatters(body)) {
         body.angle = body.slide = -1;
-        plan_.left_out.idle.push_back(kept_names_[k]);
+        if (used(body)) plan_.left_out.idle.push_back(kept_names_[k]);
       } else if (body.mobility == Mobility::kRevolute) {
         angles.push_back(plan_.angles[body.angle]);
         body.angle = static_cast<int>(angles.size()) - 1;

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <iterator>
 
-#include "core/kernel/kernel.h"
 #include "core/plan.h"
 
 namespace virtual_work_dynamics {

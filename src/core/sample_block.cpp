@@ -10,7 +10,8 @@ namespace virtual_work_dynamics {
 
 struct SampleBlock::Impl {
   Impl(const InverseDynamics& inverse_dynamics, std::size_t rows, int threads)
-      : block(inverse_dynamics, threads),
+      : block(inverse_dynamics, threads, inverse_dynamics.instructionSet()),
+        plan(inverse_dynamics.impl_.get()),
         capacity(rows),
         efforts(block.request().efforts ? block.coordinates() : 0),
         child_axes(6 * block.request().child_axes.size()),
@@ -37,6 +38,8 @@ struct SampleBlock::Impl {
   }
 
   BlockInverseDynamics<double> block;
+  const InverseDynamics::Impl* plan;  // only compared
+  std::size_t computed = 0;           // samples of the last block
   std::size_t capacity;
   std::size_t efforts, child_axes, root_axes, poses, twists;  // numbers a sample
   std::vector<double> inputs, outputs;                        // arrays one after the other
@@ -82,9 +85,15 @@ void SampleBlock::compute(const MotionTable& table, std::size_t first, std::size
   }
   impl.block.compute(BlockLayout::kRowMajor, {count, impl.input(0), impl.input(1), impl.input(2)},
                      impl.results);
+  impl.computed = count;
 }
 
 void SampleBlock::read(std::size_t index, Workspace& workspace) const {
+  if (index >= impl_->computed) {
+    throw MotionError("block: there is no sample " + std::to_string(index) + ", it has " +
+                      std::to_string(impl_->computed));
+  }
+  workspace.requirePlan(impl_->plan);
   const ResultBlock<double>& results = impl_->results;
   const auto row = [index](const double* array, std::size_t width) {
     return array + index * width;

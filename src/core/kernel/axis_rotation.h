@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/kernel/vec3_operations.h"
-#include "core/plan.h"
+#include "core/plan_types.h"
 
 namespace virtual_work_dynamics {
 namespace {  // see kernel.h
@@ -67,7 +67,7 @@ VWD_INLINE Vec3<T> toChild(const Mat3<S>& Q, const Vec3<T>& v) {
   }
 }
 
-/// Calls `f` with std::integral_constant of the axis: one jump for all products of a body.
+/// Calls `f` with AxisIs of the axis: one jump for all products of a body.
 template <typename F>
 VWD_INLINE void forAxis(AxisDirection axis, const F& f) {
   switch (axis) {

@@ -46,7 +46,13 @@ VWD_INLINE void sampleAngles(const PlanView<R>& plan, const KernelInputs<R>& in,
     T sine, cosine;
     sineCosine(load<T>(angles + i), sine, cosine, lanes);
     if (!lanes.all()) sineCosineOutside(load<T>(angles + i), sine, cosine);
-    turnByPhase(load<T>(scratch.phase_cos + i), load<T>(scratch.phase_sin + i), cosine, sine);
+    const T phase_cos = load<T>(scratch.phase_cos + i), phase_sin = load<T>(scratch.phase_sin + i);
+    const T unturned_cosine = cosine, unturned_sine = sine;
+    turnByPhase(phase_cos, phase_sin, cosine, sine);
+    const auto turned =
+        (phase_cos.v != R(1)) | (phase_sin.v != R(0));  // the others keep a zero's sign
+    cosine = T(turned ? cosine.v : unturned_cosine.v);
+    sine = T(turned ? sine.v : unturned_sine.v);
     store(scratch.cosines + i, cosine);
     store(scratch.sines + i, sine);
   }

@@ -2,8 +2,7 @@
 
 #include <cstddef>
 
-#include "core/plan.h"
-#include "virtual_work_dynamics/instruction_set.h"
+#include "core/plan_types.h"
 
 namespace virtual_work_dynamics {
 
@@ -11,7 +10,8 @@ namespace virtual_work_dynamics {
 //
 // The headers of this folder are compiled with instructions that a machine may lack. So that the
 // linker can never put such a copy of a function in place of another, everything in them but this
-// header is in unnamed namespaces, and they use nothing of the standard library that is code.
+// header is in unnamed namespaces, and they use nothing of the standard library or Eigen that is
+// code; scripts/test.sh checks the objects.
 
 /// Plan as the kernels see it.
 template <typename R>
@@ -28,10 +28,6 @@ struct PlanView {
   bool static_motion, any_pose;
   PlainWrench<R> root_wrench;
 };
-
-/// The plan must outlive its view.
-template <typename R>
-PlanView<R> viewOf(const Plan<R>& plan);
 
 /// Number c of a sample is at [c * stride]; neighbouring samples follow each other.
 template <typename R>
@@ -74,10 +70,6 @@ struct Kernel {
 };
 
 constexpr std::size_t kScratchAlignment = 64;
-
-/// R: float or double. The instruction set must be supported.
-template <typename R>
-const Kernel<R>& kernelFor(InstructionSet instruction_set);
 
 // The builds; null where the compiler cannot make them.
 template <typename R>

@@ -143,6 +143,8 @@ VWD_INLINE Pack<R, kWidth> operator*(const Pack<R, kWidth>& a, const R& b) {
   VWD_INLINE Vector minusFusedSub(Vector a, Vector b, Vector c) { \
     return prefix##_fnmsub_##suffix(a, b, c);                     \
   }
+VWD_FUSED(__m128d, _mm, pd)
+VWD_FUSED(__m128, _mm, ps)
 VWD_FUSED(__m256d, _mm256, pd)
 VWD_FUSED(__m256, _mm256, ps)
 #if defined(__AVX512F__)

@@ -109,7 +109,7 @@ VWD_INLINE void arriveAt(const Body<R>& body, const T* slides, const BodyMotion<
   }
 }
 
-/// Motion of a body from its parent's: (2.5), (2.7). kPlain: see BodyUse::plain.
+/// Motion of a body from its parent's: (2.5), (2.7). kPlain: see BodyUse::plain_motion.
 template <bool kStatic, bool kPlain, AxisDirection kAxis, typename T, typename R>
 VWD_INLINE void propagateMotion(const Body<R>& body, const JointMotion<T>& joint,
                                 const Arrival<T>& arrival, BodyMotion<T>& motion) {

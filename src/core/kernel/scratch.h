@@ -1,18 +1,22 @@
 #pragma once
 
+#include <cstdint>
+
 #include "core/kernel/sweeps.h"
 
 namespace virtual_work_dynamics {
 namespace {  // see kernel.h
 
 /// Deals out the arrays of a Scratch from one piece of memory; with a null pointer it only counts.
+/// Addresses are integers until they are dealt, as nothing may be added to a null pointer.
 class ScratchDealer {
  public:
-  VWD_INLINE explicit ScratchDealer(void* memory) : memory_(static_cast<char*>(memory)) {}
+  VWD_INLINE explicit ScratchDealer(void* memory)
+      : memory_(reinterpret_cast<std::uintptr_t>(memory)) {}
 
   template <typename Item>
   VWD_INLINE Item* deal(std::size_t count) {
-    char* const items = memory_ + used_;
+    const std::uintptr_t items = memory_ + used_;
     const std::size_t size = count * sizeof(Item);
     used_ += (size + kScratchAlignment - 1) / kScratchAlignment * kScratchAlignment;
     return reinterpret_cast<Item*>(items);
@@ -21,7 +25,7 @@ class ScratchDealer {
   VWD_INLINE std::size_t used() const { return used_; }
 
  private:
-  char* memory_;
+  std::uintptr_t memory_;
   std::size_t used_ = 0;
 };
 

@@ -68,7 +68,7 @@ struct RotationZ {
   T c, s;  ///< cosine and sine of the angle
 };
 
-/// Rz v. W: the number type of either, or both.
+/// Rz v; v may be a constant.
 template <typename T, typename V>
 VWD_INLINE Vec3<T> times(const RotationZ<T>& R, const Vec3<V>& v) {
   return {subMul(R.c * v.x, R.s, v.y), mulAdd(R.s, v.x, R.c * v.y), T(v.z)};
