@@ -330,8 +330,7 @@ void InverseDynamicsNode::computePoints(ActivePlan& plan, std::size_t first) {
   const std::size_t count = std::min(plan.points.capacity(), trajectory_.stamps_ns.size() - first);
   const auto start = Clock::now();
   plan.points.compute(trajectory_.table, first, count);
-  const auto end = Clock::now();
-  const std::chrono::nanoseconds share = (end - start) / count;
+  const std::chrono::nanoseconds share = (Clock::now() - start) / count;
   for (std::size_t i = 0; i < count; ++i) counters_.run_times.record(share.count());
 }
 

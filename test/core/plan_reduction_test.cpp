@@ -240,6 +240,32 @@ TEST(PlanReduction, AppliedWrenchesKeepMasslessBranches) {
   }
 }
 
+// A tool without mass on a link without mass: nothing but its own wrench is needed, and its parent
+// is not. What the sanitizers see is what this is for.
+TEST(PlanReduction, AnAppliedWrenchOnAnIdleBranch) {
+  RobotBuilder builder(5);
+  builder.removeInertia(builder.add(0));
+  for (int i = 0; i < 2; ++i) {
+    builder.removeInertia(builder.add(JointType::kFixed, 1, Vector3l::Zero(), builder.rotation(),
+                                      builder.vector(0.3)));
+  }
+  const Mechanism mechanism = builder.build();
+  Scene scene;
+  scene.applied_wrenches.resize(2);
+  scene.applied_wrenches[0].link = "link_2";
+  scene.applied_wrenches[0].force << 1, 2, 3;
+  scene.applied_wrenches[1].link = "link_3";
+  scene.applied_wrenches[1].torque << -4, 5, 6;
+  Request request;
+  request.efforts = false;
+  request.child_axes = {"joint_2", "joint_3"};
+  const NamedResults results(mechanism, scene, request, builder.motion());
+  EXPECT_EQ(results.child("joint_2").force, Eigen::Vector3d(-1, -2, -3));
+  EXPECT_EQ(results.child("joint_3").torque, Eigen::Vector3d(4, -5, -6));
+  EXPECT_EQ(results.summary().bodies, 4u);
+  EXPECT_EQ(results.summary().sines_and_cosines, 0u);
+}
+
 TEST(PlanReduction, AppliedWrenchesElsewhereDoNotMatter) {
   RobotBuilder builder = chainOf(3);
   builder.add(0);
