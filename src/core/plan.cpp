@@ -1,5 +1,6 @@
 #include "core/plan.h"
 
+#include <algorithm>
 #include <set>
 
 #include "core/plan_reduction.h"
@@ -66,6 +67,18 @@ AxisDirection canonicalRotation(const Vector3l& axis, Matrix3l& Q) {
     return AxisDirection::kNormalToZ;
   }
   return AxisDirection::kOblique;
+}
+
+// Second moment of mass tr(I) / 2 - I. Of the two moments of inertia that are added on the diagonal
+// the larger comes first: for a thin rod along an axis it cancels, and leaves all digits of the
+// smaller one.
+Matrix3l secondMoment(const Matrix3l& I) {
+  Matrix3l G = -I;
+  for (int i = 0; i < 3; ++i) {
+    const Real a = I((i + 1) % 3, (i + 1) % 3), b = I((i + 2) % 3, (i + 2) % 3);
+    G(i, i) = ((std::max(a, b) - I(i, i)) + std::min(a, b)) / 2;
+  }
+  return G;
 }
 
 // Where a link of the description ended up.
@@ -197,9 +210,8 @@ class Compiler {
       const Placement& place = places_[i];
       Body<Real>& body = plan_.bodies[place.body];
       const Vector3l c = place.p_ZoLo_Z + place.R_ZL * link.p_KoCm_K;
-      const Matrix3l& I = link.inertia_Cm_K;
       // Second moment about the centre of mass, then about O_k: both add up over welded links.
-      const Matrix3l G_Cm = I.trace() / 2 * Matrix3l::Identity() - I;
+      const Matrix3l G_Cm = secondMoment(link.inertia_Cm_K);
       const Matrix3l G = place.R_ZL * G_Cm * place.R_ZL.transpose() + link.mass * c * c.transpose();
       body.mass += link.mass;
       body.h = {body.h.x + link.mass * c.x(), body.h.y + link.mass * c.y(),
