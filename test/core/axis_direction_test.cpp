@@ -134,8 +134,8 @@ std::vector<Vector3l> directions() {
           {1e-30L, 1e-20L, -1}};
 }
 
-// Frames whose z axis is `axis`: by the shortest turns about x, y or z where those do, and two that
-// are turned about it by other angles.
+// Frames whose z axis is `axis`: by turns about x, y or z where those do, and by half a turn more
+// about the axis; and two that are turned about it by other angles.
 std::vector<Matrix3l> framesAlong(const Vector3l& axis) {
   const Vector3l z = axis.normalized();
   std::vector<Matrix3l> frames;
@@ -150,6 +150,7 @@ std::vector<Matrix3l> framesAlong(const Vector3l& axis) {
     R << 0, -z.y(), z.x(), 0, z.x(), z.y(), -1, 0, 0;
     frames.push_back(R);
   }
+  if (!frames.empty()) frames.push_back(R * Vector3l(-1, -1, 1).asDiagonal());
   int least = 0;
   axis.cwiseAbs().minCoeff(&least);
   R.col(0) = Vector3l::Unit(least).cross(z).normalized();

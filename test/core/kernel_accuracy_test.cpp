@@ -129,6 +129,43 @@ TEST(KernelAccuracy, RandomTrees) {
   }
 }
 
+// Moved by one coordinate: every combination of gears that is treated in its own way.
+TEST(KernelAccuracy, MimicJoints) {
+  for (const double multiplier : {1.0, -1.0, 2.5, 0.0}) {
+    for (const double offset : {0.0, 0.7}) {
+      for (const JointType type : {JointType::kRevolute, JointType::kPrismatic}) {
+        RobotBuilder builder = chainOf(2);
+        const Vector3l axis = builder.direction();
+        const Matrix3l R_PK = builder.rotation();
+        builder.add(type, 2, axis, R_PK, builder.vector(0.3));
+        builder.mimicFirst(multiplier, offset);
+        builder.add(3);
+        expectDouble({"geared by " + std::to_string(multiplier) + " from " + std::to_string(offset),
+                      builder.build(), Scene(), builder.motions(kSamples)},
+                     kUpTo50Joints);
+      }
+    }
+  }
+}
+
+// Thin rods that turn about themselves, a millimetre and a micrometre a metre: their moment of
+// inertia is what remains where the others cancel.
+TEST(KernelAccuracy, Needles) {
+  for (const double slenderness : {6e-6, 6e-12}) {
+    for (int along = 0; along < 3; ++along) {
+      RobotBuilder builder(4);
+      const Matrix3l R_PK = builder.rotation();
+      const int rod =
+          builder.add(JointType::kContinuous, 0, Vector3l::Unit(along), R_PK, Vector3l::Zero());
+      Link& link = builder.link(rod);
+      link.p_KoCm_K = 0.5 * Vector3l(Vector3l::Unit(along));
+      link.inertia_Cm_K = (Vector3l::Ones() / 12).asDiagonal();
+      link.inertia_Cm_K(along, along) *= slenderness;
+      expectDouble({"needle", builder.build(), Scene(), builder.motions(kSamples)}, kUpTo50Joints);
+    }
+  }
+}
+
 TEST(KernelAccuracy, ChainOfAThousand) {
   expectDouble(chain(1000, 9), kChain1000);
 }

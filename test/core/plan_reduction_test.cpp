@@ -160,6 +160,38 @@ TEST(PlanReduction, NoGravityIsTheFullPlanWithNextToNone) {
   }
 }
 
+// Constants that are zero but for one entry, each in turn, are not left out as zero. The joints are
+// z-aligned, so that the entries are those of the recursion.
+TEST(PlanReduction, OneEntryIsNotNone) {
+  for (int entry = 0; entry < 9; ++entry) {
+    SCOPED_TRACE(entry);
+    RobotBuilder builder(3);
+    for (int i = 0; i < 4; ++i) {
+      const Matrix3l R_PK = builder.rotation();
+      Vector3l p_PoKo_P = Vector3l::Zero();
+      if (entry < 3) p_PoKo_P[entry] = 0.3;
+      const JointType type = i == 2 ? JointType::kPrismatic : JointType::kRevolute;
+      const int body = builder.add(type, i, Vector3l::UnitZ(), R_PK, p_PoKo_P);
+      Link& link = builder.link(body);
+      link.p_KoCm_K.setZero();
+      link.inertia_Cm_K = Vector3l(0.3, 0.4, 0.5).asDiagonal();
+      if (entry >= 3 && entry < 6) link.p_KoCm_K[entry - 3] = 0.2;
+      const int row = entry == 8 ? 1 : 0, column = entry == 6 ? 1 : 2;
+      if (entry >= 6) link.inertia_Cm_K(row, column) = link.inertia_Cm_K(column, row) = 0.05;
+    }
+    const Mechanism mechanism = builder.build();
+    const Motion motion = builder.motion();
+    const NamedResults results(mechanism, Scene(), requestAll(mechanism), motion);
+    const NewtonEulerOracle oracle(mechanism, Scene(), motion);
+    for (int k = 0; k < 4; ++k) {
+      const Wrench& wrench = results.child(mechanism.joints()[k].name);
+      const auto expected = oracle.childReaction(k);
+      EXPECT_LE((wrench.force.cast<long double>() - expected.force).norm(), 10 * kRounding);
+      EXPECT_LE((wrench.torque.cast<long double>() - expected.torque).norm(), 10 * kRounding);
+    }
+  }
+}
+
 // link_2 and link_3, one after the other at the end of a branch, carry nothing; link_4 does.
 RobotBuilder withMasslessBranch() {
   RobotBuilder builder = chainOf(3);
@@ -202,13 +234,15 @@ TEST(PlanReduction, ZerosThatNobodyComputesAreWritten) {
   for (const bool poses : {true, false}) {
     request.poses = request.twists = poses;
     const InverseDynamics dynamics(mechanism, Scene(), request);
-    for (const auto& sample : blockResults<float>(dynamics, motions, BlockLayout::kRowMajor, 1,
-                                                  chosenInstructionSet())) {
-      EXPECT_EQ(sample.effort[1], 0);
-      EXPECT_EQ(sample.effort[2], 0);
-      for (std::size_t i = 6; i < 18; ++i) {
-        EXPECT_EQ(sample.child_axes[i], 0);
-        EXPECT_EQ(sample.root_axes[i], 0);
+    for (const BlockLayout layout : {BlockLayout::kStructureOfArrays, BlockLayout::kRowMajor}) {
+      for (const auto& sample :
+           blockResults<float>(dynamics, motions, layout, 1, chosenInstructionSet())) {
+        EXPECT_EQ(sample.effort[1], 0);
+        EXPECT_EQ(sample.effort[2], 0);
+        for (std::size_t i = 6; i < 18; ++i) {
+          EXPECT_EQ(sample.child_axes[i], 0);
+          EXPECT_EQ(sample.root_axes[i], 0);
+        }
       }
     }
   }

@@ -159,6 +159,40 @@ TEST(PlanSummary, CountsAPrismaticJoint) {
   EXPECT_EQ(summary.sines_and_cosines, 0u);
 }
 
+// No inertia, no products with it; but the wrench of what it carries goes through it.
+TEST(PlanSummary, CountsNoInertiaOfBodiesWithout) {
+  RobotBuilder builder = chainOf(5);
+  const Cost all = costOf(summaryOf(builder.build(), Scene(), Request()));
+  builder.removeInertia(3);
+  EXPECT_EQ(costOf(summaryOf(builder.build(), Scene(), Request())), all - kInertia);
+}
+
+// Nobody asks for the sum at the root.
+TEST(PlanSummary, BranchesOnTheRootCostNothingTogether) {
+  RobotBuilder builder = chainOf(2);
+  const Cost one = costOf(summaryOf(builder.build(), Scene(), Request()));
+  builder.add(0);
+  builder.add(3);
+  EXPECT_EQ(costOf(summaryOf(builder.build(), Scene(), Request())), 2 * one);
+}
+
+// A joint on a fixed one that is kept starts from rest as on the root.
+TEST(PlanSummary, KnowsWhatRests) {
+  RobotBuilder builder(1);
+  const Matrix3l R_PK = builder.rotation();
+  builder.add(JointType::kFixed, 0, Vector3l::Zero(), R_PK, builder.vector(0.1));
+  builder.add(1);
+  const Mechanism mechanism = builder.build();
+  Request request;
+  const Cost merged = costOf(summaryOf(mechanism, Scene(), request));
+  request.child_axes = {"joint_1"};
+  const PlanSummary kept = summaryOf(mechanism, Scene(), request);
+  EXPECT_EQ(kept.left_out[0], "2 bodies on the root: the terms of its motion, which is none");
+  const Cost body = kScaleVector + (Cost{6, 9}), sum = 2 * kAddVector;
+  const Cost carried = kTurnWrench + 2 * kMatrixTimesVector + kAddCross, signs{6, 0};
+  EXPECT_EQ(costOf(kept), merged + body + carried + sum + signs);
+}
+
 Scene pendulumScene() {
   Scene scene;
   scene.gravity = {9.81, 0, 0};
@@ -257,6 +291,21 @@ TEST(PlanSummary, NamesWhatIsLeftOut) {
                           " multiplications, " + std::to_string(wrist.additions) +
                           " additions, 2 sines and cosines; bodies, with the root: 3");
   EXPECT_EQ(lines[2], "left out: joints that reach no requested result (2): joint_3, joint_5");
+}
+
+// Names of joints behind some that are left out.
+TEST(PlanSummary, NamesIdleJoints) {
+  RobotBuilder builder = chainOf(1);
+  builder.add(0);
+  builder.add(2);
+  Scene weightless;
+  weightless.gravity.setZero();
+  Request request;
+  request.efforts = false;
+  request.child_axes = {"joint_3"};
+  const PlanSummary summary = summaryOf(builder.build(), weightless, request);
+  EXPECT_EQ(summary.left_out[0], "1 joints that reach no requested result: joint_1");
+  EXPECT_EQ(summary.left_out[1], "1 joints whose position matters to no requested result: joint_2");
 }
 
 // Every wish less is an operation less.

@@ -62,6 +62,16 @@ class RobotBuilder {
     return add(JointType::kRevolute, parent_link, axis, R_PK, vector(0.05));
   }
 
+  /// Makes the joint that was added last follow the first.
+  void mimicFirst(double multiplier, double offset) {
+    Joint& joint = joints_.back();
+    joint.mimics = true;
+    joint.coordinate = 0;
+    joint.multiplier = multiplier;
+    joint.offset = offset;
+    --coordinates_;
+  }
+
   void addInertia(int link) {
     const double mass = uniform(0.5, 2);
     const Vector3l sides{uniform(0.02, 0.1), uniform(0.02, 0.1), uniform(0.02, 0.1)};
