@@ -72,6 +72,6 @@ target_include_directories(leave_out PRIVATE ../src)
 target_link_libraries(leave_out PRIVATE benchmark_contenders ${PROJECT_NAME}_warnings)
 
 if(NOT VWD_CORE_ONLY)
-  install(TARGETS callgrind_sample work_precision
+  install(TARGETS callgrind_sample leave_out work_precision
     RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endif()

@@ -3,6 +3,7 @@
 #include "core/aligned_memory.h"
 #include "core/kernel/joint_angles.h"
 #include "core/kernel/scratch.h"
+#include "core/plan.h"
 #include "offers.h"
 #include "own_request.h"
 

@@ -26,7 +26,10 @@ struct Source {
 constexpr Source kSources[] = {
     {"pendulum", VWD_SOURCE_DIR "/urdf/composed_pendulum.urdf", 0, {9.81, 0, 0}},
     {"six_axis_arm", VWD_SOURCE_DIR "/urdf/six_axis_arm.urdf", 0, {0, 0, -9.81}},
-    {"seven_axis_arm", VWD_SOURCE_DIR "/benchmark/contenders/seven_axis_arm.urdf", 0, {0, 0, -9.81}},
+    {"seven_axis_arm",
+     VWD_SOURCE_DIR "/benchmark/contenders/seven_axis_arm.urdf",
+     0,
+     {0, 0, -9.81}},
     {"ur5", VWD_SHARED_DATA "/robots/ur5.urdf", 0, {0, 0, -9.81}},
     {"hyq", VWD_SHARED_DATA "/robots/hyq.urdf", 0, {0, 0, -9.81}},
     {"tiago_no_hand", VWD_SHARED_DATA "/robots/tiago_no_hand.urdf", 0, {0, 0, -9.81}},
