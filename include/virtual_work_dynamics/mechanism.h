@@ -38,6 +38,8 @@ struct Joint {
   bool mimics = false;
   double multiplier = 1;  ///< joint position = multiplier * q[coordinate]
   double offset = 0;      ///<                  + offset
+  double damping = 0;   ///< as described, viscous, N m s/rad or N s/m; see Scene::use_urdf_dynamics
+  double friction = 0;  ///< as described, dry, N m or N
 };
 
 /// Something questionable in a description that is computed all the same; one line for the user.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,20 @@ struct AppliedWrench {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< about `at`, N m
 };
 
+/// What acts between a joint's actuator and the mechanism. It is part of the effort that the
+/// actuator must deliver and of no reaction. All are at least zero.
+struct JointTerms {
+  std::string joint;              ///< a joint that moves; mimic joints have terms of their own
+  double stiffness = 0;           ///< of a spring, N m/rad or N/m
+  double rest = 0;                ///< position at which the spring is relaxed, rad or m
+  std::optional<double> damping;  ///< viscous, N m s/rad or N s/m; not given: see use_urdf_dynamics
+  std::optional<double> coulomb;  ///< dry friction, N m or N; not given: see use_urdf_dynamics
+  /// Friction is coulomb * qd / sqrt(qd^2 + coulomb_velocity^2), which passes zero smoothly; rad/s
+  /// or m/s, positive.
+  double coulomb_velocity = 1e-3;
+  double rotor_inertia = 0;  ///< reflected to the joint: gear ratio squared included, kg m^2 or kg
+};
+
 /// Which reactions a scene asks for.
 enum class ReactionSelection {
   kAll,  ///< every movable joint, mimic joints included
@@ -37,6 +52,9 @@ struct Scene {
   bool include_active = true;
   bool strict_inertia = false;  ///< impossible inertias are an error rather than a doubt
   std::vector<AppliedWrench> applied_wrenches;
+  std::vector<JointTerms> joints;  ///< for some joints, each once
+  /// Damping and friction of the description count for joints whose terms do not give them.
+  bool use_urdf_dynamics = false;
 };
 
 /// Names of the reactions that the scene asks for: "ground" first, then depth-first order.

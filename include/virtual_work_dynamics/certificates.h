@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+
+#include "virtual_work_dynamics/inverse_dynamics.h"
+
+namespace virtual_work_dynamics {
+
+/// What efforts and reactions of one sample miss of laws that hold for the mechanism as a whole,
+/// relative to the sum of the magnitudes of all terms: some 1e-15 when they are right, at any
+/// scale. Zero where there is nothing to compare.
+struct Certificates {
+  double power = 0;          ///< efforts * velocities against the rate of change of energy
+  double ground_force = 0;   ///< ground's force against the rate of change of momentum
+  double ground_moment = 0;  ///< ground's moment against that of angular momentum, root origin
+
+  double largest() const;  ///< NaN when any is
+};
+
+/// Certifies samples: carries velocities and accelerations of all centres of mass to root axes in a
+/// way of its own, sums up momentum and energy, and compares. One instance serves one thread.
+class Certifier {
+ public:
+  /// @throws SceneError as InverseDynamics does for applied wrenches and joint terms.
+  Certifier(const Mechanism& mechanism, const Scene& scene);
+  ~Certifier();
+  Certifier(Certifier&&) noexcept;
+  Certifier& operator=(Certifier&&) noexcept;
+
+  /// `request` with what certificates need: efforts, and the reaction of ground in child axes, last
+  /// of all unless it is asked for already.
+  static Request extended(Request request);
+  /// Where the reaction of ground stands in Request::child_axes of an extended request.
+  static std::size_t groundIndex(const Request& extended);
+
+  /// Certificates of the results of one sample. Does not allocate.
+  /// @param effort of every generalized coordinate, N m or N
+  /// @param ground wrench of ground on the root link, root axes, about the root link's origin
+  /// @throws MotionError when a vector has the wrong length.
+  Certificates check(const Motion& motion, const Eigen::VectorXd& effort, const Wrench& ground);
+
+  /// As Workspace::setAppliedWrench().
+  void setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
+                        const Eigen::Vector3d& torque);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace virtual_work_dynamics

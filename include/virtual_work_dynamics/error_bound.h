@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/motion.h"
+#include "virtual_work_dynamics/scene.h"
+
+namespace virtual_work_dynamics {
+
+/// Sums of the norms of all that is added up to a wrench: however much of it cancels, rounding
+/// errors are parts of these.
+struct WrenchMagnitude {
+  double force = 0;   ///< N
+  double moment = 0;  ///< N m
+};
+
+/// How large the terms are whose sums are efforts and reactions, and from them how far results may
+/// be off: a recursion over norms instead of vectors. Velocities and accelerations are sums of
+/// norms from the root on, forces (3.5) sums of the magnitudes of their products, carried to the
+/// parent's origin by norm, moments by |p| |F|, (3.8). One instance serves one thread.
+class ErrorBound {
+ public:
+  /// @throws SceneError as InverseDynamics does for applied wrenches and joint terms.
+  ErrorBound(const Mechanism& mechanism, const Scene& scene);
+  ~ErrorBound();
+  ErrorBound(ErrorBound&&) noexcept;
+  ErrorBound& operator=(ErrorBound&&) noexcept;
+
+  /// Magnitudes of one sample. Does not allocate. Fixed joints are joints like others.
+  /// @throws MotionError when a vector of `motion` has the wrong length.
+  void compute(const Motion& motion);
+
+  /// Of the wrench on each link's origin: [0] of ground, [k + 1] of joint k.
+  const std::vector<WrenchMagnitude>& wrenches() const;
+  /// Of the effort of each generalized coordinate, mimic joints and joint terms included.
+  const std::vector<double>& efforts() const;
+
+  /// Number of roundings in sequence that a wrench is behind: joints on the longest path of the
+  /// subtree, plus the binary logarithms of the numbers of children along it, as hubs sum pairwise.
+  /// [0] of ground, [k + 1] of joint k.
+  const std::vector<int>& depths() const;
+  /// The same of each generalized coordinate's effort: the largest of the joints that it moves.
+  const std::vector<int>& effortDepths() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "virtual_work_dynamics/inverse_dynamics.h"
+
+namespace virtual_work_dynamics {
+
+/// Efforts and reactions by the paper's other formalism, Lagrange's equations (4.1) with a
+/// fictitious mobility at the joint in question that is set to zero after differentiation (4.2): an
+/// independent witness of InverseDynamics, whose results it should equal. Kinetic energy and force
+/// function are written from positions and velocities alone and differentiated automatically, so
+/// that no step size enters. Its cost grows with the square of the number of bodies: not for the
+/// per-sample path. Real: double or long double. One instance serves one thread.
+template <typename Real>
+class LagrangeDynamics {
+ public:
+  /// Poses and twists of the request are ignored.
+  /// @throws SceneError as InverseDynamics does.
+  LagrangeDynamics(const Mechanism& mechanism, const Scene& scene, const Request& request);
+  ~LagrangeDynamics();
+  LagrangeDynamics(LagrangeDynamics&&) noexcept;
+  LagrangeDynamics& operator=(LagrangeDynamics&&) noexcept;
+
+  Eigen::Index coordinates() const;
+  const Request& request() const;
+
+  /// All results of one sample. Does not allocate.
+  /// @throws MotionError when a vector of `motion` has the wrong length.
+  void compute(const Motion& motion);
+
+  /// As those of Workspace, rounded to double.
+  const Eigen::VectorXd& effort() const;
+  const std::vector<Wrench>& childAxes() const;
+  const std::vector<Wrench>& rootAxes() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace virtual_work_dynamics
