@@ -74,10 +74,10 @@ class InverseDynamics {
   Workspace makeWorkspace() const;
 
   /// Efforts and reactions of one sample, into the workspace. Does not allocate. Angles may be
-  /// any finite number; a mimic joint's, multiplier * q + offset, is rounded to double.
+  /// any finite number; a mimic joint's, multiplier * q + offset, keeps what a double would lose of
+  /// it up to 1e13 rad.
   /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is
-  /// another
-  ///   plan's.
+  ///   another plan's.
   void compute(const Motion& motion, Workspace& workspace) const;
 
  private:

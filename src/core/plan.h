@@ -29,6 +29,9 @@ struct PlanUse {
   bool poses = false;   ///< reported with the reactions in root axes
   bool twists = false;  ///<
   bool any_pose = false;
+  bool geared_angles = false;  ///< some joint that turns is not moved one to one
+  int wrenches = 0;            ///< of the bodies, and partial sums behind them
+  std::vector<Carry> carries;
   std::vector<int> zero_efforts;  ///< coordinates that no wrench reaches
   LeftOut left_out;
 };

@@ -44,6 +44,9 @@ Counted operator*(double a, const Counted& b) {
 Counted operator*(const Counted& a, double b) {
   return a * Counted(b);
 }
+Counted productRest(double a, const Counted& b, const Counted& product) {
+  return a * b - product;
+}
 Counted uncounted(const Counted& a) {
   return a;
 }

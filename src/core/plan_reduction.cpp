@@ -27,6 +27,9 @@ bool inertialess(const Body<Real>& body) {
          G.yz == 0 && G.zz == 0;
 }
 
+// Fewer children than this are summed in sequence: the errors are as small.
+constexpr std::size_t kPairwiseFrom = 8;
+
 class Reduction {
  public:
   Reduction(Plan<Real>& plan, const std::vector<std::string>& names, const Vec3<Real>& gamma_root)
@@ -192,6 +195,7 @@ class Reduction {
         if (used(body)) plan_.left_out.idle.push_back(kept_names_[k]);
       } else if (body.mobility == Mobility::kRevolute) {
         angles.push_back(plan_.angles[body.angle]);
+        if (angles.back().geared) plan_.geared_angles = true;
         body.angle = static_cast<int>(angles.size()) - 1;
       } else {
         slides.push_back(plan_.slides[body.slide]);
@@ -228,9 +232,11 @@ class Reduction {
         bodies_[k].takes_from_next = true;
       } else if (later >= 0 && bodies_[bodies_[later].parent].wrench_needed) {
         bodies_[later].adds_to_parent = true;
+        bodies_[later].sums_into = bodies_[later].parent;
       }
       later = k;
     }
+    sumHubsPairwise();
     for (std::size_t i = 0; i < plan_.child_axes.size(); ++i) {
       const int body = plan_.child_axes[i].body;
       if (body >= 0) bodies_[body].child_axes = static_cast<int>(i);
@@ -238,6 +244,44 @@ class Reduction {
     for (const auto& output : plan_.root_axes) {
       if (output.body >= 0) bodies_[output.body].wrench_outlives = true;
     }
+  }
+
+  // The children of a hub go two by two into partial sums of 1, 2, 4... children, as a binary
+  // counter counts; what is left in the end goes into the hub's own wrench.
+  void sumHubsPairwise() {
+    plan_.wrenches = static_cast<int>(bodies_.size());
+    std::vector<std::vector<int>> children(bodies_.size());  // in the order of the sweep
+    for (int k = static_cast<int>(bodies_.size()); k-- > 1;) {
+      if (bodies_[k].adds_to_parent) children[bodies_[k].parent].push_back(k);
+    }
+    for (std::size_t hub = 0; hub < bodies_.size(); ++hub) {
+      if (children[hub].size() < kPairwiseFrom) continue;
+      int sums = 0;
+      while (children[hub].size() >> sums) ++sums;
+      for (std::size_t n = 0; n < children[hub].size(); ++n) {
+        addChild(bodies_[children[hub][n]], n, n + 1 == children[hub].size());
+      }
+      plan_.wrenches += sums;
+    }
+  }
+
+  // `n` children came before; the partial sums there are, are the bits of n.
+  void addChild(Body<Real>& child, std::size_t n, bool last) {
+    const auto bit = [](std::size_t number, int i) { return (number >> i & 1) != 0; };
+    child.sums_into = plan_.wrenches;
+    child.starts_sum = !bit(n, 0);
+    child.carries_begin = static_cast<int>(plan_.carries.size());
+    for (int i = 0; bit(n, i); ++i) {
+      plan_.carries.push_back({plan_.wrenches + i, plan_.wrenches + i + 1, !bit(n, i + 1)});
+    }
+    int carried = -1;
+    for (int i = 0; last && (n + 1) >> i; ++i) {
+      if (!bit(n + 1, i)) continue;
+      if (carried >= 0) plan_.carries.push_back({carried, plan_.wrenches + i, false});
+      carried = plan_.wrenches + i;
+    }
+    if (last) plan_.carries.push_back({carried, child.parent, false});
+    child.carries_end = static_cast<int>(plan_.carries.size());
   }
 
   void markEfforts() {

@@ -100,6 +100,7 @@ PlanView<T> viewOf(const Plan<T>& plan) {
   view.child_axes = plan.child_axes.data();
   view.root_axes = plan.root_axes.data();
   view.applied = plan.applied.data();
+  view.carries = plan.carries.data();
   view.zero_efforts = plan.zero_efforts.data();
   view.body_count = static_cast<int>(plan.bodies.size());
   view.angle_count = static_cast<int>(plan.angles.size());
@@ -109,8 +110,10 @@ PlanView<T> viewOf(const Plan<T>& plan) {
   view.applied_count = static_cast<int>(plan.applied.size());
   view.zero_effort_count = static_cast<int>(plan.zero_efforts.size());
   view.slots = plan.slots;
+  view.wrench_count = plan.wrenches;
   view.static_motion = plan.static_motion;
   view.any_pose = plan.any_pose;
+  view.geared_angles = plan.geared_angles;
   view.root_wrench = plan.root_wrench;
   return view;
 }

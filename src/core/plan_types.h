@@ -57,6 +57,7 @@ struct BodyUse {
   bool takes_from_next = false;  ///< a child's wrench arrives in registers
   bool hands_on = false;         ///< its wrench goes to the parent in registers
   bool adds_to_parent = false;   ///< its wrench goes to the parent in memory
+  bool starts_sum = false;       ///< and is the first there
   bool drives = false;           ///< its active component is part of a requested effort
   bool summed = false;           ///< and not the first part of it in the sweep
   bool geared = false;           ///< the multiplier is not 1
@@ -67,6 +68,18 @@ struct BodyUse {
   int slide = -1;        ///< index into Plan::slides
   int coordinate = -1;   ///< that moves it; -1: fixed
   int child_axes = -1;   ///< index into Plan::child_axes
+
+  int sums_into = -1;     ///< index of the wrench it is added to: the parent's, or a partial sum
+  int carries_begin = 0;  ///< range of Plan::carries that follow the addition
+  int carries_end = 0;
+};
+
+/// A partial sum of a hub's children that moves on: hubs sum pairwise, so that errors grow with the
+/// logarithm of the number of children.
+struct Carry {
+  int from = 0;         ///< indices of wrenches
+  int to = 0;           ///<
+  bool starts = false;  ///< nothing is at `to` yet
 };
 
 /// One rigid body of the recursion with everything that is welded to it; constants in its z-aligned

@@ -191,6 +191,30 @@ VWD_INLINE Pack<R, kWidth> subMul(const Pack<R, kWidth>& c, const Pack<R, kWidth
 }
 #endif
 
+/// a b - product, where `product` is a b rounded: what rounding took away, exactly.
+VWD_INLINE double productRest(const double& a, const double& b, const double& product) {
+  return __builtin_fma(a, b, -product);
+}
+VWD_INLINE float productRest(const float& a, const float& b, const float& product) {
+  return static_cast<float>(static_cast<double>(a) * static_cast<double>(b) -
+                            static_cast<double>(product));
+}
+VWD_INLINE long double productRest(const long double& a, const long double& b,
+                                   const long double& product) {
+  return __builtin_fmal(a, b, -product);
+}
+template <typename R, int kWidth>
+VWD_INLINE Pack<R, kWidth> productRest(const R& a, const Pack<R, kWidth>& b,
+                                       const Pack<R, kWidth>& product) {
+#if defined(__FMA__)
+  return mulSub(Pack<R, kWidth>(a), b, product);
+#else
+  Pack<R, kWidth> rest;
+  for (int i = 0; i < kWidth; ++i) rest.v[i] = productRest(a, b.v[i], product.v[i]);
+  return rest;
+#endif
+}
+
 /// Reads and writes the neighbouring samples of a T.
 template <typename T>
 struct Neighbours {

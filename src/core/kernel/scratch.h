@@ -39,10 +39,11 @@ VWD_INLINE Scratch<T, R> dealScratch(const PlanView<R>& plan, std::size_t pad,
   scratch.cosines = dealer.deal<T>(angles);
   scratch.sines = dealer.deal<T>(angles);
   scratch.angles = dealer.deal<T>(pad ? angles : 0);
+  scratch.rests = dealer.deal<T>(pad && plan.geared_angles ? angles : 0);
   scratch.phase_cos = dealer.deal<R>(pad ? angles : 0);
   scratch.phase_sin = dealer.deal<R>(pad ? angles : 0);
   scratch.slides = dealer.deal<T>(static_cast<std::size_t>(plan.slide_count));
-  scratch.wrenches = dealer.deal<PlainWrench<T>>(bodies);
+  scratch.wrenches = dealer.deal<PlainWrench<T>>(static_cast<std::size_t>(plan.wrench_count));
   scratch.slots = dealer.deal<BodyMotion<T>>(static_cast<std::size_t>(plan.slots));
   scratch.poses = dealer.deal<BodyPose<T>>(plan.any_pose ? bodies : 0);
   return scratch;
@@ -61,6 +62,7 @@ void prepareScratch(const PlanView<R>& plan, std::size_t pad, const Scratch<T, R
   for (std::size_t i = 0; pad && i < static_cast<std::size_t>(plan.angle_count) + pad; ++i) {
     const bool real = i < static_cast<std::size_t>(plan.angle_count);
     scratch.angles[i] = T(0);
+    if (plan.geared_angles) scratch.rests[i] = T(0);
     scratch.phase_cos[i] = real ? plan.angles[i].phase_cos : R(1);
     scratch.phase_sin[i] = real ? plan.angles[i].phase_sin : R(0);
   }

@@ -120,15 +120,18 @@ VWD_INLINE void sineCosine(const Pack<R, kWidth>& angle, Pack<R, kWidth>& sine,
   lanes.inside &= (angle.v <= Constants::range) & (angle.v >= -Constants::range);
 }
 
-/// Puts the lanes right that sineCosine() left wrong.
+/// Puts the lanes right that sineCosine() left wrong, and takes of `rest`, which is to be added to
+/// the angle, what a double holds of the sum.
 template <typename R, int kWidth>
-VWD_INLINE void sineCosineOutside(const Pack<R, kWidth>& angle, Pack<R, kWidth>& sine,
-                                  Pack<R, kWidth>& cosine) {
+VWD_INLINE void sineCosineOutside(const Pack<R, kWidth>& angle, Pack<R, kWidth>& rest,
+                                  Pack<R, kWidth>& sine, Pack<R, kWidth>& cosine) {
   for (int i = 0; i < kWidth; ++i) {
     const R lane = angle.v[i];
     if (lane <= SineCosineConstants<R>::range && lane >= -SineCosineConstants<R>::range) continue;
     double lane_sine, lane_cosine;
-    sineCosineBeyond(lane, &lane_sine, &lane_cosine);
+    const double sum = static_cast<double>(lane) + static_cast<double>(rest.v[i]);
+    rest.v[i] = static_cast<R>(static_cast<double>(rest.v[i]) - (sum - static_cast<double>(lane)));
+    sineCosineBeyond(sum, &lane_sine, &lane_cosine);
     sine.v[i] = static_cast<R>(lane_sine);
     cosine.v[i] = static_cast<R>(lane_cosine);
   }

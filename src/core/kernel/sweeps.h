@@ -12,10 +12,11 @@ struct Scratch {
   T* cosines;                ///< of Plan::angles
   T* sines;                  ///<
   T* slides;                 ///< positions of Plan::slides
-  PlainWrench<T>* wrenches;  ///< of the bodies, in Z axes and about O_k
+  PlainWrench<T>* wrenches;  ///< of the bodies, in Z axes and about O_k; partial sums behind them
   BodyMotion<T>* slots;      ///< motions that later children need
   BodyPose<T>* poses;        ///< of the bodies that need one; [0] is the root's
   T* angles;                 ///< see sampleAngles()
+  T* rests;                  ///<
   R* phase_cos;              ///<
   R* phase_sin;              ///<
 };
@@ -208,6 +209,26 @@ VWD_INLINE void addEffort(const Body<R>& body, const PlainWrench<T>& wrench,
   store(to, body.summed ? load<T>(to) + active : active);
 }
 
+template <typename T>
+VWD_INLINE void addTo(PlainWrench<T>& sum, bool starts, const PlainWrench<T>& wrench) {
+  if (starts) {
+    sum = wrench;
+  } else {
+    sum = {sum.force + wrench.force, sum.torque + wrench.torque};
+  }
+}
+
+/// The sum over children in (3.8).
+template <typename T, typename R>
+VWD_INLINE void sumUp(const PlanView<R>& plan, const Body<R>& body, const PlainWrench<T>& handed,
+                      PlainWrench<T>* wrenches) {
+  addTo(wrenches[body.sums_into], body.starts_sum, handed);
+  for (int i = body.carries_begin; i < body.carries_end; ++i) {
+    const Carry& carry = plan.carries[i];
+    addTo(wrenches[carry.to], carry.starts, wrenches[carry.from]);
+  }
+}
+
 /// Leaves to root: (3.8), and what is reported of it in Z axes or the child link's.
 template <typename T, typename R>
 VWD_INLINE void sweepIn(const PlanView<R>& plan, const KernelInputs<R>& in,
@@ -249,10 +270,7 @@ VWD_INLINE void sweepIn(const PlanView<R>& plan, const KernelInputs<R>& in,
     forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
       handed = toParent<false, axis.value>(body, joint, wrench);
     });
-    if (body.adds_to_parent) {
-      PlainWrench<T>& parent = scratch.wrenches[body.parent];
-      parent = {parent.force + handed.force, parent.torque + handed.torque};
-    }
+    if (body.adds_to_parent) sumUp(plan, body, handed, scratch.wrenches);
   }
 }
 
