@@ -97,8 +97,8 @@ class Workspace {
   Workspace(Workspace&&) noexcept;
   Workspace& operator=(Workspace&&) noexcept;
 
-  /// Effort of each generalized coordinate, N m or N; (3.7), mimic joints included. Empty when the
-  /// request leaves efforts out.
+  /// Effort of each generalized coordinate, N m or N; (3.7), mimic joints and what the scene says
+  /// of joints' springs, friction and rotors included. Empty when the request leaves efforts out.
   const Eigen::VectorXd& effort() const { return effort_; }
   /// Reactions in the order of Request::child_axes and Request::root_axes.
   const std::vector<Wrench>& childAxes() const { return child_axes_; }

@@ -29,8 +29,8 @@ struct JointTerms {
   double rest = 0;                ///< position at which the spring is relaxed, rad or m
   std::optional<double> damping;  ///< viscous, N m s/rad or N s/m; not given: see use_urdf_dynamics
   std::optional<double> coulomb;  ///< dry friction, N m or N; not given: see use_urdf_dynamics
-  /// Friction is coulomb * qd / sqrt(qd^2 + coulomb_velocity^2), which passes zero smoothly; rad/s
-  /// or m/s, positive.
+  /// Where dry friction is fully there: it is coulomb * s (3 - s^2) / 2 with s = qd /
+  /// coulomb_velocity held within [-1, 1], which passes zero smoothly. At least 1e-12 rad/s or m/s.
   double coulomb_velocity = 1e-3;
   double rotor_inertia = 0;  ///< reflected to the joint: gear ratio squared included, kg m^2 or kg
 };

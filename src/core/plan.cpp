@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/joint_terms.h"
 #include "core/plan_reduction.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -105,6 +106,7 @@ class Compiler {
     addInertias();
     addOutputs();
     addApplied();
+    addActuators();
     reducePlan(plan_, names_, plain(Vector3l(-scene_.gravity.cast<Real>())));
     return std::move(plan_);
   }
@@ -261,6 +263,18 @@ class Compiler {
       applied.given = {plain(Vector3l(wrench.force.cast<Real>())),
                        plain(Vector3l(wrench.torque.cast<Real>()))};
       plan_.applied.push_back(applied);
+    }
+  }
+
+  void addActuators() {
+    for (const ResolvedJointTerms& terms : resolveJointTerms(mechanism_, scene_)) {
+      const Joint& joint = mechanism_.joints()[static_cast<std::size_t>(terms.joint)];
+      if (request_.efforts) {
+        plan_.actuators.push_back({joint.coordinate, Real(joint.multiplier),
+                                   Real(joint.offset) - Real(terms.rest), terms.stiffness,
+                                   terms.damping, terms.coulomb, 1 / Real(terms.coulomb_velocity),
+                                   terms.rotor_inertia});
+      }
     }
   }
 

@@ -46,6 +46,7 @@ struct Plan : PlanUse {
   std::vector<ReactionOutput<T>> child_axes;
   std::vector<ReactionOutput<T>> root_axes;
   std::vector<AppliedOutside<T>> applied;
+  std::vector<ActuatorTerms<T>> actuators;
 };
 
 /// Compiles in long double. @throws SceneError, see InverseDynamics.

@@ -47,6 +47,10 @@ Counted operator*(const Counted& a, double b) {
 Counted productRest(double a, const Counted& b, const Counted& product) {
   return a * b - product;
 }
+// Comparisons are not counted.
+Counted heldWithinOne(const Counted& a) {
+  return a;
+}
 Counted uncounted(const Counted& a) {
   return a;
 }

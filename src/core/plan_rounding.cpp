@@ -68,6 +68,12 @@ AppliedOutside<T> rounded(const AppliedOutside<Real>& from) {
           rounded<T>(from.given)};
 }
 
+template <typename T>
+ActuatorTerms<T> rounded(const ActuatorTerms<Real>& from) {
+  return {from.coordinate, T(from.multiplier), T(from.offset),       T(from.stiffness),
+          T(from.damping), T(from.coulomb),    T(from.per_velocity), T(from.rotor_inertia)};
+}
+
 template <typename T, template <typename> class Item>
 std::vector<Item<T>> roundedAll(const std::vector<Item<Real>>& from) {
   std::vector<Item<T>> items;
@@ -88,6 +94,7 @@ Plan<T> roundPlan(const Plan<Real>& from) {
   plan.child_axes = roundedAll<T>(from.child_axes);
   plan.root_axes = roundedAll<T>(from.root_axes);
   plan.applied = roundedAll<T>(from.applied);
+  plan.actuators = roundedAll<T>(from.actuators);
   return plan;
 }
 
@@ -100,6 +107,7 @@ PlanView<T> viewOf(const Plan<T>& plan) {
   view.child_axes = plan.child_axes.data();
   view.root_axes = plan.root_axes.data();
   view.applied = plan.applied.data();
+  view.actuators = plan.actuators.data();
   view.carries = plan.carries.data();
   view.zero_efforts = plan.zero_efforts.data();
   view.body_count = static_cast<int>(plan.bodies.size());
@@ -108,6 +116,7 @@ PlanView<T> viewOf(const Plan<T>& plan) {
   view.child_axes_count = static_cast<int>(plan.child_axes.size());
   view.root_axes_count = static_cast<int>(plan.root_axes.size());
   view.applied_count = static_cast<int>(plan.applied.size());
+  view.actuator_count = static_cast<int>(plan.actuators.size());
   view.zero_effort_count = static_cast<int>(plan.zero_efforts.size());
   view.slots = plan.slots;
   view.wrench_count = plan.wrenches;

@@ -108,6 +108,21 @@ struct JointPosition {
   T phase_sin = T(0);
 };
 
+/// What acts between a joint's actuator and the mechanism, see JointTerms: position, velocity and
+/// acceleration of the joint are multiplier times the coordinate's, the position more by `offset`,
+/// from where its spring is relaxed.
+template <typename T>
+struct ActuatorTerms {
+  int coordinate = 0;
+  T multiplier = T(1);
+  T offset = T(0);
+  T stiffness = T(0);
+  T damping = T(0);
+  T coulomb = T(0);
+  T per_velocity = T(0);  ///< 1 / JointTerms::coulomb_velocity
+  T rotor_inertia = T(0);
+};
+
 /// A reaction to report.
 template <typename T>
 struct ReactionOutput {

@@ -12,11 +12,12 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-const Names kSceneKeys = {"gravity",        "motion",         "reactions",
-                          "include_active", "strict_inertia", "applied_wrenches"};
-const Names kLaterKeys = {"joints",   "springs",    "closures",         "actuated",
-                          "assembly", "redundancy", "use_urdf_dynamics"};
+const Names kSceneKeys = {"gravity",        "motion",           "reactions", "include_active",
+                          "strict_inertia", "applied_wrenches", "joints",    "use_urdf_dynamics"};
+const Names kLaterKeys = {"springs", "closures", "actuated", "assembly", "redundancy"};
 const Names kWrenchKeys = {"link", "at", "axes", "force", "torque"};
+const Names kJointKeys = {"name",    "stiffness",        "rest",         "damping",
+                          "coulomb", "coulomb_velocity", "rotor_inertia"};
 
 bool contains(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -109,6 +110,35 @@ AppliedWrench readAppliedWrench(const YAML::Node& node, const std::string& where
   return wrench;
 }
 
+JointTerms readJointTerms(const YAML::Node& node, const std::string& where) {
+  if (!node.IsMap()) {
+    fail(where,
+         "expected a map with name, stiffness, rest, damping, coulomb, coulomb_velocity, "
+         "rotor_inertia");
+  }
+  JointTerms terms;
+  forEachEntry(node, where + ".", [&](const std::string& key, const YAML::Node& value) {
+    const std::string path = where + "." + key;
+    if (!contains(kJointKeys, key)) fail(path, "unknown key");
+    if (key == "name") terms.joint = scalarText(value, path, "a joint's name");
+    if (key == "stiffness") terms.stiffness = readNumber(value, path);
+    if (key == "rest") terms.rest = readNumber(value, path);
+    if (key == "damping") terms.damping = readNumber(value, path);
+    if (key == "coulomb") terms.coulomb = readNumber(value, path);
+    if (key == "coulomb_velocity") terms.coulomb_velocity = readNumber(value, path);
+    if (key == "rotor_inertia") terms.rotor_inertia = readNumber(value, path);
+  });
+  if (terms.joint.empty()) fail(where, "names no joint");
+  return terms;
+}
+
+void readJoints(const YAML::Node& node, Scene& scene) {
+  if (!node.IsSequence()) fail("joints", "expected a list");
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    scene.joints.push_back(readJointTerms(node[i], "joints[" + std::to_string(i) + "]"));
+  }
+}
+
 void readAppliedWrenches(const YAML::Node& node, Scene& scene) {
   if (!node.IsSequence()) fail("applied_wrenches", "expected a list");
   for (std::size_t i = 0; i < node.size(); ++i) {
@@ -126,6 +156,8 @@ void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
   if (key == "include_active") scene.include_active = readBool(value, key);
   if (key == "strict_inertia") scene.strict_inertia = readBool(value, key);
   if (key == "applied_wrenches") readAppliedWrenches(value, scene);
+  if (key == "joints") readJoints(value, scene);
+  if (key == "use_urdf_dynamics") scene.use_urdf_dynamics = readBool(value, key);
 }
 
 }  // namespace

@@ -209,11 +209,21 @@ class Reader {
     }
     if (joint.type != JointType::kFixed) {
       joint.axis_K = axisOf(source);
+      readDynamics(source, joint);
       if (!source.mimic) joint.coordinate = coordinates_++;
     } else if (source.mimic) {
       doubts_.push_back({"joint '" + source.name + "': is fixed, its <mimic> has no meaning"});
     }
     joints_.push_back(joint);
+  }
+
+  static void readDynamics(const urdf::Joint& source, Joint& joint) {
+    if (!source.dynamics) return;
+    joint.damping = source.dynamics->damping;
+    joint.friction = source.dynamics->friction;
+    if (!std::isfinite(joint.damping) || !std::isfinite(joint.friction)) {
+      throw UrdfError("joint '" + source.name + "': damping or friction is not finite");
+    }
   }
 
   static JointType typeOf(const urdf::Joint& source) {

@@ -51,6 +51,7 @@ inline bool isFinite(Real113 x) {
 
 #ifdef VWD_HAS_REAL113
 
+#include "core/joint_terms.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/scene.h"
@@ -118,11 +119,15 @@ class Reference113 {
     for (int i = 0; i <= joints; ++i) balanceLink(i, toVector113(scene.gravity));
     for (const AppliedWrench& applied : scene.applied_wrenches) subtract(applied);
     for (int k = joints - 1; k >= 0; --k) addToParent(k);
+    actuators_.assign(mechanism.coordinates().size(), 0);
+    for (const ResolvedJointTerms& terms : resolveJointTerms(mechanism, scene)) {
+      addActuator(terms, motion, scene.static_motion);
+    }
   }
 
-  /// Effort of every generalized coordinate, mimic joints included, N m or N.
+  /// Effort of every generalized coordinate, mimic joints and joint terms included, N m or N.
   std::vector<Real113> efforts() const {
-    std::vector<Real113> efforts(mechanism_.coordinates().size(), 0);
+    std::vector<Real113> efforts = actuators_;
     for (std::size_t k = 0; k < mechanism_.joints().size(); ++k) {
       const Joint& joint = mechanism_.joints()[k];
       if (joint.coordinate < 0) continue;
@@ -213,6 +218,21 @@ class Reference113 {
     link.torque = link.torque - moment;
   }
 
+  void addActuator(const ResolvedJointTerms& terms, const Motion& motion, bool rests) {
+    const Joint& joint = mechanism_.joints()[terms.joint];
+    const int c = joint.coordinate;
+    const Real113 multiplier = joint.multiplier;
+    const Real113 rate = rests ? Real113(0) : multiplier * motion.qd[c];
+    const Real113 acceleration = rests ? Real113(0) : multiplier * motion.qdd[c];
+    Real113 s = rate / terms.coulomb_velocity;
+    if (magnitude(s) > 1) s = s > 0 ? 1 : -1;
+    const Real113 sum =
+        terms.stiffness * (multiplier * motion.q[c] + joint.offset - Real113(terms.rest)) +
+        terms.damping * rate + terms.coulomb * s * (3 - s * s) / 2 +
+        terms.rotor_inertia * acceleration;
+    actuators_[c] += multiplier * sum;
+  }
+
   void addToParent(int k) {
     const LinkState& link = links_[k + 1];
     LinkState& parent = links_[mechanism_.joints()[k].parent_link];
@@ -222,6 +242,7 @@ class Reference113 {
 
   const Mechanism& mechanism_;
   std::vector<LinkState> links_;
+  std::vector<Real113> actuators_;  // part of each coordinate's effort
 };
 
 }  // namespace virtual_work_dynamics

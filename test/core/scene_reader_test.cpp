@@ -44,6 +44,10 @@ strict_inertia: true
 applied_wrenches:
   - {link: hand, at: [1, 2, 3], axes: root, force: [4, 5, 6], torque: [7, 8, 9]}
   - {link: foot}
+joints:
+  - {name: hip, stiffness: 1e9, rest: -1, damping: 2, coulomb: "3", coulomb_velocity: 4, rotor_inertia: 5}
+  - {name: knee}
+use_urdf_dynamics: true
 )");
   EXPECT_EQ(scene.gravity, Eigen::Vector3d(9.81, 0, 10));
   EXPECT_TRUE(scene.static_motion);
@@ -58,6 +62,17 @@ applied_wrenches:
   EXPECT_EQ(scene.applied_wrenches[0].force, Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(scene.applied_wrenches[0].torque, Eigen::Vector3d(7, 8, 9));
   EXPECT_EQ(scene.applied_wrenches[1].axes, Axes::kLink);
+  ASSERT_EQ(scene.joints.size(), 2u);
+  EXPECT_EQ(scene.joints[0].joint, "hip");
+  EXPECT_EQ(scene.joints[0].stiffness, 1e9);
+  EXPECT_EQ(scene.joints[0].rest, -1);
+  EXPECT_EQ(scene.joints[0].damping, 2.0);
+  EXPECT_EQ(scene.joints[0].coulomb, 3.0);
+  EXPECT_EQ(scene.joints[0].coulomb_velocity, 4);
+  EXPECT_EQ(scene.joints[0].rotor_inertia, 5);
+  EXPECT_FALSE(scene.joints[1].damping);
+  EXPECT_FALSE(scene.joints[1].coulomb);
+  EXPECT_TRUE(scene.use_urdf_dynamics);
 }
 
 TEST(SceneReader, RefusesByKey) {
@@ -78,10 +93,16 @@ TEST(SceneReader, RefusesByKey) {
   expectRefusal("applied_wrenches: [{at: [0, 0, 0]}]", "applied_wrenches[0]: names no link");
   expectRefusal("applied_wrenches: [{link: a, frce: [0, 0, 0]}]", "applied_wrenches[0].frce");
   expectRefusal("applied_wrenches: [{link: a, axes: world}]", "'world'");
+  expectRefusal("joints: {name: a}", "joints");
+  expectRefusal("joints: [a]", "joints[0]");
+  expectRefusal("joints: [{stiffness: 1}]", "joints[0]: names no joint");
+  expectRefusal("joints: [{name: a}, {name: b, stifness: 1}]", "joints[1].stifness: unknown key");
+  expectRefusal("joints: [{name: a, damping: soft}]", "'soft'");
+  expectRefusal("use_urdf_dynamics: perhaps", "use_urdf_dynamics");
 }
 
 TEST(SceneReader, LaterKeysAreNotAvailableYet) {
-  for (const char* key : {"joints", "springs", "closures", "actuated", "assembly", "redundancy"}) {
+  for (const char* key : {"springs", "closures", "actuated", "assembly", "redundancy"}) {
     expectRefusal(std::string(key) + ": []", std::string(key) + ": not available yet");
   }
 }

@@ -131,7 +131,7 @@ BAD_PARAMETERS = {
     'period_zero': ({'diagnostic_period': 0}, ['~diagnostic_period', '0 s']),
     'negative_threshold': ({'late_threshold': -1.0}, ['~late_threshold', '-1 s']),
 }
-LATER_KEYS = ('joints', 'springs', 'closures', 'actuated', 'assembly', 'redundancy')
+LATER_KEYS = ('springs', 'closures', 'actuated', 'assembly', 'redundancy')
 
 
 class WatchedMaster(socketserver.ThreadingMixIn, xmlrpc.server.SimpleXMLRPCServer):

@@ -215,6 +215,19 @@ VWD_INLINE Pack<R, kWidth> productRest(const R& a, const Pack<R, kWidth>& b,
 #endif
 }
 
+/// x, or 1 or -1 where it is beyond.
+template <typename T>
+VWD_INLINE T heldWithinOne(const T& x) {
+  const T low = x < T(-1) ? T(-1) : x;
+  return low > T(1) ? T(1) : low;
+}
+template <typename R, int kWidth>
+VWD_INLINE Pack<R, kWidth> heldWithinOne(const Pack<R, kWidth>& x) {
+  using T = Pack<R, kWidth>;
+  const T one(R(1)), low(x.v < -one.v ? -one.v : x.v);
+  return T(low.v > one.v ? one.v : low.v);
+}
+
 /// Reads and writes the neighbouring samples of a T.
 template <typename T>
 struct Neighbours {

@@ -289,6 +289,28 @@ VWD_INLINE void storeKnownZeros(const PlanView<R>& plan, const KernelOutputs<R>&
   }
 }
 
+/// What the joints' springs, dampers, friction and rotors add to the efforts.
+template <bool kStatic, typename T, typename R>
+VWD_INLINE void addActuators(const PlanView<R>& plan, const KernelInputs<R>& in,
+                             const KernelOutputs<R>& out) {
+  for (int i = 0; i < plan.actuator_count; ++i) {
+    const ActuatorTerms<R>& joint = plan.actuators[i];
+    const std::size_t at = static_cast<std::size_t>(joint.coordinate);
+    const T q = load<T>(in.q + at * in.stride);
+    T sum = joint.stiffness * mulAdd(joint.multiplier, q, T(joint.offset));
+    if (!kStatic) {
+      const T rate = joint.multiplier * load<T>(in.qd + at * in.stride);
+      const T acceleration = joint.multiplier * load<T>(in.qdd + at * in.stride);
+      const T s = heldWithinOne(joint.per_velocity * rate);
+      const T half = R(0.5) * s;
+      sum = mulAdd(joint.coulomb, mulAdd(half, T(R(1)) - s * s, s), sum);
+      sum = mulAdd(joint.damping, rate, mulAdd(joint.rotor_inertia, acceleration, sum));
+    }
+    R* const to = out.effort + at * out.stride;
+    store(to, mulAdd(joint.multiplier, sum, load<T>(to)));
+  }
+}
+
 /// Poses of the bodies that need one; velocities where they are asked for.
 template <bool kStatic, typename T, typename R>
 VWD_INLINE void sweepPoses(const PlanView<R>& plan, const KernelInputs<R>& in,
@@ -349,6 +371,7 @@ VWD_INLINE void sweepAll(const PlanView<R>& plan, const KernelInputs<R>& in,
   subtractApplied(plan, in, scratch);
   sweepIn(plan, in, out, scratch);
   storeKnownZeros<T>(plan, out);
+  if (out.effort) addActuators<kStatic, T>(plan, in, out);
   storeRootAxes(plan, out, scratch);
 }
 
