@@ -6,6 +6,7 @@
 #include "core/aligned_memory.h"
 #include "core/applied_values.h"
 #include "core/compiled_plan.h"
+#include "core/input_checks.h"
 #include "core/plan_counting.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -52,12 +53,6 @@ double* numbersOf(std::vector<Item>& items) {
   return items.empty() ? nullptr : reinterpret_cast<double*>(items.data());
 }
 
-void checkSize(const char* name, Eigen::Index size, Eigen::Index expected) {
-  if (size == expected) return;
-  throw MotionError(std::string("motion: ") + name + " has " + std::to_string(size) +
-                    " entries, the mechanism has " + std::to_string(expected) + " coordinates");
-}
-
 bool allFinite(const std::vector<Wrench>& wrenches) {
   for (const Wrench& wrench : wrenches) {
     if (!wrench.force.allFinite() || !wrench.torque.allFinite()) return false;
@@ -100,9 +95,7 @@ Workspace InverseDynamics::makeWorkspace() const {
 
 void InverseDynamics::compute(const Motion& motion, Workspace& workspace) const {
   const Plan<double>& plan = impl_->plan;
-  checkSize("q", motion.q.size(), plan.coordinates);
-  checkSize("qd", motion.qd.size(), plan.coordinates);
-  checkSize("qdd", motion.qdd.size(), plan.coordinates);
+  requireLengths(motion, plan.coordinates);
   workspace.requirePlan(impl_.get());
   Workspace::Scratch& scratch = *workspace.scratch_;
   const KernelInputs<double> in = {motion.q.data(), motion.qd.data(), motion.qdd.data(), 1,

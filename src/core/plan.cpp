@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/input_checks.h"
 #include "core/joint_terms.h"
 #include "core/plan_reduction.h"
 #include "virtual_work_dynamics/error.h"
@@ -250,11 +251,7 @@ class Compiler {
 
   void addApplied() {
     for (const AppliedWrench& wrench : scene_.applied_wrenches) {
-      const int link = mechanism_.linkIndex(wrench.link);
-      if (link < 0) {
-        throw SceneError("applied_wrenches: the robot has no link '" + wrench.link + "'");
-      }
-      const Placement& place = places_[link];
+      const Placement& place = places_[linkOf(mechanism_, wrench)];
       AppliedOutside<Real> applied;
       applied.body = place.body;
       applied.in_root_axes = wrench.axes == Axes::kRoot;
