@@ -1,0 +1,206 @@
+#include "virtual_work_dynamics/error_bound.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/input_checks.h"
+#include "core/joint_terms.h"
+
+namespace virtual_work_dynamics {
+
+namespace {
+
+// Norms of what is constant of a joint, rounded once.
+struct JointNorms {
+  int parent_link = 0;
+  int coordinate = -1;
+  bool slides = false;
+  double multiplier = 0;
+  double offset = 0;
+  double distance = 0;  // |p_PoKo|
+};
+
+// Norms of what is constant of a link.
+struct LinkNorms {
+  double mass = 0;
+  double first = 0;   // m |r_C|
+  double second = 0;  // of the inertia about the link's origin
+  WrenchMagnitude applied;
+};
+
+// What a link's motion adds up to.
+struct MotionSums {
+  double w = 0;
+  double alpha = 0;
+  double gamma = 0;
+
+  double gradient() const { return w * w + alpha; }  // of U = w~ w~ + alpha~
+};
+
+JointNorms normsOf(const Joint& joint) {
+  return {joint.parent_link,
+          joint.coordinate,
+          joint.type == JointType::kPrismatic,
+          std::abs(joint.multiplier),
+          std::abs(joint.offset),
+          static_cast<double>(joint.p_PoKo_P.norm())};
+}
+
+LinkNorms normsOf(const Link& link) {
+  const long double arm = link.p_KoCm_K.norm();
+  // Frobenius' norm is no smaller than the spectral norm, and needs no eigenvalues.
+  return {static_cast<double>(link.mass),
+          static_cast<double>(link.mass * arm),
+          static_cast<double>(link.inertia_Cm_K.norm() + link.mass * arm * arm),
+          {}};
+}
+
+int ceilLog2(int count) {
+  int result = 0;
+  while ((1 << result) < count) ++result;
+  return result;
+}
+
+}  // namespace
+
+struct ErrorBound::Impl {
+  Impl(const Mechanism& mechanism, const Scene& scene)
+      : rests(scene.static_motion),
+        terms(resolveJointTerms(mechanism, scene)),
+        motions(mechanism.links().size()),
+        slides(mechanism.joints().size()),
+        wrenches(mechanism.links().size()),
+        depths(mechanism.links().size()),
+        efforts(mechanism.coordinates().size()),
+        effort_depths(mechanism.coordinates().size()) {
+    for (const Joint& joint : mechanism.joints()) joints.push_back(normsOf(joint));
+    for (const Link& link : mechanism.links()) links.push_back(normsOf(link));
+    for (const AppliedWrench& applied : scene.applied_wrenches) {
+      WrenchMagnitude& sum = links[linkOf(mechanism, applied)].applied;
+      const long double force = applied.force.cast<long double>().norm();
+      const long double arm = applied.at.cast<long double>().norm();
+      const long double torque = applied.torque.cast<long double>().norm();
+      sum.force += static_cast<double>(force);
+      sum.moment += static_cast<double>(torque + arm * force);
+    }
+    motions[0].gamma = static_cast<double>(scene.gravity.cast<long double>().norm());
+    measureDepths();
+  }
+
+  void measureDepths() {
+    std::vector<int> children(links.size(), 0), deepest(links.size(), 0);
+    for (const JointNorms& joint : joints) ++children[joint.parent_link];
+    for (std::size_t i = links.size(); i-- > 0;) {
+      depths[i] = 1 + ceilLog2(children[i]) + deepest[i];
+      if (i == 0) break;
+      const JointNorms& joint = joints[i - 1];
+      deepest[joint.parent_link] = std::max(deepest[joint.parent_link], depths[i]);
+      if (joint.coordinate < 0) continue;
+      int& effort = effort_depths[joint.coordinate];
+      effort = std::max(effort, depths[i]);
+    }
+  }
+
+  double position(const JointNorms& joint, const Motion& motion) const {
+    return joint.multiplier * std::abs(motion.q[joint.coordinate]) + joint.offset;
+  }
+  double rate(const JointNorms& joint, const Motion& motion) const {
+    return rests ? 0 : joint.multiplier * std::abs(motion.qd[joint.coordinate]);
+  }
+  double acceleration(const JointNorms& joint, const Motion& motion) const {
+    return rests ? 0 : joint.multiplier * std::abs(motion.qdd[joint.coordinate]);
+  }
+
+  // (2.5), (2.7)
+  void move(std::size_t k, const Motion& motion) {
+    const JointNorms& joint = joints[k];
+    const MotionSums& parent = motions[joint.parent_link];
+    MotionSums& link = motions[k + 1];
+    slides[k] = joint.slides ? position(joint, motion) : 0;
+    link = parent;
+    link.gamma += parent.gradient() * (joint.distance + slides[k]);
+    if (joint.coordinate < 0) return;
+    const double qd = rate(joint, motion), qdd = acceleration(joint, motion);
+    if (joint.slides) {
+      link.gamma += qdd + 2 * qd * parent.w;
+    } else {
+      link.w += qd;
+      link.alpha += qdd + qd * parent.w;
+    }
+  }
+
+  // (3.5), (3.6)
+  void load(std::size_t i) {
+    const LinkNorms& link = links[i];
+    const MotionSums& motion = motions[i];
+    const double gradient = motion.gradient();
+    wrenches[i] = {link.mass * motion.gamma + link.first * gradient + link.applied.force,
+                   link.first * motion.gamma + link.second * gradient + link.applied.moment};
+  }
+
+  // (3.7), (3.8)
+  void addToParent(std::size_t k) {
+    const JointNorms& joint = joints[k];
+    const WrenchMagnitude& wrench = wrenches[k + 1];
+    WrenchMagnitude& parent = wrenches[joint.parent_link];
+    parent.force += wrench.force;
+    parent.moment += wrench.moment + (joint.distance + slides[k]) * wrench.force;
+    if (joint.coordinate < 0) return;
+    efforts[joint.coordinate] += joint.multiplier * (joint.slides ? wrench.force : wrench.moment);
+  }
+
+  void addTerms(const ResolvedJointTerms& term, const Motion& motion) {
+    const JointNorms& joint = joints[term.joint];
+    const double friction = rests ? 0 : term.coulomb;
+    efforts[joint.coordinate] +=
+        joint.multiplier * (term.stiffness * (position(joint, motion) + std::abs(term.rest)) +
+                            term.damping * rate(joint, motion) + friction +
+                            term.rotor_inertia * acceleration(joint, motion));
+  }
+
+  bool rests;
+  std::vector<JointNorms> joints;
+  std::vector<LinkNorms> links;
+  std::vector<ResolvedJointTerms> terms;
+  std::vector<MotionSums> motions;  // of links
+  std::vector<double> slides;       // of joints
+  std::vector<WrenchMagnitude> wrenches;
+  std::vector<int> depths;
+  std::vector<double> efforts;
+  std::vector<int> effort_depths;
+};
+
+ErrorBound::ErrorBound(const Mechanism& mechanism, const Scene& scene)
+    : impl_(new Impl(mechanism, scene)) {}
+
+ErrorBound::~ErrorBound() = default;
+ErrorBound::ErrorBound(ErrorBound&&) noexcept = default;
+ErrorBound& ErrorBound::operator=(ErrorBound&&) noexcept = default;
+
+void ErrorBound::compute(const Motion& motion) {
+  Impl& impl = *impl_;
+  requireLengths(motion, static_cast<Eigen::Index>(impl.efforts.size()));
+  std::fill(impl.efforts.begin(), impl.efforts.end(), 0.0);
+  for (std::size_t k = 0; k < impl.joints.size(); ++k) impl.move(k, motion);
+  for (std::size_t i = 0; i < impl.links.size(); ++i) impl.load(i);
+  for (std::size_t k = impl.joints.size(); k-- > 0;) impl.addToParent(k);
+  for (const ResolvedJointTerms& term : impl.terms) impl.addTerms(term, motion);
+}
+
+const std::vector<WrenchMagnitude>& ErrorBound::wrenches() const {
+  return impl_->wrenches;
+}
+
+const std::vector<double>& ErrorBound::efforts() const {
+  return impl_->efforts;
+}
+
+const std::vector<int>& ErrorBound::depths() const {
+  return impl_->depths;
+}
+
+const std::vector<int>& ErrorBound::effortDepths() const {
+  return impl_->effort_depths;
+}
+
+}  // namespace virtual_work_dynamics
