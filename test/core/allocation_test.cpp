@@ -8,6 +8,7 @@
 #include "sample_robots.h"
 #include "virtual_work_dynamics/block.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
+#include "virtual_work_dynamics/lagrange_dynamics.h"
 #include "virtual_work_dynamics/motion_estimator.h"
 #include "virtual_work_dynamics/run_time_histogram.h"
 #include "virtual_work_dynamics/spline.h"
@@ -61,6 +62,27 @@ TEST(InverseDynamics, ComputeDoesNotAllocate) {
   }
   EXPECT_TRUE(workspace.finite());
   EXPECT_EQ(guard.allocations(), 0u);
+}
+
+template <typename Real>
+void expectLagrangeDoesNotAllocate() {
+  RandomRobot robot(5, 20);
+  const Mechanism mechanism = readUrdf(robot.urdf());
+  Scene scene = busyScene();
+  scene.joints.push_back({"joint_1", 1, 0, 2.0, 3.0, 0.1, 4});
+  Request request;
+  request.child_axes = request.root_axes = requestedReactions(mechanism, scene);
+  LagrangeDynamics<Real> lagrange(mechanism, scene, request);
+  const Motion motion = robot.motion(mechanism);
+  const AllocationGuard guard;
+  for (int i = 0; i < 10; ++i) lagrange.compute(motion);
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_NE(lagrange.effort()[0], 0);
+}
+
+TEST(LagrangeDynamics, ComputeDoesNotAllocate) {
+  expectLagrangeDoesNotAllocate<double>();
+  expectLagrangeDoesNotAllocate<long double>();
 }
 
 template <typename Real>

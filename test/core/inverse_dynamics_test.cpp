@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "newton_euler_oracle.h"
+#include "pendulum_closed_form.h"
 #include "sample_robots.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/urdf_reader.h"
@@ -27,50 +28,6 @@ constexpr double kClosedForm = 1e-14;
     ASSERT_TRUE(std::isfinite(value_)) << #value;                           \
     EXPECT_NEAR(value_, expected_, (tolerance)) << #value " vs " #expected; \
   } while (false)
-
-Scene pendulumScene() {
-  Scene scene;
-  scene.gravity = {9.81, 0, 0};
-  return scene;
-}
-
-// The paper's motion (5.11).
-Motion pendulumMotion(double t) {
-  const double w = M_PI / 6;
-  Motion motion(2);
-  const Eigen::Vector2d amplitude(M_PI / 12, M_PI / 6);
-  motion.q = amplitude * (1 - std::cos(w * t));
-  motion.qd = amplitude * w * std::sin(w * t);
-  motion.qdd = amplitude * w * w * std::cos(w * t);
-  return motion;
-}
-
-struct Pendulum {
-  double l1 = 0.5, l2 = 0.75, m1 = 0.25, m2 = 1, g = 9.81;
-};
-
-// (5.7).
-Eigen::Vector2d equation57(const Motion& x, const Pendulum& p) {
-  const double f1 = x.q[0], f2 = x.q[1], d1 = x.qd[0], d2 = x.qd[1], e1 = x.qdd[0], e2 = x.qdd[1];
-  const double M1 = (p.m1 / 3 + p.m2) * p.l1 * p.l1 * e1 + p.m2 * p.l2 * p.l2 * (e1 + e2) / 3 +
-                    p.m2 * p.l1 * p.l2 * (2 * e1 + e2) * std::cos(f2) / 2 -
-                    p.m2 * p.l1 * p.l2 * d2 * (2 * d1 + d2) * std::sin(f2) / 2 +
-                    (p.m1 + 2 * p.m2) * p.g * p.l1 * std::sin(f1) / 2 +
-                    p.m2 * p.g * p.l2 * std::sin(f1 + f2) / 2;
-  const double M2 = p.m2 * p.l2 * p.l2 * (e1 + e2) / 3 +
-                    p.m2 * p.l1 * p.l2 * (e1 * std::cos(f2) + d1 * d1 * std::sin(f2)) / 2 +
-                    p.m2 * p.g * p.l2 * std::sin(f1 + f2) / 2;
-  return {M1, M2};
-}
-
-// (5.8).
-double equation58(const Motion& x, const Pendulum& p) {
-  const double f1 = x.q[0], f = f1 + x.q[1], d1 = x.qd[0], d = d1 + x.qd[1], e1 = x.qdd[0],
-               e = e1 + x.qdd[1];
-  return -(p.m1 + p.m2) * p.g -
-         (p.m1 + 2 * p.m2) * p.l1 * (e1 * std::sin(f1) + d1 * d1 * std::cos(f1)) / 2 -
-         p.m2 * p.l2 * (e * std::sin(f) + d * d * std::cos(f)) / 2;
-}
 
 TEST(InverseDynamics, PendulumMatchesEquations57And58) {
   const Mechanism mechanism = readUrdf(pendulumUrdf());
