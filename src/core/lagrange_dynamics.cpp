@@ -1,21 +1,14 @@
 #include "virtual_work_dynamics/lagrange_dynamics.h"
 
 #include <cmath>
-#include <string>
 
+#include "core/input_checks.h"
 #include "core/lagrange_equations.h"
 #include "core/lagrange_plan.h"
-#include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
 
 namespace {
-
-void checkSize(const char* name, Eigen::Index size, Eigen::Index expected) {
-  if (size == expected) return;
-  throw MotionError(std::string("motion: ") + name + " has " + std::to_string(size) +
-                    " entries, the mechanism has " + std::to_string(expected) + " coordinates");
-}
 
 // The axis of a fixed joint is zero.
 template <typename Real>
@@ -200,9 +193,7 @@ const Request& LagrangeDynamics<Real>::request() const {
 template <typename Real>
 void LagrangeDynamics<Real>::compute(const Motion& motion) {
   Impl& impl = *impl_;
-  checkSize("q", motion.q.size(), coordinates());
-  checkSize("qd", motion.qd.size(), coordinates());
-  checkSize("qdd", motion.qdd.size(), coordinates());
+  requireLengths(motion, coordinates());
   impl.move(motion);
   for (std::size_t i = 0; i < impl.plan.coordinates.size(); ++i) {
     impl.effort[i] = static_cast<double>(impl.effortOf(impl.plan.coordinates[i]));

@@ -164,6 +164,14 @@ std::array<Real, M> linkForce(const typename LagrangePlan<Real>::LinkData& link,
   return force;
 }
 
+/// Whose derivative is s (3 - s^2) / 2 with s held within [-1, 1]; but for a constant.
+template <typename Real>
+VelocityNumber<Real, 1> frictionPotential(const VelocityNumber<Real, 1>& s) {
+  if (s.value >= 1 || s.value <= -1) return s * Real(s.value > 0 ? 1 : -1);
+  const VelocityNumber<Real, 1> squared = s * s;
+  return squared * (squared * (Real(-1) / 8) + Real(3) / 4);
+}
+
 /// Spring, rotor and a dissipation function of Rayleigh's for damping and friction.
 template <typename Real>
 Real termsForce(const ResolvedJointTerms& terms, const JointState<Real>& state, Real multiplier) {
@@ -174,7 +182,8 @@ Real termsForce(const ResolvedJointTerms& terms, const JointState<Real>& state, 
   const VelocityNumber<Real, 1> E = squared * (Real(terms.rotor_inertia) / 2);
   const PositionNumber<Real, 1> U = (stretch * stretch) * (-Real(terms.stiffness) / 2);
   const VelocityNumber<Real, 1> dissipation =
-      squared * (Real(terms.damping) / 2) + (sqrt(squared + v * v) + -v) * Real(terms.coulomb);
+      squared * (Real(terms.damping) / 2) +
+      frictionPotential(qd * (1 / v)) * (Real(terms.coulomb) * v);
   return inertiaForce(E)[0] - U.ds[0] + dissipation.dsd[0];
 }
 

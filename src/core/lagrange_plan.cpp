@@ -4,6 +4,7 @@
 #include <set>
 #include <string>
 
+#include "core/input_checks.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -82,12 +83,9 @@ void checkInertias(const Mechanism& mechanism, const Scene& scene) {
 template <typename Real>
 void addApplied(const Mechanism& mechanism, const Scene& scene, LagrangePlan<Real>& plan) {
   for (const AppliedWrench& wrench : scene.applied_wrenches) {
-    const int link = mechanism.linkIndex(wrench.link);
-    if (link < 0) {
-      throw SceneError("applied_wrenches: the robot has no link '" + wrench.link + "'");
-    }
-    plan.links[link].applied.push_back({wrench.axes == Axes::kRoot, triple<Real>(wrench.at),
-                                        triple<Real>(wrench.force), triple<Real>(wrench.torque)});
+    plan.links[linkOf(mechanism, wrench)].applied.push_back(
+        {wrench.axes == Axes::kRoot, triple<Real>(wrench.at), triple<Real>(wrench.force),
+         triple<Real>(wrench.torque)});
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 
 namespace virtual_work_dynamics {
@@ -135,17 +134,6 @@ VelocityNumber<Real, N> operator*(const VelocityNumber<Real, N>& f,
 template <typename Real, std::size_t N>
 PositionNumber<Real, N> composed(Real f, Real dfdx, const PositionNumber<Real, N>& x) {
   return {f, dfdx * x.rate, scaled(dfdx, x.ds)};
-}
-
-template <typename Real, std::size_t N>
-VelocityNumber<Real, N> sqrt(const VelocityNumber<Real, N>& x) {
-  const Real root = std::sqrt(x.value);
-  const Real dfdx = 1 / (2 * root);
-  const Real rate = dfdx * x.rate;
-  // d/dt (x.dsd / 2 root)
-  const auto dsd = scaled(dfdx, x.dsd);
-  return {root, rate, scaled(dfdx, x.ds), dsd,
-          added(scaled(dfdx, x.dsd_rate), scaled(-rate / root, dsd))};
 }
 
 }  // namespace virtual_work_dynamics
