@@ -38,9 +38,10 @@ class ErrorBound {
   /// Of the effort of each generalized coordinate, mimic joints and joint terms included.
   const std::vector<double>& efforts() const;
 
-  /// Number of roundings in sequence that a wrench is behind: joints on the longest path of the
-  /// subtree, plus the binary logarithms of the numbers of children along it, as hubs sum pairwise.
-  /// [0] of ground, [k + 1] of joint k.
+  /// How many steps in sequence lie behind a wrench: joints on the longest path from the root
+  /// through the joint to a leaf, plus the binary logarithms of the numbers of children on the
+  /// joint's side of it, as hubs sum pairwise. The joints before it count, too: its orientation in
+  /// the field of gravity is a product of their rotations. [0] of ground, [k + 1] of joint k.
   const std::vector<int>& depths() const;
   /// The same of each generalized coordinate's effort: the largest of the joints that it moves.
   const std::vector<int>& effortDepths() const;

@@ -88,13 +88,18 @@ struct ErrorBound::Impl {
   }
 
   void measureDepths() {
-    std::vector<int> children(links.size(), 0), deepest(links.size(), 0);
-    for (const JointNorms& joint : joints) ++children[joint.parent_link];
+    std::vector<int> children(links.size(), 0), deepest(links.size(), 0), before(links.size(), 0);
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+      const int parent = joints[k].parent_link;
+      ++children[parent];
+      before[k + 1] = parent == 0 ? 0 : before[parent] + 1;
+    }
     for (std::size_t i = links.size(); i-- > 0;) {
-      depths[i] = 1 + ceilLog2(children[i]) + deepest[i];
+      const int within = 1 + ceilLog2(children[i]) + deepest[i];
+      depths[i] = before[i] + within;
       if (i == 0) break;
       const JointNorms& joint = joints[i - 1];
-      deepest[joint.parent_link] = std::max(deepest[joint.parent_link], depths[i]);
+      deepest[joint.parent_link] = std::max(deepest[joint.parent_link], within);
       if (joint.coordinate < 0) continue;
       int& effort = effort_depths[joint.coordinate];
       effort = std::max(effort, depths[i]);

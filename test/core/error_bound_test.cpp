@@ -171,9 +171,9 @@ std::vector<int> depthsOf(const std::vector<int>& parents) {
   return ErrorBound(builder.build(), Scene()).depths();
 }
 
-TEST(ErrorBound, DepthOfAChainIsItsLength) {
+TEST(ErrorBound, DepthOfAChainIsItsLengthFromEveryJoint) {
   EXPECT_EQ(depthsOf({}), (std::vector<int>{1}));
-  EXPECT_EQ(depthsOf({0, 1, 2, 3}), (std::vector<int>{5, 4, 3, 2, 1}));
+  EXPECT_EQ(depthsOf({0, 1, 2, 3}), (std::vector<int>{5, 4, 4, 4, 4}));
 }
 
 TEST(ErrorBound, DepthOfAStarGrowsWithTheLogarithm) {
@@ -186,16 +186,16 @@ TEST(ErrorBound, DepthOfAStarGrowsWithTheLogarithm) {
 
 TEST(ErrorBound, DepthOfABinaryTreeCountsItsForks) {
   // Two levels of forks: 0 -> 1 (-> 2, 3), 4 (-> 5, 6).
-  EXPECT_EQ(depthsOf({0, 1, 1, 0, 4, 4}), (std::vector<int>{5, 3, 1, 1, 3, 1, 1}));
+  EXPECT_EQ(depthsOf({0, 1, 1, 0, 4, 4}), (std::vector<int>{5, 3, 2, 2, 3, 2, 2}));
 }
 
 // The longest path by joints is not the deepest where another has a hub.
 TEST(ErrorBound, DepthIsTheLargestSumOverPaths) {
   // 1 -> 2 -> 3 (-> 4, 5, 6, 7, 8), and 1 -> 9 -> 10 -> 11 -> 12.
   const std::vector<int> depths = depthsOf({0, 1, 2, 3, 3, 3, 3, 3, 1, 9, 10, 11});
-  EXPECT_EQ(depths[3], 1 + 3 + 1);
-  EXPECT_EQ(depths[9], 4);
-  EXPECT_EQ(depths[1], 1 + 1 + 1 + depths[3]);
+  EXPECT_EQ(depths[3], 2 + 1 + 3 + 1);
+  EXPECT_EQ(depths[9], 1 + 4);
+  EXPECT_EQ(depths[1], 1 + 1 + 1 + 1 + 3 + 1);
   EXPECT_EQ(depths[0], 1 + depths[1]);
 }
 
@@ -204,12 +204,14 @@ TEST(ErrorBound, DepthOfAnEffortIsThatOfItsDeepestJoint) {
   builder.add(0);
   builder.add(2);
   builder.add(3);
+  builder.add(0);
   builder.joint(2).mimics = true;
   builder.joint(2).coordinate = 0;
   builder.joint(3).coordinate = 1;
   builder.joint(4).coordinate = 2;
+  builder.joint(5).coordinate = 3;
   const ErrorBound bound(builder.build(), Scene());
-  EXPECT_EQ(bound.effortDepths(), (std::vector<int>{3, 2, 1}));
+  EXPECT_EQ(bound.effortDepths(), (std::vector<int>{3, 3, 3, 1}));
 }
 
 #ifdef VWD_HAS_REAL113
