@@ -33,9 +33,12 @@ auto operator*(const Matrix<T>& A, const Triple<U>& v) {
 
 template <typename T, typename U>
 auto operator*(const Matrix<T>& A, const Matrix<U>& B) {
-  const Triple<U> x = column(B, 0), y = column(B, 1), z = column(B, 2);
-  Matrix<decltype(dot(A[0], x))> C;
-  for (std::size_t i = 0; i < 3; ++i) C[i] = {dot(A[i], x), dot(A[i], y), dot(A[i], z)};
+  Matrix<decltype(A[0][0] * B[0][0])> C;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      C[i][j] = A[i][0] * B[0][j] + A[i][1] * B[1][j] + A[i][2] * B[2][j];
+    }
+  }
   return C;
 }
 

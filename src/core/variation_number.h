@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <type_traits>
+#include <utility>
 
 namespace virtual_work_dynamics {
 
@@ -32,25 +34,29 @@ struct VelocityNumber {
 
 // --- derivatives in all directions ---------------------------------------------------------------
 
+/// {f(0), f(1), ...}: written out rather than looped over, so that compilers keep the numbers in
+/// registers.
+template <typename Real, typename Function, std::size_t... I>
+std::array<Real, sizeof...(I)> writtenOut([[maybe_unused]] Function f, std::index_sequence<I...>) {
+  return {f(std::integral_constant<std::size_t, I>())...};
+}
+
 template <typename Real, std::size_t N>
 std::array<Real, N> scaled(Real factor, const std::array<Real, N>& d) {
-  std::array<Real, N> result;
-  for (std::size_t i = 0; i < N; ++i) result[i] = factor * d[i];
-  return result;
+  return writtenOut<Real>([&](auto i) { return factor * d[i]; }, std::make_index_sequence<N>());
 }
 
 /// Of a sum; of the two, one may have no directions.
 template <typename Real, std::size_t N, std::size_t M>
-auto added(const std::array<Real, N>& df, const std::array<Real, M>& dg) {
+std::array<Real, std::max(N, M)> added(const std::array<Real, N>& df,
+                                       const std::array<Real, M>& dg) {
   static_assert(N == M || N == 0 || M == 0, "the same directions, or none");
   if constexpr (N == 0) {
     return dg;
   } else if constexpr (M == 0) {
     return df;
   } else {
-    std::array<Real, N> result;
-    for (std::size_t i = 0; i < N; ++i) result[i] = df[i] + dg[i];
-    return result;
+    return writtenOut<Real>([&](auto i) { return df[i] + dg[i]; }, std::make_index_sequence<N>());
   }
 }
 
