@@ -33,6 +33,9 @@ What is computed
   --reactions LIST      all (every movable joint; the default), none, or joints separated by
                         commas; fixed joints and "ground" by name only
   --no-efforts          reactions only
+  --method NAME         virtual_work (the default), or lagrange: Lagrange's equations with a
+                        fictitious mobility at each joint, in long double; slow, shares no formula
+                        with the other and is there to check it
   --threads N           divides the rows among N threads (default: 1)
 
 Output
@@ -108,6 +111,13 @@ void parseReactions(const std::string& text, Arguments& arguments) {
   }
 }
 
+Method parseMethod(const std::string& text) {
+  if (text != "virtual_work" && text != "lagrange") {
+    throw UsageError("--method: '" + text + "' is neither virtual_work nor lagrange");
+  }
+  return text == "lagrange" ? Method::kLagrange : Method::kVirtualWork;
+}
+
 int parseThreads(const std::string& text) {
   constexpr double kMost = 1024;
   double value = 0;
@@ -130,6 +140,8 @@ const std::map<std::string, Setter>& optionsWithValue() {
       {"--axes",
        [](const auto& value, auto& arguments) { arguments.child_axes = parseChildAxes(value); }},
       {"--reactions", parseReactions},
+      {"--method",
+       [](const auto& value, auto& arguments) { arguments.method = parseMethod(value); }},
       {"--threads",
        [](const auto& value, auto& arguments) { arguments.threads = parseThreads(value); }},
   };
@@ -200,6 +212,13 @@ Arguments parseArguments(const std::vector<std::string>& words) {
   if (arguments.urdf.empty()) throw UsageError("--urdf FILE is missing");
   if (arguments.motion.empty() && !arguments.check && !arguments.explain) {
     throw UsageError("--motion FILE is missing (only --check and --explain need none)");
+  }
+  if (arguments.method == Method::kLagrange) {
+    if (arguments.threads != 1) {
+      throw UsageError("--threads: --method lagrange runs in one thread, not in " +
+                       std::to_string(arguments.threads));
+    }
+    if (arguments.explain) throw UsageError("--explain: there is none of --method lagrange");
   }
   return arguments;
 }

@@ -16,6 +16,12 @@ class UsageError : public Error {
   using Error::Error;
 };
 
+/// How efforts and reactions are computed.
+enum class Method {
+  kVirtualWork,
+  kLagrange  ///< in long double
+};
+
 /// What the command line of inverse_dynamics_offline says. Empty texts: not given.
 struct Arguments {
   std::string urdf;
@@ -27,6 +33,7 @@ struct Arguments {
   std::optional<ReactionSelection> reactions;  ///< instead of the scene's
   std::vector<std::string> reaction_names;     ///< of ReactionSelection::kNamed
   bool no_efforts = false;
+  Method method = Method::kVirtualWork;
   int threads = 1;
   bool check = false;
   bool explain = false;

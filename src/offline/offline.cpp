@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <iostream>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "offline/progress.h"
 #include "offline/result_writer.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
+#include "virtual_work_dynamics/lagrange_dynamics.h"
 #include "virtual_work_dynamics/motion_completion.h"
 #include "virtual_work_dynamics/motion_csv.h"
 #include "virtual_work_dynamics/number_text.h"
@@ -138,32 +140,68 @@ void complete(const std::string& path, const Mechanism& mechanism, const Scene& 
   std::cerr << "note: " << path << ": estimated from the rows around each row: " << missing << "\n";
 }
 
-void compute(const InverseDynamics& dynamics, const MotionFile& file, const Arguments& arguments,
-             ResultWriter& writer) {
-  SampleBlock block(dynamics, kRowsAtOnce * static_cast<std::size_t>(arguments.threads),
-                    arguments.threads);
+// Writes rows in their order, and tells of those that overflowed.
+class Rows {
+ public:
+  Rows(const MotionFile& file, const Arguments& arguments, ResultWriter& writer)
+      : file_(file), arguments_(arguments), writer_(writer) {}
+
+  std::size_t count() const { return file_.table.times.size(); }
+
+  // Of a Workspace, or of LagrangeDynamics.
+  template <typename Results>
+  void write(std::size_t row, const Results& results) {
+    const auto& reactions = arguments_.child_axes ? results.childAxes() : results.rootAxes();
+    bool finite = results.effort().allFinite();
+    for (const Wrench& wrench : reactions) {
+      finite = finite && wrench.force.allFinite() && wrench.torque.allFinite();
+    }
+    if (!finite && ++overflowed_ == 1) first_line_ = file_.lines[row];
+    writer_.writeRow(file_.table.times[row], results.effort(), reactions);
+    progress_.update(row + 1, count());
+  }
+
+  std::string warning() const {
+    if (overflowed_ == 0) return "";
+    return "warning: " + arguments_.motion + ": results of " + std::to_string(overflowed_) +
+           " row" + (overflowed_ == 1 ? "" : "s") + " overflow, first of line " +
+           std::to_string(first_line_) + "; their cells are empty\n";
+  }
+
+ private:
+  const MotionFile& file_;
+  const Arguments& arguments_;
+  ResultWriter& writer_;
+  Progress progress_{std::cerr, isatty(STDERR_FILENO) == 1};
+  std::size_t overflowed_ = 0;
+  std::size_t first_line_ = 0;
+};
+
+void compute(const InverseDynamics& dynamics, const MotionFile& file, int threads, Rows& rows) {
+  SampleBlock block(dynamics, kRowsAtOnce * static_cast<std::size_t>(threads), threads);
   Workspace results = dynamics.makeWorkspace();
-  const std::size_t rows = file.table.times.size();
-  std::size_t overflowed = 0;
-  std::size_t first_line = 0;
-  {
-    Progress progress(std::cerr, isatty(STDERR_FILENO) == 1);
-    for (std::size_t first = 0; first < rows; first += block.capacity()) {
-      const std::size_t count = std::min(block.capacity(), rows - first);
-      block.compute(file.table, first, count);
-      for (std::size_t i = 0; i < count; ++i) {
-        block.read(i, results);
-        if (!results.finite() && ++overflowed == 1) first_line = file.lines[first + i];
-        writer.writeRow(file.table.times[first + i], results.effort(),
-                        arguments.child_axes ? results.childAxes() : results.rootAxes());
-        progress.update(first + i + 1, rows);
-      }
+  for (std::size_t first = 0; first < rows.count(); first += block.capacity()) {
+    const std::size_t count = std::min(block.capacity(), rows.count() - first);
+    block.compute(file.table, first, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      block.read(i, results);
+      rows.write(first + i, results);
     }
   }
-  if (overflowed == 0) return;
-  std::cerr << "warning: " << arguments.motion << ": results of " << overflowed << " row"
-            << (overflowed == 1 ? "" : "s") << " overflow, first of line " << first_line
-            << "; their cells are empty\n";
+}
+
+void compute(LagrangeDynamics<long double>& dynamics, const MotionFile& file, Rows& rows) {
+  Motion motion(dynamics.coordinates());
+  for (std::size_t i = 0; i < rows.count(); ++i) {
+    if (dynamics.coordinates() > 0) {
+      const auto row = static_cast<Eigen::Index>(i);
+      motion.q = file.table.positions.row(row);
+      motion.qd = file.table.velocities.row(row);
+      motion.qdd = file.table.accelerations.row(row);
+    }
+    dynamics.compute(motion);
+    rows.write(i, dynamics);
+  }
 }
 
 void printReactions(const Request& request) {
@@ -212,8 +250,14 @@ void runOffline(const Arguments& arguments) {
   if (arguments.check || arguments.explain) return;
   printDoubts(std::cerr, mechanism);
   const Scene scene = loadScene(arguments);
-  const InverseDynamics dynamics(mechanism, scene, requestOf(mechanism, scene, arguments));
-  const Request& request = dynamics.request();
+  const Request request = requestOf(mechanism, scene, arguments);
+  std::optional<InverseDynamics> virtual_work;
+  std::optional<LagrangeDynamics<long double>> lagrange;
+  if (arguments.method == Method::kLagrange) {
+    lagrange.emplace(mechanism, scene, request);
+  } else {
+    virtual_work.emplace(mechanism, scene, request);
+  }
   const std::vector<std::string> no_names;
   const std::string header =
       resultHeader(request.efforts ? mechanism.coordinateNames() : no_names,
@@ -222,7 +266,17 @@ void runOffline(const Arguments& arguments) {
   complete(arguments.motion, mechanism, scene, motion);
   OutputFile file(arguments.output);
   ResultWriter writer(file, header);
-  compute(dynamics, motion, arguments, writer);
+  std::string warning;
+  {
+    Rows rows(motion, arguments, writer);  // wipes its progress out at its end
+    if (lagrange) {
+      compute(*lagrange, motion, rows);
+    } else {
+      compute(*virtual_work, motion, arguments.threads, rows);
+    }
+    warning = rows.warning();
+  }
+  std::cerr << warning;
   writer.finish();
 }
 

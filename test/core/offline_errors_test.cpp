@@ -98,6 +98,14 @@ TEST_F(OfflineToolErrors, ThreadsAreAWholeNumber) {
   EXPECT_EQ(usage(good + "--explain=yes"), "--explain takes no value");
 }
 
+TEST_F(OfflineToolErrors, LagrangeHasOneThreadAndNothingToExplain) {
+  const std::string good = "--urdf p.urdf --motion m.csv --output r.csv --method ";
+  EXPECT_EQ(usage(good + "newton"), "--method: 'newton' is neither virtual_work nor lagrange");
+  EXPECT_EQ(usage(good + "lagrange --threads 2"),
+            "--threads: --method lagrange runs in one thread, not in 2");
+  EXPECT_EQ(usage(good + "lagrange --explain"), "--explain: there is none of --method lagrange");
+}
+
 TEST_F(OfflineToolErrors, AnUnknownInstructionSetIsNamed) {
   write("p.urdf", kPendulum);
   const Run result = run("--urdf p.urdf --explain", "VIRTUAL_WORK_DYNAMICS_INSTRUCTION_SET=mmx");

@@ -1,10 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "offline_tool.h"
 #include "virtual_work_dynamics/number_text.h"
 
 namespace virtual_work_dynamics {
 namespace {
+
+// The methods' difference relative to the largest number of the crane's table, some thousand.
+constexpr double kMethods = 1e-14;
 
 // A motion of the crane that is longer than what one thread takes at once.
 std::string longCraneMotion() {
@@ -29,6 +35,34 @@ TEST_F(OfflineTool, ThreadsChangeNoDigit) {
     const Run run_with = run(std::string("--urdf c.urdf --motion m.csv --threads ") + threads);
     ASSERT_EQ(run_with.exit_code, 0) << run_with.err;
     EXPECT_EQ(run_with.out, one.out) << threads << " threads";
+  }
+}
+
+TEST_F(OfflineTool, MethodsAgree) {
+  write("c.urdf", kCrane);
+  write("m.csv", longCraneMotion());
+  for (const std::string options :
+       {"", "--axes child --reactions ground,elbow,flange", "--no-efforts --reactions slide"}) {
+    const std::string start = "--urdf c.urdf --motion m.csv " + options;
+    const Run by_default = run(start), virtual_work = run(start + " --method virtual_work"),
+              lagrange = run(start + " --method=lagrange --threads 1");
+    ASSERT_EQ(lagrange.exit_code, 0) << lagrange.err;
+    EXPECT_EQ(by_default.out, virtual_work.out);
+    EXPECT_NE(lagrange.out, virtual_work.out) << "which rounds otherwise";
+    const NumberTable expected = parseTable(virtual_work.out), table = parseTable(lagrange.out);
+    EXPECT_EQ(table.header, expected.header);
+    ASSERT_EQ(table.rows.size(), expected.rows.size());
+    double largest = 0, difference = 0;
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+      EXPECT_EQ(table.rows[row][0], expected.rows[row][0]);
+      for (std::size_t column = 1; column < table.header.size(); ++column) {
+        const double value = table.rows[row][column];
+        ASSERT_TRUE(std::isfinite(value));
+        largest = std::max(largest, std::abs(value));
+        difference = std::max(difference, std::abs(value - expected.rows[row][column]));
+      }
+    }
+    EXPECT_LE(difference, kMethods * largest) << options;
   }
 }
 

@@ -209,12 +209,15 @@ TEST_F(OfflineTool, ARobotWithoutMovableJointsNeedsTimesOnly) {
       <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
     <joint name="weld" type="fixed"><parent link="a"/><child link="b"/></joint></robot>)");
   write("m.csv", "time\n0\n");
-  const Run result = run("--urdf f.urdf --motion m.csv --reactions weld --gravity '0 0 -10'");
-  EXPECT_EQ(result.exit_code, 0) << result.err;
-  const NumberTable table = parseTable(result.out);
-  ASSERT_EQ(table.rows.size(), 1u);
-  ASSERT_EQ(table.rows[0].size(), 7u);
-  expectClose(table.rows[0][3], 20);
+  for (const std::string method : {"virtual_work", "lagrange"}) {
+    const Run result =
+        run("--urdf f.urdf --motion m.csv --reactions weld --gravity '0 0 -10' --method " + method);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const NumberTable table = parseTable(result.out);
+    ASSERT_EQ(table.rows.size(), 1u);
+    ASSERT_EQ(table.rows[0].size(), 7u);
+    expectClose(table.rows[0][3], 20);
+  }
 }
 
 TEST_F(OfflineTool, ColumnsOfOtherJointsAreNamedAndIgnored) {
@@ -241,16 +244,19 @@ TEST_F(OfflineTool, WhatOverflowsIsAnEmptyCellAndOneWarning) {
   write("m.csv",
         "# two of these overflow\ntime,position.hinge,velocity.hinge,acceleration.hinge\n"
         "0,1,0,0\n1,1,1e200,0\n2,1,-1e300,1e300\n");
-  const Run result = run("--urdf p.urdf --motion m.csv");
-  EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.err,
-            "warning: m.csv: results of 2 rows overflow, first of line 4; their cells are empty\n");
-  const NumberTable table = parseTable(result.out);
-  ASSERT_EQ(table.rows.size(), 3u);
-  EXPECT_TRUE(std::isfinite(table.rows[0][2]));
-  EXPECT_TRUE(std::isnan(table.rows[1][2]));
-  EXPECT_TRUE(std::isnan(table.rows[2][2]));
-  EXPECT_EQ(result.out.substr(result.out.find('\n')).find_first_of("nif"), std::string::npos);
+  for (const std::string method : {"virtual_work", "lagrange"}) {
+    const Run result = run("--urdf p.urdf --motion m.csv --method " + method);
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(
+        result.err,
+        "warning: m.csv: results of 2 rows overflow, first of line 4; their cells are empty\n");
+    const NumberTable table = parseTable(result.out);
+    ASSERT_EQ(table.rows.size(), 3u);
+    EXPECT_TRUE(std::isfinite(table.rows[0][2]));
+    EXPECT_TRUE(std::isnan(table.rows[1][2]));
+    EXPECT_TRUE(std::isnan(table.rows[2][2]));
+    EXPECT_EQ(result.out.substr(result.out.find('\n')).find_first_of("nif"), std::string::npos);
+  }
 }
 
 TEST_F(OfflineTool, CheckSaysWhatTheRobotIs) {
