@@ -7,6 +7,8 @@
 #include "allocation_guard.h"
 #include "sample_robots.h"
 #include "virtual_work_dynamics/block.h"
+#include "virtual_work_dynamics/certificates.h"
+#include "virtual_work_dynamics/error_bound.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/lagrange_dynamics.h"
 #include "virtual_work_dynamics/motion_estimator.h"
@@ -83,6 +85,25 @@ void expectLagrangeDoesNotAllocate() {
 TEST(LagrangeDynamics, ComputeDoesNotAllocate) {
   expectLagrangeDoesNotAllocate<double>();
   expectLagrangeDoesNotAllocate<long double>();
+}
+
+TEST(Certifier, CheckDoesNotAllocate) {
+  RandomRobot robot(5, 20);
+  const Mechanism mechanism = readUrdf(robot.urdf());
+  Scene scene = busyScene();
+  scene.joints = {{mechanism.coordinateNames()[0], 1, 2, 3.0, 4.0, 5, 6}};
+  Certifier certifier(mechanism, scene);
+  ErrorBound bound(mechanism, scene);
+  const Motion motion = robot.motion(mechanism);
+  const Eigen::VectorXd effort = Eigen::VectorXd::Ones(motion.q.size());
+  const Wrench ground;
+  const AllocationGuard guard;
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_GT(certifier.check(motion, effort, ground).largest(), 0);
+    certifier.setAppliedWrench(0, Eigen::Vector3d(i, 0, 0), Eigen::Vector3d::Zero());
+    bound.compute(motion);
+  }
+  EXPECT_EQ(guard.allocations(), 0u);
 }
 
 template <typename Real>
