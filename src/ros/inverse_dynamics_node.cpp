@@ -66,7 +66,8 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       joint_states_(task_.mechanism),
       trajectories_(task_.mechanism, task_.scene.static_motion),
       estimator_(task_.mechanism, task_.estimator),
-      motion_(static_cast<Eigen::Index>(task_.mechanism.coordinates().size())),
+      samples_(static_cast<Eigen::Index>(task_.mechanism.coordinates().size()),
+               task_.scene.static_motion, counters_),
       played_(parameters.trajectory_rate),
       joint_watch_(task_.mechanism.coordinateNames()),
       plans_(compile(Audience())),
@@ -197,10 +198,8 @@ void InverseDynamicsNode::evaluate(ros::Time receipt) {
     counters_.skipped.add();
     return;
   }
-  const std::int64_t stamp_ns = estimator_.evaluate(motion_);
-  if (task_.scene.static_motion) motion_.qd.setZero();
-  counters_.samples.add();
-  if (!compute(plan, stamp_ns)) {
+  const std::int64_t stamp_ns = estimator_.evaluate(samples_.motion());
+  if (!samples_.compute(plan, stamp_ns)) {
     drop(joint_state_subscriber_.getTopic(), DropReason::kOverflow,
          "not finite at stamp " + stampText(stamp_ns));
     return;
@@ -208,22 +207,6 @@ void InverseDynamicsNode::evaluate(ros::Time receipt) {
   outputs_.publishSample(plan);
   counters_.outputs.add();
   if (!sim_time_ && ros::Time::now() - receipt > late_threshold_) counters_.late.add();
-}
-
-bool InverseDynamicsNode::compute(ActivePlan& plan, std::int64_t stamp_ns) {
-  if (!motion_.finite()) return false;
-  const auto start = Clock::now();
-  plan.dynamics.compute(motion_, plan.results);
-  const auto end = Clock::now();
-  counters_.run_times.record(
-      std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count());
-  return fillMessages(plan, stamp_ns);
-}
-
-bool InverseDynamicsNode::fillMessages(ActivePlan& plan, std::int64_t stamp_ns) {
-  if (!plan.results.finite()) return false;
-  plan.messages.fill(stamp_ns, motion_, plan.results);
-  return true;
 }
 
 void InverseDynamicsNode::receiveTrajectory(
@@ -274,8 +257,8 @@ void InverseDynamicsNode::respond(ActivePlan& plan,
                             trajectory_.table.positions.cols());
     bool complete = true;
     for (std::size_t i = 0; i < points; ++i) {
-      if (i % plan.points.capacity() == 0) computePoints(plan, i);
-      if (!readPoint(plan, i)) {
+      if (!samples_.computeNext(plan, trajectory_, i)) {
+        dropPoint(i);
         complete = false;
         continue;
       }
@@ -295,7 +278,11 @@ void InverseDynamicsNode::playDue() {
   guard(trajectory_subscriber_, [this] {
     ActivePlan& plan = plans_.current();
     played_.playDue(Clock::now(), [&](const TrajectoryMotion& trajectory, std::size_t point) {
-      if (!plan.audience.wantsSamples() || !compute(plan, trajectory, point)) return;
+      if (!plan.audience.wantsSamples()) return;
+      if (!samples_.compute(plan, trajectory, point)) {
+        dropPoint(point);
+        return;
+      }
       outputs_.publishSample(plan);
       counters_.outputs.add();
     });
@@ -303,43 +290,9 @@ void InverseDynamicsNode::playDue() {
   if (played_.empty()) player_.stop();
 }
 
-void InverseDynamicsNode::takePoint(const TrajectoryMotion& trajectory, std::size_t point) {
-  const MotionTable& table = trajectory.table;
-  const auto row = static_cast<Eigen::Index>(point);
-  motion_.q = table.positions.row(row);
-  motion_.qd = table.velocities.row(row);
-  motion_.qdd = table.accelerations.row(row);
-  if (task_.scene.static_motion) motion_.qd.setZero();
-  counters_.points.add();
-}
-
 void InverseDynamicsNode::dropPoint(std::size_t point) {
   drop(trajectory_subscriber_.getTopic(), DropReason::kOverflow,
        "not finite at point " + std::to_string(point + 1));
-}
-
-bool InverseDynamicsNode::compute(ActivePlan& plan, const TrajectoryMotion& trajectory,
-                                  std::size_t point) {
-  takePoint(trajectory, point);
-  if (compute(plan, trajectory.stamps_ns[point])) return true;
-  dropPoint(point);
-  return false;
-}
-
-void InverseDynamicsNode::computePoints(ActivePlan& plan, std::size_t first) {
-  const std::size_t count = std::min(plan.points.capacity(), trajectory_.stamps_ns.size() - first);
-  const auto start = Clock::now();
-  plan.points.compute(trajectory_.table, first, count);
-  const std::chrono::nanoseconds share = (Clock::now() - start) / count;
-  for (std::size_t i = 0; i < count; ++i) counters_.run_times.record(share.count());
-}
-
-bool InverseDynamicsNode::readPoint(ActivePlan& plan, std::size_t point) {
-  takePoint(trajectory_, point);
-  plan.points.read(point % plan.points.capacity(), plan.results);
-  if (motion_.finite() && fillMessages(plan, trajectory_.stamps_ns[point])) return true;
-  dropPoint(point);
-  return false;
 }
 
 void InverseDynamicsNode::drop(const std::string& topic, DropReason reason,

@@ -23,6 +23,7 @@
 #include "ros/joint_watch.h"
 #include "ros/output_topics.h"
 #include "ros/plan_switch.h"
+#include "ros/sample_computation.h"
 #include "ros/throttle.h"
 #include "ros/trajectory_conversion.h"
 #include "ros/trajectory_queue.h"
@@ -69,14 +70,6 @@ class InverseDynamicsNode {
   void take(const trajectory_msgs::JointTrajectory& message, ros::Time receipt);
   void respond(ActivePlan& plan, const trajectory_msgs::JointTrajectory& message);
   void playDue();
-  // One sample, or one point; false, and said why, when its results are not finite.
-  bool compute(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t point);
-  bool compute(ActivePlan& plan, std::int64_t stamp_ns);
-  // As many points of trajectory_ from `first` on as the plan takes at once; then one of them.
-  void computePoints(ActivePlan& plan, std::size_t first);
-  bool readPoint(ActivePlan& plan, std::size_t point);
-  void takePoint(const TrajectoryMotion& trajectory, std::size_t point);
-  bool fillMessages(ActivePlan& plan, std::int64_t stamp_ns);
   void dropPoint(std::size_t point);
   void drop(const std::string& topic, DropReason reason, const std::string& text);
 
@@ -98,7 +91,8 @@ class InverseDynamicsNode {
   JointStateConversion joint_states_;
   TrajectoryConversion trajectories_;
   MotionEstimator estimator_;
-  Motion motion_;
+  Counters counters_;
+  SampleComputation samples_;
   TrajectoryMotion trajectory_;
   TrajectoryQueue played_;
   bool window_filled_ = false;  // since the estimator's latest restart
@@ -109,7 +103,6 @@ class InverseDynamicsNode {
   Throttle completion_throttle_;
   Throttle queue_throttle_;
 
-  Counters counters_;
   JointWatch joint_watch_;
   PlanSwitch plans_;
 

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+
+#include "ros/active_plan.h"
+#include "ros/counters.h"
+#include "ros/trajectory_conversion.h"
+#include "virtual_work_dynamics/motion.h"
+
+namespace virtual_work_dynamics {
+
+/// Computes samples and trajectory points by the plan in use and writes its messages. One thread.
+/// Does not allocate after construction.
+class SampleComputation {
+ public:
+  /// @param coordinates of the mechanism.
+  /// @param static_motion the scene takes velocities and accelerations as zero.
+  /// @param counters of samples, points and run times; outlives this.
+  SampleComputation(Eigen::Index coordinates, bool static_motion, Counters& counters);
+
+  /// Where the motion of the sample to compute next is to be put.
+  Motion& motion() { return motion_; }
+
+  // Each of these is false, with the messages as they were, when results are not finite.
+
+  /// The sample whose motion is motion().
+  bool compute(ActivePlan& plan, std::int64_t stamp_ns);
+  /// One point of a trajectory, by itself.
+  bool compute(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t point);
+  /// The next point of a trajectory from the first on, as many at once as the plan takes.
+  bool computeNext(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t point);
+
+ private:
+  void takePoint(const TrajectoryMotion& trajectory, std::size_t point);
+  void computeBlock(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t first);
+  bool computeOne(ActivePlan& plan, std::int64_t stamp_ns);
+  bool fillMessages(ActivePlan& plan, std::int64_t stamp_ns);
+
+  const bool static_motion_;
+  Counters& counters_;
+  Motion motion_;
+};
+
+}  // namespace virtual_work_dynamics
