@@ -89,6 +89,7 @@ class Outcome {
   }
 
   const std::vector<std::string>& coordinates() const { return mechanism_.coordinateNames(); }
+  const Request& request() const { return dynamics_.request(); }
   /// Joints whose reactions there are.
   const std::vector<std::string>& reactions() const { return dynamics_.request().child_axes; }
 
