@@ -13,6 +13,7 @@ add_library(benchmark_contenders STATIC
   contenders/kdl.cpp
   contenders/offers.cpp
   contenders/own_block.cpp
+  contenders/own_lagrange.cpp
   contenders/own_long_double.cpp
   contenders/own_single.cpp
   contenders/peer_input.cpp

@@ -59,6 +59,8 @@ Methods
                     Mode "single" is one sample a call; "block_<layout>_<instruction set>" up to
                     1008 samples, fewer where their arrays would exceed 1 MiB but at least 16; four
                     times that for each of several threads. Errors of float include those of its rounded input
+  lagrange          this package's witness: Lagrange's equations, differentiated automatically; not
+                    of robots with more than 100 joints, for its cost grows with their square
 
 Exit status: 0 done, 1 something is wrong or disagrees, 2 wrong usage.
 )";

@@ -14,6 +14,7 @@ std::vector<Offer> offersFor(const BenchmarkScene& scene) {
   offerOwnSingle(scene, offers);
   offerOwnLongDouble(scene, offers);
   offerOwnBlocks(scene, offers);
+  offerOwnLagrange(scene, offers);
   return offers;
 }
 

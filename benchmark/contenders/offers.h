@@ -15,6 +15,8 @@ void offerOwnLongDouble(const BenchmarkScene& scene, std::vector<Offer>& offers)
 /// Blocks of samples by BlockInverseDynamics: in each layout, by each build that this machine runs,
 /// by one thread and by two.
 void offerOwnBlocks(const BenchmarkScene& scene, std::vector<Offer>& offers);
+/// Lagrange's equations, in double and in long double; of robots up to 100 joints.
+void offerOwnLagrange(const BenchmarkScene& scene, std::vector<Offer>& offers);
 /// KDL: ChainIdSolver_RNE as kdl_parser would build the chain, the same with fixed joints merged,
 /// and TreeIdSolver_RNE.
 void offerKdl(const BenchmarkScene& scene, std::vector<Offer>& offers);

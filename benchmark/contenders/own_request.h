@@ -26,4 +26,16 @@ inline Scene ownScene(const BenchmarkScene& benchmark_scene) {
   return scene;
 }
 
+inline SampleResults plainResults(const Eigen::VectorXd& effort,
+                                  const std::vector<Wrench>& child_axes) {
+  SampleResults results;
+  results.efforts.assign(effort.data(), effort.data() + effort.size());
+  for (const Wrench& wrench : child_axes) {
+    for (const Eigen::Vector3d& part : {wrench.force, wrench.torque}) {
+      results.reactions.insert(results.reactions.end(), part.data(), part.data() + 3);
+    }
+  }
+  return results;
+}
+
 }  // namespace virtual_work_dynamics

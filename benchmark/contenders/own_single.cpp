@@ -16,15 +16,7 @@ class OwnSingle : public Contender {
   }
 
   SampleResults results(std::size_t) const override {
-    SampleResults results;
-    const Eigen::VectorXd& effort = workspace_.effort();
-    results.efforts.assign(effort.data(), effort.data() + effort.size());
-    for (const Wrench& wrench : workspace_.childAxes()) {
-      for (const Eigen::Vector3d& part : {wrench.force, wrench.torque}) {
-        results.reactions.insert(results.reactions.end(), part.data(), part.data() + 3);
-      }
-    }
-    return results;
+    return plainResults(workspace_.effort(), workspace_.childAxes());
   }
 
  private:

@@ -3,7 +3,7 @@ import re
 import statistics
 
 from plot_style import method_name, mode_name
-from report_data import ALL, EFFORTS, OWN, SINGLE, SINGLE_EFFORTS, Way
+from report_data import ALL, EFFORTS, LAGRANGE, OWN, SINGLE, SINGLE_EFFORTS, Way
 
 SAME = 0.05  # medians that differ by less are called equal
 INSTRUCTION_SETS = ('baseline', 'avx2', 'avx512')
@@ -99,6 +99,11 @@ def own_comparisons(data):
     found += _of_own_ways(data)
     found.append(Comparison(data, 'long double against double (one sample)',
                             SINGLE._replace(precision='long_double'), SINGLE, meant_to_win=False))
+    for precision in ('double', 'long_double'):
+        ours = SINGLE._replace(precision=precision)
+        found.append(Comparison(data, 'virtual work against Lagrange (one sample, %s)' %
+                                precision.replace('_', ' '), ours,
+                                ours._replace(method=LAGRANGE)))
     return [comparison for comparison in found if comparison.ratios]
 
 

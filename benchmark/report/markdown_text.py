@@ -30,7 +30,9 @@ def ns(value):
 def ratio(value):
     if value is None:
         return NONE
-    return ('%.0f' if value >= 100 else '%.1f' if value >= 10 else '%.2f') % value
+    form = ('%.0f' if value >= 100 else '%.1f' if value >= 10 else '%.2f' if value >= 0.1
+            else '%.2g')
+    return form % value
 
 
 def error(value):

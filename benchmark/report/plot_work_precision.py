@@ -5,7 +5,7 @@ from plot_style import (FAINT, INK, label_ticks, method_color, method_name, mode
                         new_figure, readable, save)
 from label_placement import LabelPlacement
 from matplotlib.lines import Line2D
-from report_data import EFFORTS, OWN
+from report_data import ALL, EFFORTS, LAGRANGE, OWN
 
 PRECISION_NAMES = {'float': 'float', 'double': 'double', 'long_double': 'long double'}
 SIZE = (10.5, 9.0)  # inches
@@ -61,7 +61,9 @@ def _draw(axes, rows, labels, spare):
 
 
 def _name_precisions(axes, rows):
-    """Names the bands of the number types at the right edge."""
+    """Names the bands of the number types at the right edge; where the recursion is, for the other
+    route rounds all of its results to double."""
+    rows = [row for row in rows if row.way.method != LAGRANGE]
     for precision, name in PRECISION_NAMES.items():
         errors = [row.error for row in rows if row.way.precision == precision and row.error > 0]
         if not errors:  # not measured, or all at the line of zeros
@@ -79,6 +81,15 @@ def _name_points(labels, rows, zero):
             name += ', one sample'
         labels.want(row.ns, row.error if row.error > 0 else zero, name,
                     readable(method_color(row.way.method)))
+
+
+def _name_rounded(labels, rows):
+    """Tells why there are points of long double among those of double."""
+    for row in rows:
+        if row.error > 0 and (row.way.method, row.way.precision, row.way.outputs) == (
+                LAGRANGE, 'long_double', ALL):
+            labels.want(row.ns, row.error, 'Lagrange in long double,\nresults rounded to double',
+                        readable(method_color(LAGRANGE)))
 
 
 def _legend(figure, rows):
@@ -112,8 +123,10 @@ def plot_work_precision(data, scene, title, path):
     lower.set_xscale('log')
     lower.set_xlim(min(times) / 1.35, max(times) * 1.6)
     labels = LabelPlacement(lower)
-    _draw(upper, rows, LabelPlacement(upper), spare=1.0)
+    upper_labels = LabelPlacement(upper)
+    _draw(upper, rows, upper_labels, spare=1.0)
     _name_precisions(upper, rows)
+    _name_rounded(upper_labels, rows)
     if doubles:
         zero = _draw(lower, doubles, labels, spare=1.5)
         _name_points(labels, doubles, zero)
@@ -122,5 +135,6 @@ def plot_work_precision(data, scene, title, path):
     for axes in (upper, lower):
         axes.set_ylabel('largest relative error')
     _legend(figure, rows)
+    upper_labels.place()
     labels.place()
     save(figure, path)

@@ -10,6 +10,7 @@ WORK_PRECISION = 'work_precision.csv'
 LEAVE_OUT = 'leave_out.csv'
 INSTRUCTIONS = 'instructions.csv'
 OWN = 'virtual_work'
+LAGRANGE = 'lagrange'  # the package's, too: the other route, which is no rival
 # Peers that work_precision knows. A method that is not listed here is reported all the same.
 KNOWN_PEERS = ('kdl_chain', 'kdl_tree', 'mujoco', 'dart', 'pinocchio', 'rbdl')
 BASES = ('kdl_chain', 'kdl_tree')  # solvers that all times are compared with; the first one found
@@ -133,7 +134,7 @@ class WorkPrecision:
         return None
 
     def peers(self):
-        return [method for method in self.methods if method != OWN]
+        return [method for method in self.methods if method not in (OWN, LAGRANGE)]
 
     def missing_peers(self):
         return [peer for peer in KNOWN_PEERS if peer not in self.methods]

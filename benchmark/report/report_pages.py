@@ -3,7 +3,7 @@ import comparisons
 import markdown_text as md
 from comparisons import way_name
 from plot_style import method_name, mode_name
-from report_data import ALL, BASES, KNOWN_PEERS, OWN, PRECISIONS, SINGLE
+from report_data import ALL, BASES, KNOWN_PEERS, LAGRANGE, OWN, PRECISIONS, SINGLE
 
 SHORT = 50  # moving joints: errors of robots up to this size are stated apart from longer chains
 SCENES = {
@@ -112,6 +112,12 @@ def not_measured(data):
         if scenes:
             lines.append('%s was not measured on: %s.' % (
                 method_name(method), md.listed(scene_title(scene) for scene in scenes)))
+    left_out = [scene for scene in data.scenes if LAGRANGE in data.methods
+                and not any(row.way.method == LAGRANGE for row in data.of_scene(scene))]
+    if left_out:
+        lines.append('%s was left out where a robot has more than 100 moving joints, for its cost '
+                     'grows with their square: %s.' % (
+                         method_name(LAGRANGE), md.listed(scene_title(s) for s in left_out)))
     return _bullets(lines or ['Every peer was measured in every scene.'])
 
 
