@@ -36,6 +36,9 @@ What is computed
   --method NAME         virtual_work (the default), or lagrange: Lagrange's equations with a
                         fictitious mobility at each joint, in long double; slow, shares no formula
                         with the other and is there to check it
+  --certificates        adds the columns certificate.{power,ground_force,ground_moment}: what each
+                        row misses of the balance of power, and ground's wrench of the rates of
+                        change of momentum, relative to the sum of all terms' magnitudes
   --threads N           divides the rows among N threads (default: 1)
 
 Output
@@ -150,9 +153,9 @@ const std::map<std::string, Setter>& optionsWithValue() {
 
 const std::map<std::string, bool Arguments::*>& switches() {
   static const std::map<std::string, bool Arguments::*> options{
-      {"--check", &Arguments::check},     {"--explain", &Arguments::explain},
-      {"--help", &Arguments::help},       {"--no-efforts", &Arguments::no_efforts},
-      {"--version", &Arguments::version},
+      {"--certificates", &Arguments::certificates}, {"--check", &Arguments::check},
+      {"--explain", &Arguments::explain},           {"--help", &Arguments::help},
+      {"--no-efforts", &Arguments::no_efforts},     {"--version", &Arguments::version},
   };
   return options;
 }

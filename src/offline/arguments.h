@@ -34,6 +34,7 @@ struct Arguments {
   std::vector<std::string> reaction_names;     ///< of ReactionSelection::kNamed
   bool no_efforts = false;
   Method method = Method::kVirtualWork;
+  bool certificates = false;
   int threads = 1;
   bool check = false;
   bool explain = false;

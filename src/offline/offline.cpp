@@ -11,6 +11,7 @@
 #include <sstream>
 #include <utility>
 
+#include "offline/certified_rows.h"
 #include "offline/check_report.h"
 #include "offline/output_file.h"
 #include "offline/progress.h"
@@ -47,12 +48,18 @@ Scene loadScene(const Arguments& arguments) {
   return scene;
 }
 
+// What is written.
 Request requestOf(const Mechanism& mechanism, const Scene& scene, const Arguments& arguments) {
   Request request;
   request.efforts = !arguments.no_efforts;
   (arguments.child_axes ? request.child_axes : request.root_axes) =
       requestedReactions(mechanism, scene);
   return request;
+}
+
+// What is computed for it: certificates take results of their own, behind the others.
+Request computedFor(const Request& written, const Arguments& arguments) {
+  return arguments.certificates ? Certifier::extended(written) : written;
 }
 
 void refuseToOverwriteInput(const Arguments& arguments) {
@@ -143,21 +150,38 @@ void complete(const std::string& path, const Mechanism& mechanism, const Scene& 
 // Writes rows in their order, and tells of those that overflowed.
 class Rows {
  public:
-  Rows(const MotionFile& file, const Arguments& arguments, ResultWriter& writer)
-      : file_(file), arguments_(arguments), writer_(writer) {}
+  // `certified` is null when no certificates are asked for.
+  Rows(const MotionFile& file, const Arguments& arguments, const Request& written,
+       CertifiedRows* certified, ResultWriter& writer)
+      : file_(file),
+        arguments_(arguments),
+        certified_(certified),
+        writer_(writer),
+        motion_(file.table.positions.cols()),
+        effort_(written.efforts ? motion_.q.size() : 0),
+        reactions_((arguments.child_axes ? written.child_axes : written.root_axes).size()) {}
 
   std::size_t count() const { return file_.table.times.size(); }
+
+  const Motion& motion(std::size_t row) {
+    if (motion_.q.size() > 0) {
+      const auto index = static_cast<Eigen::Index>(row);
+      motion_.q = file_.table.positions.row(index);
+      motion_.qd = file_.table.velocities.row(index);
+      motion_.qdd = file_.table.accelerations.row(index);
+    }
+    return motion_;
+  }
 
   // Of a Workspace, or of LagrangeDynamics.
   template <typename Results>
   void write(std::size_t row, const Results& results) {
-    const auto& reactions = arguments_.child_axes ? results.childAxes() : results.rootAxes();
-    bool finite = results.effort().allFinite();
-    for (const Wrench& wrench : reactions) {
-      finite = finite && wrench.force.allFinite() && wrench.torque.allFinite();
-    }
-    if (!finite && ++overflowed_ == 1) first_line_ = file_.lines[row];
-    writer_.writeRow(file_.table.times[row], results.effort(), reactions);
+    take(results.effort(), arguments_.child_axes ? results.childAxes() : results.rootAxes());
+    if (!finite() && ++overflowed_ == 1) first_line_ = file_.lines[row];
+    Certificates certificates;
+    if (certified_) certificates = certified_->check(motion(row), results, file_.lines[row]);
+    writer_.writeRow(file_.table.times[row], effort_, reactions_,
+                     certified_ ? &certificates : nullptr);
     progress_.update(row + 1, count());
   }
 
@@ -169,9 +193,26 @@ class Rows {
   }
 
  private:
+  // Those that are written; certificates' own come behind them.
+  void take(const Eigen::VectorXd& effort, const std::vector<Wrench>& reactions) {
+    effort_ = effort.head(effort_.size());
+    std::copy_n(reactions.begin(), reactions_.size(), reactions_.begin());
+  }
+
+  bool finite() const {
+    return effort_.allFinite() &&
+           std::all_of(reactions_.begin(), reactions_.end(), [](const Wrench& wrench) {
+             return wrench.force.allFinite() && wrench.torque.allFinite();
+           });
+  }
+
   const MotionFile& file_;
   const Arguments& arguments_;
+  CertifiedRows* certified_;
   ResultWriter& writer_;
+  Motion motion_;
+  Eigen::VectorXd effort_;
+  std::vector<Wrench> reactions_;
   Progress progress_{std::cerr, isatty(STDERR_FILENO) == 1};
   std::size_t overflowed_ = 0;
   std::size_t first_line_ = 0;
@@ -190,16 +231,9 @@ void compute(const InverseDynamics& dynamics, const MotionFile& file, int thread
   }
 }
 
-void compute(LagrangeDynamics<long double>& dynamics, const MotionFile& file, Rows& rows) {
-  Motion motion(dynamics.coordinates());
+void compute(LagrangeDynamics<long double>& dynamics, Rows& rows) {
   for (std::size_t i = 0; i < rows.count(); ++i) {
-    if (dynamics.coordinates() > 0) {
-      const auto row = static_cast<Eigen::Index>(i);
-      motion.q = file.table.positions.row(row);
-      motion.qd = file.table.velocities.row(row);
-      motion.qdd = file.table.accelerations.row(row);
-    }
-    dynamics.compute(motion);
+    dynamics.compute(rows.motion(i));
     rows.write(i, dynamics);
   }
 }
@@ -235,7 +269,8 @@ void check(const Arguments& arguments, const Mechanism& mechanism) {
 
 void explain(const Arguments& arguments, const Mechanism& mechanism) {
   const Scene scene = loadScene(arguments);
-  const InverseDynamics dynamics(mechanism, scene, requestOf(mechanism, scene, arguments));
+  const Request written = requestOf(mechanism, scene, arguments);
+  const InverseDynamics dynamics(mechanism, scene, computedFor(written, arguments));
   for (const std::string& line : dynamics.summary().lines()) std::cout << line << "\n";
   std::cout << std::flush;
 }
@@ -250,7 +285,10 @@ void runOffline(const Arguments& arguments) {
   if (arguments.check || arguments.explain) return;
   printDoubts(std::cerr, mechanism);
   const Scene scene = loadScene(arguments);
-  const Request request = requestOf(mechanism, scene, arguments);
+  const Request written = requestOf(mechanism, scene, arguments);
+  const Request request = computedFor(written, arguments);
+  std::optional<CertifiedRows> certified;
+  if (arguments.certificates) certified.emplace(mechanism, scene, request);
   std::optional<InverseDynamics> virtual_work;
   std::optional<LagrangeDynamics<long double>> lagrange;
   if (arguments.method == Method::kLagrange) {
@@ -259,24 +297,28 @@ void runOffline(const Arguments& arguments) {
     virtual_work.emplace(mechanism, scene, request);
   }
   const std::vector<std::string> no_names;
-  const std::string header =
-      resultHeader(request.efforts ? mechanism.coordinateNames() : no_names,
-                   arguments.child_axes ? request.child_axes : request.root_axes);
+  const std::string header = resultHeader(
+      written.efforts ? mechanism.coordinateNames() : no_names,
+      arguments.child_axes ? written.child_axes : written.root_axes, arguments.certificates);
   MotionFile motion = readMotion(arguments.motion, mechanism);
   complete(arguments.motion, mechanism, scene, motion);
   OutputFile file(arguments.output);
   ResultWriter writer(file, header);
   std::string warning;
   {
-    Rows rows(motion, arguments, writer);  // wipes its progress out at its end
+    Rows rows(motion, arguments, written, certified ? &*certified : nullptr,
+              writer);  // wipes its progress out at its end
     if (lagrange) {
-      compute(*lagrange, motion, rows);
+      compute(*lagrange, rows);
     } else {
       compute(*virtual_work, motion, arguments.threads, rows);
     }
     warning = rows.warning();
   }
   std::cerr << warning;
+  if (certified) {
+    std::cerr << "note: " << arguments.motion << ": " << certified->summary() << "\n";
+  }
   writer.finish();
 }
 

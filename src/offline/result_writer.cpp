@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "offline/certified_rows.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/number_text.h"
 
@@ -21,13 +22,16 @@ const std::string& checkedName(const std::string& name) {
 }  // namespace
 
 std::string resultHeader(const std::vector<std::string>& coordinates,
-                         const std::vector<std::string>& reactions) {
+                         const std::vector<std::string>& reactions, bool certificates) {
   std::string header = "time";
   for (const std::string& name : coordinates) header += ",effort." + checkedName(name);
   for (const std::string& name : reactions) {
     for (const char* component : {"fx", "fy", "fz", "tx", "ty", "tz"}) {
       header += ",reaction." + checkedName(name) + "." + component;
     }
+  }
+  if (certificates) {
+    for (const char* column : kCertificateColumns) header += std::string(",") + column;
   }
   return header + "\n";
 }
@@ -38,12 +42,18 @@ void ResultWriter::appendCell(double value) {
 }
 
 void ResultWriter::writeRow(double time, const Eigen::VectorXd& effort,
-                            const std::vector<Wrench>& reactions) {
+                            const std::vector<Wrench>& reactions,
+                            const Certificates* certificates) {
   appendNumber(text_, time);
   for (Eigen::Index i = 0; i < effort.size(); ++i) appendCell(effort[i]);
   for (const Wrench& wrench : reactions) {
     for (int i = 0; i < 3; ++i) appendCell(wrench.force[i]);
     for (int i = 0; i < 3; ++i) appendCell(wrench.torque[i]);
+  }
+  if (certificates) {
+    appendCell(certificates->power);
+    appendCell(certificates->ground_force);
+    appendCell(certificates->ground_moment);
   }
   text_ += '\n';
   if (text_.size() < kBytesAtOnce) return;

@@ -1,0 +1,36 @@
+#include "offline/certified_rows.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace virtual_work_dynamics {
+
+const char* const kCertificateColumns[3] = {"certificate.power", "certificate.ground_force",
+                                            "certificate.ground_moment"};
+
+void CertifiedRows::note(const Certificates& found, std::size_t line) {
+  if (!std::isfinite(found.largest())) {
+    ++uncertified_;
+    return;
+  }
+  const double values[3] = {found.power, found.ground_force, found.ground_moment};
+  for (int i = 0; i < 3; ++i) {
+    if (values[i] <= worst_) continue;
+    worst_ = values[i];
+    worst_column_ = kCertificateColumns[i];
+    worst_line_ = line;
+  }
+}
+
+std::string CertifiedRows::summary() const {
+  std::ostringstream text;
+  text.precision(2);
+  if (worst_ >= 0) text << worst_column_ << " is " << worst_ << " at worst, line " << worst_line_;
+  if (uncertified_ > 0) {
+    text << (worst_ >= 0 ? "; " : "") << uncertified_ << " row" << (uncertified_ == 1 ? "" : "s")
+         << " not certified: not finite";
+  }
+  return text.str();
+}
+
+}  // namespace virtual_work_dynamics

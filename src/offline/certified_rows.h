@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+
+#include "virtual_work_dynamics/certificates.h"
+
+namespace virtual_work_dynamics {
+
+/// Certifies the rows of a file and remembers the worst.
+class CertifiedRows {
+ public:
+  /// @param request of the results, extended
+  CertifiedRows(const Mechanism& mechanism, const Scene& scene, const Request& request)
+      : certifier_(mechanism, scene), ground_(Certifier::groundIndex(request)) {}
+
+  /// Of a Workspace, or of LagrangeDynamics. @param line of the row in its file
+  template <typename Results>
+  Certificates check(const Motion& motion, const Results& results, std::size_t line) {
+    const Certificates found =
+        certifier_.check(motion, results.effort(), results.childAxes()[ground_]);
+    note(found, line);
+    return found;
+  }
+
+  /// One line on the worst of all rows.
+  std::string summary() const;
+
+ private:
+  void note(const Certificates& found, std::size_t line);
+
+  Certifier certifier_;
+  std::size_t ground_;
+  double worst_ = -1;  ///< no row yet
+  const char* worst_column_ = "";
+  std::size_t worst_line_ = 0;
+  std::size_t uncertified_ = 0;  ///< rows whose certificates are not finite
+};
+
+/// Names of the columns, in the order of the members of Certificates.
+extern const char* const kCertificateColumns[3];
+
+}  // namespace virtual_work_dynamics
