@@ -1,0 +1,170 @@
+#include "ros/cross_check.h"
+
+#include <pthread.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace virtual_work_dynamics {
+namespace {
+
+// How soon a sample is seen, as the thread that computes does not so much as wake another one.
+constexpr std::chrono::milliseconds kPoll{20};
+
+// Sums below this, that lose digits to denormal numbers, are not held against the results.
+constexpr double kSmallestSum =
+    std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
+
+std::vector<std::size_t> magnitudesOf(const Mechanism& mechanism,
+                                      const std::vector<std::string>& joints) {
+  std::vector<std::size_t> places;
+  for (const std::string& joint : joints) {
+    const int index = joint == kGround ? -1 : mechanism.jointIndex(joint);
+    places.push_back(static_cast<std::size_t>(index + 1));
+  }
+  return places;
+}
+
+double relative(double difference, double sum) {
+  if (!std::isfinite(difference) || !std::isfinite(sum)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return difference / std::max(sum, kSmallestSum);
+}
+
+// Norms that neither overflow nor underflow pass over NaN.
+double distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Eigen::Vector3d difference = a - b;
+  return difference.allFinite() ? difference.stableNorm() : std::numeric_limits<double>::infinity();
+}
+
+void keepLarger(double value, const char* what, const std::string& name,
+                CrossCheckSlot::Finding& finding) {
+  if (!finding.where.empty() && value <= finding.largest) return;
+  finding.largest = value;
+  finding.where = what + name;
+}
+
+// Whatever else wants the processor goes first, also when the node was started with a real-time
+// priority, which threads inherit. Where the system refuses, priorities stay equal.
+void yieldToOthers() {
+#ifdef SCHED_IDLE
+  sched_param none{};
+  pthread_setschedparam(pthread_self(), SCHED_IDLE, &none);
+#endif
+}
+
+}  // namespace
+
+CrossCheckSlot::CrossCheckSlot(const Mechanism& mechanism, const Scene& scene,
+                               const Request& request)
+    : coordinates_(mechanism.coordinateNames()),
+      child_magnitudes_(magnitudesOf(mechanism, request.child_axes)),
+      root_magnitudes_(magnitudesOf(mechanism, request.root_axes)),
+      lagrange_(mechanism, scene, request),
+      bound_(mechanism, scene),
+      motion_(lagrange_.coordinates()),
+      effort_(request.efforts ? lagrange_.coordinates() : 0),
+      child_axes_(request.child_axes.size()),
+      root_axes_(request.root_axes.size()) {}
+
+bool CrossCheckSlot::offer(const Motion& motion, const Eigen::VectorXd& effort,
+                           const std::vector<Wrench>& child_axes,
+                           const std::vector<Wrench>& root_axes) {
+  if (full_.load(std::memory_order_acquire)) return false;
+  motion_ = motion;
+  effort_ = effort;
+  child_axes_ = child_axes;
+  root_axes_ = root_axes;
+  full_.store(true, std::memory_order_release);
+  return true;
+}
+
+CrossCheckSlot::Finding CrossCheckSlot::check() {
+  lagrange_.compute(motion_);
+  bound_.compute(motion_);
+  const Request& request = lagrange_.request();
+  Finding finding;
+  compareEfforts(finding);
+  compareWrenches(child_axes_, lagrange_.childAxes(), request.child_axes, child_magnitudes_,
+                  finding);
+  compareWrenches(root_axes_, lagrange_.rootAxes(), request.root_axes, root_magnitudes_, finding);
+  full_.store(false, std::memory_order_release);
+  return finding;
+}
+
+void CrossCheckSlot::compareEfforts(Finding& finding) const {
+  for (Eigen::Index i = 0; i < effort_.size(); ++i) {
+    const auto place = static_cast<std::size_t>(i);
+    const double difference = std::abs(effort_[i] - lagrange_.effort()[i]);
+    keepLarger(relative(difference, bound_.efforts()[place]), "effort of ", coordinates_[place],
+               finding);
+  }
+}
+
+void CrossCheckSlot::compareWrenches(const std::vector<Wrench>& results,
+                                     const std::vector<Wrench>& others,
+                                     const std::vector<std::string>& joints,
+                                     const std::vector<std::size_t>& magnitudes,
+                                     Finding& finding) const {
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const WrenchMagnitude& sum = bound_.wrenches()[magnitudes[i]];
+    const double force = distance(results[i].force, others[i].force);
+    const double moment = distance(results[i].torque, others[i].torque);
+    keepLarger(relative(force, sum.force), "force at ", joints[i], finding);
+    keepLarger(relative(moment, sum.moment), "moment at ", joints[i], finding);
+  }
+}
+
+CrossCheck::CrossCheck(double rate)
+    : period_(std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / rate))),
+      thread_([this] { run(); }) {}
+
+CrossCheck::~CrossCheck() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_one();
+  thread_.join();
+}
+
+void CrossCheck::watch(std::shared_ptr<CrossCheckSlot> slot) {
+  // What is outworn is deleted by whoever lets go of it last, outside the lock.
+  const std::lock_guard<std::mutex> lock(mutex_);
+  slot_.swap(slot);
+}
+
+CrossCheck::Report CrossCheck::takeReport() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Report report = report_;
+  report_ = Report();
+  report_.done = report.done;
+  return report;
+}
+
+void CrossCheck::run() {
+  yieldToOthers();
+  const auto poll = std::min<Clock::duration>(period_, kPoll);
+  std::unique_lock<std::mutex> lock(mutex_);
+  Clock::time_point next = Clock::now();
+  while (!changed_.wait_until(lock, next, [this] { return stopping_; })) {
+    const Clock::time_point now = Clock::now();
+    next = now + poll;
+    if (!slot_ || !slot_->full()) continue;
+    next = now + period_;
+    std::shared_ptr<CrossCheckSlot> slot = slot_;
+    lock.unlock();
+    const CrossCheckSlot::Finding finding = slot->check();
+    slot.reset();
+    lock.lock();
+    ++report_.done;
+    if (!report_.news || finding.largest > report_.finding.largest) report_.finding = finding;
+    report_.news = true;
+  }
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "virtual_work_dynamics/error_bound.h"
+#include "virtual_work_dynamics/inverse_dynamics.h"
+#include "virtual_work_dynamics/lagrange_dynamics.h"
+
+namespace virtual_work_dynamics {
+
+/// Where the thread that computes leaves a sample of one plan for the thread that checks it. The
+/// computing side neither waits, locks nor allocates: while the sample before is still to be
+/// checked, the next ones pass by.
+class CrossCheckSlot {
+ public:
+  /// How far results are from Lagrange's.
+  struct Finding {
+    double largest = 0;  ///< difference over the sum of magnitudes; infinity: not comparable
+    std::string where;   ///< "effort of elbow", "moment at wrist"
+  };
+
+  /// @param request of the plan, its results' order.
+  /// @throws SceneError as InverseDynamics does.
+  CrossCheckSlot(const Mechanism& mechanism, const Scene& scene, const Request& request);
+
+  /// Computing thread: copies the sample if there is room, and says whether there was. Motion and
+  /// results are of the plan's sizes.
+  bool offer(const Motion& motion, const Eigen::VectorXd& effort,
+             const std::vector<Wrench>& child_axes, const std::vector<Wrench>& root_axes);
+
+  /// Checking thread: true when there is a sample.
+  bool full() const { return full_.load(std::memory_order_acquire); }
+  /// Checking thread: computes the sample by Lagrange's equations, compares, and makes room for the
+  /// next one. Allocates only for the name of the culprit.
+  Finding check();
+
+ private:
+  void compareEfforts(Finding& finding) const;
+  void compareWrenches(const std::vector<Wrench>& results, const std::vector<Wrench>& others,
+                       const std::vector<std::string>& joints,
+                       const std::vector<std::size_t>& magnitudes, Finding& finding) const;
+
+  const std::vector<std::string> coordinates_;
+  std::vector<std::size_t> child_magnitudes_;  // places in ErrorBound::wrenches()
+  std::vector<std::size_t> root_magnitudes_;
+  LagrangeDynamics<long double> lagrange_;
+  ErrorBound bound_;
+
+  // The computing thread's while empty, the checking thread's while full.
+  Motion motion_;
+  Eigen::VectorXd effort_;
+  std::vector<Wrench> child_axes_;
+  std::vector<Wrench> root_axes_;
+  std::atomic<bool> full_{false};
+};
+
+/// Checks now and then a sample of the plan in use against the paper's other formalism, in a thread
+/// of its own, as Lagrange's equations of a large robot take seconds: neither what computes nor
+/// what reports waits for it.
+class CrossCheck {
+ public:
+  struct Report {
+    std::uint64_t done = 0;           ///< checks in all
+    bool news = false;                ///< any since the report before
+    CrossCheckSlot::Finding finding;  ///< the largest of these
+  };
+
+  /// @param rate the most checks a second, positive.
+  explicit CrossCheck(double rate);
+  /// Waits for the check under way, if any.
+  ~CrossCheck();
+  CrossCheck(const CrossCheck&) = delete;
+  CrossCheck& operator=(const CrossCheck&) = delete;
+
+  /// Checks the samples of this slot from now on, and no others; null: none.
+  void watch(std::shared_ptr<CrossCheckSlot> slot);
+
+  /// What was found since the call before. Waits for no check.
+  Report takeReport();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void run();
+
+  const Clock::duration period_;
+  std::mutex mutex_;  // of all below but the thread
+  std::condition_variable changed_;
+  std::shared_ptr<CrossCheckSlot> slot_;
+  Report report_;
+  bool stopping_ = false;
+  std::thread thread_;
+};
+
+}  // namespace virtual_work_dynamics

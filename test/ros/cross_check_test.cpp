@@ -1,0 +1,200 @@
+#include "ros/cross_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "allocation_guard.h"
+#include "sample_robots.h"
+#include "virtual_work_dynamics/urdf_reader.h"
+#include "wait_until.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+// Both routes round: a few eps for each of the 12 links that a wrench has gone through.
+constexpr double kSound = 1e-13;
+// What is planted, a share of the sum of magnitudes, far above rounding errors.
+constexpr double kTampered = 1e-6;
+// Of a planted share that is found again, beside rounding errors.
+constexpr double kShare = 1e-5;
+
+/// A sample of a random tree, right until something is changed.
+struct Sample {
+  explicit Sample(const Scene& scene = Scene(), double scale = 1)
+      : robot(7, 12),
+        mechanism(readUrdf(robot.urdf())),
+        bound(mechanism, scene),
+        motion(robot.motion(mechanism, scale)) {
+    request.child_axes = requestedReactions(mechanism, scene);
+    request.child_axes.push_back(kGround);
+    request.root_axes = requestedReactions(mechanism, scene);
+    const InverseDynamics dynamics(mechanism, scene, request);
+    Workspace workspace = dynamics.makeWorkspace();
+    dynamics.compute(motion, workspace);
+    effort = workspace.effort();
+    child_axes = workspace.childAxes();
+    root_axes = workspace.rootAxes();
+    bound.compute(motion);
+    slot = std::make_shared<CrossCheckSlot>(mechanism, scene, request);
+  }
+
+  bool offer() { return slot->offer(motion, effort, child_axes, root_axes); }
+
+  CrossCheckSlot::Finding check() {
+    EXPECT_TRUE(offer());
+    return slot->check();
+  }
+
+  const WrenchMagnitude& sumAt(const std::string& joint) const {
+    const int index = joint == kGround ? -1 : mechanism.jointIndex(joint);
+    return bound.wrenches()[static_cast<std::size_t>(index + 1)];
+  }
+
+  RandomRobot robot;
+  Mechanism mechanism;
+  ErrorBound bound;
+  Motion motion;
+  Request request;
+  Eigen::VectorXd effort;
+  std::vector<Wrench> child_axes;
+  std::vector<Wrench> root_axes;
+  std::shared_ptr<CrossCheckSlot> slot;
+};
+
+// Adds the share of a sum to a value, looks for it, and takes it away. False: nothing to add to.
+bool expectFound(Sample& sample, double& value, double sum, const std::string& where) {
+  if (sum == 0) return false;
+  const double before = value;
+  value += kTampered * sum;
+  const CrossCheckSlot::Finding finding = sample.check();
+  EXPECT_EQ(finding.where, where);
+  EXPECT_NEAR(finding.largest, kTampered, kShare * kTampered);
+  value = before;
+  return true;
+}
+
+TEST(CrossCheckSlot, SoundResultsDifferByRoundingErrors) {
+  Sample sample;
+  const CrossCheckSlot::Finding finding = sample.check();
+  EXPECT_LE(finding.largest, kSound);
+  EXPECT_GT(finding.largest, 0);
+  EXPECT_FALSE(finding.where.empty());
+}
+
+TEST(CrossCheckSlot, NamesTheResultThatWasTamperedWith) {
+  Sample sample;
+  int found = 0;
+  for (Eigen::Index i = 0; i < sample.effort.size(); ++i) {
+    const auto place = static_cast<std::size_t>(i);
+    found += expectFound(sample, sample.effort[i], sample.bound.efforts()[place],
+                         "effort of " + sample.mechanism.coordinateNames()[place]);
+  }
+  const auto tamper = [&](std::vector<Wrench>& wrenches, const std::vector<std::string>& joints) {
+    for (std::size_t i = 0; i < wrenches.size(); ++i) {
+      const WrenchMagnitude& sum = sample.sumAt(joints[i]);
+      found += expectFound(sample, wrenches[i].force[0], sum.force, "force at " + joints[i]);
+      found += expectFound(sample, wrenches[i].torque[2], sum.moment, "moment at " + joints[i]);
+    }
+  };
+  tamper(sample.child_axes, sample.request.child_axes);
+  tamper(sample.root_axes, sample.request.root_axes);
+  // All but those of massless ends.
+  EXPECT_GE(found, 40);
+}
+
+TEST(CrossCheckSlot, WhatIsNotFiniteDiffersInfinitely) {
+  Sample sample;
+  sample.child_axes[1].torque[1] = std::numeric_limits<double>::quiet_NaN();
+  const CrossCheckSlot::Finding finding = sample.check();
+  EXPECT_EQ(finding.largest, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(finding.where, "moment at " + sample.request.child_axes[1]);
+}
+
+TEST(CrossCheckSlot, NothingAgainstNothingIsNoDifference) {
+  Scene scene;
+  scene.gravity.setZero();
+  Sample sample(scene, 0);
+  EXPECT_EQ(sample.check().largest, 0);
+}
+
+TEST(CrossCheckSlot, HoldsItsSampleUntilChecked) {
+  Sample sample;
+  EXPECT_FALSE(sample.slot->full());
+  EXPECT_TRUE(sample.offer());
+  EXPECT_TRUE(sample.slot->full());
+  sample.effort[0] += 1000;
+  EXPECT_FALSE(sample.offer());
+  EXPECT_LE(sample.slot->check().largest, kSound);
+  EXPECT_FALSE(sample.slot->full());
+  EXPECT_GT(sample.check().largest, kSound);
+}
+
+TEST(CrossCheckSlot, OfferDoesNotAllocate) {
+  Sample sample;
+  const AllocationGuard guard;
+  const bool first = sample.offer();
+  const bool second = sample.offer();
+  const std::size_t allocations = guard.allocations();
+  EXPECT_TRUE(first);
+  EXPECT_FALSE(second);
+  EXPECT_EQ(allocations, 0u);
+}
+
+TEST(CrossCheck, ReportsOnceWhatItFinds) {
+  Sample sample;
+  CrossCheck cross_check(1000);
+  EXPECT_FALSE(cross_check.takeReport().news);
+  cross_check.watch(sample.slot);
+  sample.effort[1] += kTampered * sample.bound.efforts()[1];
+  ASSERT_TRUE(sample.offer());
+  CrossCheck::Report report;
+  waitUntil([&] { return (report = cross_check.takeReport()).news; });
+  EXPECT_EQ(report.done, 1u);
+  EXPECT_EQ(report.finding.where, "effort of " + sample.mechanism.coordinateNames()[1]);
+  EXPECT_NEAR(report.finding.largest, kTampered, kShare * kTampered);
+  report = cross_check.takeReport();
+  EXPECT_FALSE(report.news);
+  EXPECT_EQ(report.done, 1u);
+}
+
+TEST(CrossCheck, KeepsTheLargestUntilAsked) {
+  Sample sample;
+  CrossCheck cross_check(1000);
+  cross_check.watch(sample.slot);
+  const double sound = sample.effort[0];
+  // The third check begins after the findings of the second one have been kept.
+  for (int i = 0; i < 4; ++i) {
+    sample.effort[0] = sound + (i == 1 ? kTampered * sample.bound.efforts()[0] : 0);
+    ASSERT_TRUE(sample.offer());
+    waitUntil([&] { return !sample.slot->full(); });
+  }
+  const CrossCheck::Report report = cross_check.takeReport();
+  EXPECT_GE(report.done, 3u);
+  EXPECT_NEAR(report.finding.largest, kTampered, kShare * kTampered);
+}
+
+TEST(CrossCheck, ChecksTheSlotItWasToldLast) {
+  Sample outworn, current;
+  CrossCheck cross_check(1000);
+  cross_check.watch(outworn.slot);
+  cross_check.watch(current.slot);
+  outworn.effort[0] += kTampered * outworn.bound.efforts()[0];
+  ASSERT_TRUE(outworn.offer());
+  ASSERT_TRUE(current.offer());
+  CrossCheck::Report report;
+  waitUntil([&] { return (report = cross_check.takeReport()).news; });
+  EXPECT_LE(report.finding.largest, kSound);
+  EXPECT_TRUE(outworn.slot->full());
+  cross_check.watch(nullptr);
+  cross_check.watch(outworn.slot);
+  waitUntil([&] { return (report = cross_check.takeReport()).news; });
+  EXPECT_NEAR(report.finding.largest, kTampered, kShare * kTampered);
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics
