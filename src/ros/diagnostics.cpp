@@ -24,10 +24,12 @@ void addMicroseconds(DiagnosticStatusWrapper& status, const char* key, std::int6
 }  // namespace
 
 Diagnostics::Diagnostics(const Counters& counters_read, RunTimeHistogram& run_times,
-                         const JointWatch& joints, const std::string& robot, double period)
+                         const JointWatch& joints, const SelfCheckReport& self_check,
+                         const std::string& robot, double period)
     : counters_(counters_read),
       run_times_(run_times),
       joints_(joints),
+      self_check_(self_check),
       period_(std::chrono::duration_cast<std::chrono::nanoseconds>(
           std::chrono::duration<double>(period))),
       next_(JointWatch::Clock::now() + period_) {
@@ -85,6 +87,7 @@ void Diagnostics::report(DiagnosticStatusWrapper& status) {
   status.addf("output rate (Hz)", "%.2f",
               static_cast<double>(now.outputs - before_.outputs) / interval);
   addRunTimes(status);
+  self_check_.add(status);
   addCounts(status);
   status.add("joints waited for", missing.empty() ? "none" : shortList(missing));
   status.add("subscribed outputs", outputs_);

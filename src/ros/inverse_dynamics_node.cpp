@@ -63,18 +63,23 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       output_queue_(parameters.output_queue),
       at_once_(parameters.trajectory_rate == 0),
       late_threshold_(parameters.late_threshold),
+      checks_{parameters.self_check.cross_check_rate > 0, parameters.self_check.certificates},
       joint_states_(task_.mechanism),
       trajectories_(task_.mechanism, task_.scene.static_motion),
       estimator_(task_.mechanism, task_.estimator),
       samples_(static_cast<Eigen::Index>(task_.mechanism.coordinates().size()),
-               task_.scene.static_motion, counters_),
+               task_.scene.static_motion, counters_, certificates_),
       played_(parameters.trajectory_rate),
       joint_watch_(task_.mechanism.coordinateNames()),
       plans_(compile(Audience())),
+      cross_check_(checks_.cross_check
+                       ? std::make_unique<CrossCheck>(parameters.self_check.cross_check_rate)
+                       : nullptr),
       outputs_(ros::NodeHandle("~"), task_.reaction_topics, parameters.output_queue, manage_queue_,
                [this] { audience_changed_ = true; }),
-      diagnostics_(counters_, counters_.run_times, joint_watch_, task_.mechanism.name(),
-                   parameters.diagnostic_period),
+      diagnostics_(counters_, counters_.run_times, joint_watch_,
+                   SelfCheckReport(parameters.self_check, cross_check_.get(), certificates_),
+                   task_.mechanism.name(), parameters.diagnostic_period),
       sim_time_(ros::Time::isSimTime()) {
   logSummary(parameters);
   ros::NodeHandle node;
@@ -319,7 +324,7 @@ void InverseDynamicsNode::manage() {
 std::unique_ptr<ActivePlan> InverseDynamicsNode::compile(const Audience& audience) const {
   return std::make_unique<ActivePlan>(task_.mechanism, task_.scene,
                                       requestFor(audience, task_.reactions, twist_), audience,
-                                      frame_prefix_);
+                                      frame_prefix_, checks_);
 }
 
 void InverseDynamicsNode::adaptPlan() {
@@ -328,8 +333,8 @@ void InverseDynamicsNode::adaptPlan() {
   if (audience == audience_) return;
   try {
     std::unique_ptr<ActivePlan> plan = compile(audience);
-    diagnostics_.setPlan(outputs_.names(audience), describe(plan->dynamics.request()),
-                         operationsOf(plan->dynamics));
+    diagnostics_.setPlan(outputs_.names(audience), describe(*plan), operationsOf(plan->dynamics));
+    if (cross_check_) cross_check_->watch(plan->cross_check);
     plans_.offer(std::move(plan));
     audience_ = audience;
   } catch (const std::exception& error) {

@@ -12,11 +12,14 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "ros/certificate_record.h"
 #include "ros/counters.h"
+#include "ros/cross_check.h"
 #include "ros/diagnostics.h"
 #include "ros/inverse_dynamics_parameters.h"
 #include "ros/joint_state_conversion.h"
@@ -34,9 +37,10 @@ namespace virtual_work_dynamics {
 
 /// Inverse dynamics between topics: joint states and trajectories in, efforts and reactions out.
 ///
-/// Two threads. The one that spins the global callback queue takes messages in, computes and
-/// publishes. The other one is the node's own: it watches who subscribes, compiles the plan for
-/// them, hands it over by PlanSwitch, and reports diagnostics.
+/// Two threads, and a third one where Lagrange's equations check (CrossCheck). The one that spins
+/// the global callback queue takes messages in, computes and publishes. The other one is the node's
+/// own: it watches who subscribes, compiles the plan for them, hands it over by PlanSwitch, and
+/// reports diagnostics.
 class InverseDynamicsNode {
  public:
   /// Checks everything, then advertises and subscribes; nothing of either is done if it throws.
@@ -87,11 +91,13 @@ class InverseDynamicsNode {
   const int output_queue_;
   const bool at_once_;  ///< all points of a trajectory
   const ros::Duration late_threshold_;
+  const PlanChecks checks_;
 
   JointStateConversion joint_states_;
   TrajectoryConversion trajectories_;
   MotionEstimator estimator_;
   Counters counters_;
+  CertificateRecord certificates_;
   SampleComputation samples_;
   TrajectoryMotion trajectory_;
   TrajectoryQueue played_;
@@ -105,6 +111,7 @@ class InverseDynamicsNode {
 
   JointWatch joint_watch_;
   PlanSwitch plans_;
+  std::unique_ptr<CrossCheck> cross_check_;  // null: off
 
   // From here on, constructing means talking to ROS.
   ros::CallbackQueue manage_queue_;

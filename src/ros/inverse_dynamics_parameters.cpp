@@ -63,6 +63,29 @@ double readTrajectoryRate(PrivateParameters& parameters, double fallback) {
   return rate;
 }
 
+SelfCheckSettings readSelfCheck(PrivateParameters& parameters) {
+  constexpr double kFastest = 1000;
+  SelfCheckSettings settings;
+  settings.cross_check_rate = parameters.number("cross_check_rate", settings.cross_check_rate);
+  if (!(settings.cross_check_rate >= 0 && settings.cross_check_rate <= kFastest)) {
+    throw parameterError("cross_check_rate", numberText(settings.cross_check_rate) +
+                                                 " checks/s is not from 0 to " +
+                                                 numberText(kFastest));
+  }
+  settings.certificates = parameters.boolean("certificates", settings.certificates);
+  settings.residual_warn = parameters.number("residual_warn", settings.residual_warn);
+  settings.residual_error = parameters.number("residual_error", settings.residual_error);
+  if (!(settings.residual_warn > 0)) {
+    throw parameterError("residual_warn", numberText(settings.residual_warn) + " is not positive");
+  }
+  if (!(settings.residual_error >= settings.residual_warn)) {
+    throw parameterError("residual_error", numberText(settings.residual_error) +
+                                               " is less than ~residual_warn = " +
+                                               numberText(settings.residual_warn));
+  }
+  return settings;
+}
+
 }  // namespace
 
 InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& private_node) {
@@ -77,6 +100,7 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   result.trajectory_rate = readTrajectoryRate(parameters, result.trajectory_rate);
   result.diagnostic_period = readPeriod(parameters, "diagnostic_period", result.diagnostic_period);
   result.late_threshold = readPeriod(parameters, "late_threshold", result.late_threshold);
+  result.self_check = readSelfCheck(parameters);
   result.scene_given = parameters.has("scene");
   const YAML::Node scene = xmlRpcToYaml(parameters.raw("scene"), "scene");
   parameters.refuseUnknown();

@@ -11,6 +11,14 @@ class NodeHandle;
 
 namespace virtual_work_dynamics {
 
+/// How the node checks what it computes.
+struct SelfCheckSettings {
+  double cross_check_rate = 0;   ///< samples/s that Lagrange's equations check; 0: none
+  bool certificates = false;     ///< of every sample
+  double residual_warn = 1e-10;  ///< relative to sums of magnitudes; from here on, WARN
+  double residual_error = 1e-7;  ///< from here on, ERROR
+};
+
 /// Everything the node inverse_dynamics_node reads from the parameter server.
 struct InverseDynamicsParameters {
   std::string robot_description;      ///< URDF text
@@ -25,6 +33,7 @@ struct InverseDynamicsParameters {
   double trajectory_rate = 0;      ///< points/s; 0: all points of a trajectory at once
   double diagnostic_period = 1.0;  ///< s
   double late_threshold = 0.001;   ///< s, from receipt of a joint state to its published result
+  SelfCheckSettings self_check;
 };
 
 /// Reads and checks the private parameters of the node, and robot_description, searched upwards

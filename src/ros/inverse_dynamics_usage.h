@@ -17,7 +17,7 @@ publishes (each only while somebody subscribes)
   ~reactions         sensor_msgs/MultiDOFJointState   joint poses and wrenches, axes of the root link
   ~reaction/<joint>  geometry_msgs/WrenchStamped      the same wrench, frame of the child link
   ~joint_trajectory  trajectory_msgs/JointTrajectory  the input trajectory with efforts
-  /diagnostics       diagnostic_msgs/DiagnosticArray  rates, run times, dropped messages
+  /diagnostics       diagnostic_msgs/DiagnosticArray  rates, run times, drops, checks
 A wrench is what the parent link exerts on the child link, moment about the joint's origin.
 
 parameters
@@ -36,6 +36,10 @@ parameters
   ~trajectory_rate           points a second of a trajectory's results; 0: all at once (0)
   ~diagnostic_period         s (1.0)
   ~late_threshold            an output this long after its joint state's receipt is late, s (0.001)
+  ~cross_check_rate          samples a second that Lagrange's equations check; 0: none (0)
+  ~certificates              check power balance and ground's wrench of every sample (false)
+  ~residual_warn             what checks find, relative to sums of magnitudes: WARN from here (1e-10)
+  ~residual_error            ERROR from here (1e-7)
 )";
 
 }  // namespace virtual_work_dynamics

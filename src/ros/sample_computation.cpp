@@ -8,8 +8,11 @@ namespace virtual_work_dynamics {
 using Clock = std::chrono::steady_clock;
 
 SampleComputation::SampleComputation(Eigen::Index coordinates, bool static_motion,
-                                     Counters& counters)
-    : static_motion_(static_motion), counters_(counters), motion_(coordinates) {}
+                                     Counters& counters, CertificateRecord& certificates)
+    : static_motion_(static_motion),
+      counters_(counters),
+      certificates_(certificates),
+      motion_(coordinates) {}
 
 bool SampleComputation::compute(ActivePlan& plan, std::int64_t stamp_ns) {
   if (static_motion_) motion_.qd.setZero();
@@ -64,7 +67,20 @@ bool SampleComputation::computeOne(ActivePlan& plan, std::int64_t stamp_ns) {
 bool SampleComputation::fillMessages(ActivePlan& plan, std::int64_t stamp_ns) {
   if (!plan.results.finite()) return false;
   plan.messages.fill(stamp_ns, motion_, plan.results);
+  check(plan);
   return true;
+}
+
+void SampleComputation::check(ActivePlan& plan) {
+  const Workspace& results = plan.results;
+  if (plan.cross_check) {
+    plan.cross_check->offer(motion_, results.effort(), results.childAxes(), results.rootAxes());
+  }
+  if (plan.certifier) {
+    // Child axes of ground's reaction are the root link's.
+    const Wrench& ground = results.childAxes()[plan.ground];
+    certificates_.record(plan.certifier->check(motion_, results.effort(), ground));
+  }
 }
 
 }  // namespace virtual_work_dynamics

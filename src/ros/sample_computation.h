@@ -5,20 +5,23 @@
 #include <cstdint>
 
 #include "ros/active_plan.h"
+#include "ros/certificate_record.h"
 #include "ros/counters.h"
 #include "ros/trajectory_conversion.h"
 #include "virtual_work_dynamics/motion.h"
 
 namespace virtual_work_dynamics {
 
-/// Computes samples and trajectory points by the plan in use and writes its messages. One thread.
-/// Does not allocate after construction.
+/// Computes samples and trajectory points by the plan in use, writes its messages, and has results
+/// checked as the plan says. One thread. Does not allocate after construction.
 class SampleComputation {
  public:
   /// @param coordinates of the mechanism.
   /// @param static_motion the scene takes velocities and accelerations as zero.
   /// @param counters of samples, points and run times; outlives this.
-  SampleComputation(Eigen::Index coordinates, bool static_motion, Counters& counters);
+  /// @param certificates of all samples of plans that certify; outlives this.
+  SampleComputation(Eigen::Index coordinates, bool static_motion, Counters& counters,
+                    CertificateRecord& certificates);
 
   /// Where the motion of the sample to compute next is to be put.
   Motion& motion() { return motion_; }
@@ -37,9 +40,11 @@ class SampleComputation {
   void computeBlock(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t first);
   bool computeOne(ActivePlan& plan, std::int64_t stamp_ns);
   bool fillMessages(ActivePlan& plan, std::int64_t stamp_ns);
+  void check(ActivePlan& plan);
 
   const bool static_motion_;
   Counters& counters_;
+  CertificateRecord& certificates_;
   Motion motion_;
 };
 

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+
+#include <optional>
+#include <string>
+
+#include "ros/certificate_record.h"
+#include "ros/cross_check.h"
+#include "ros/inverse_dynamics_parameters.h"
+
+namespace virtual_work_dynamics {
+
+/// What checks of the node's results have found, for /diagnostics. One thread.
+class SelfCheckReport {
+ public:
+  /// @param cross_check null: off. @param certificates of all samples, if settings have them on.
+  SelfCheckReport(const SelfCheckSettings& settings, CrossCheck* cross_check,
+                  CertificateRecord& certificates);
+
+  /// Adds the findings since the call before, and to the summary what is wrong with them. Findings
+  /// hold until there are others.
+  void add(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+ private:
+  void addCrossCheck(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void addCertificates(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void judge(diagnostic_updater::DiagnosticStatusWrapper& status, double residual,
+             const std::string& text) const;
+
+  const SelfCheckSettings settings_;
+  CrossCheck* const cross_check_;
+  CertificateRecord& certificates_;
+  std::optional<CrossCheckSlot::Finding> latest_finding_;
+  std::optional<Certificates> latest_certificates_;
+};
+
+}  // namespace virtual_work_dynamics

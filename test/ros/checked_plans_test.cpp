@@ -1,0 +1,181 @@
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "allocation_guard.h"
+#include "ros/active_plan.h"
+#include "ros/certificate_record.h"
+#include "ros/counters.h"
+#include "ros/cross_check.h"
+#include "ros/plan_switch.h"
+#include "ros/sample_computation.h"
+#include "sample_robots.h"
+#include "virtual_work_dynamics/urdf_reader.h"
+#include "wait_until.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+// Both routes round: a few eps for each of the 9 links that a wrench may have gone through.
+constexpr double kSound = 1e-13;
+
+/// Plans as the node compiles them, for one robot.
+class CheckedPlans : public testing::Test {
+ protected:
+  explicit CheckedPlans(const Scene& wanted = Scene())
+      : robot(3, 9),
+        mechanism(readUrdf(robot.urdf())),
+        scene(wanted),
+        samples(static_cast<Eigen::Index>(mechanism.coordinates().size()), scene.static_motion,
+                counters, certificates) {}
+
+  std::unique_ptr<ActivePlan> compile(const Audience& audience, bool checked = true) const {
+    const std::vector<std::string> reactions = requestedReactions(mechanism, scene);
+    return std::make_unique<ActivePlan>(mechanism, scene, requestFor(audience, reactions, false),
+                                        audience, "", PlanChecks{checked, checked});
+  }
+
+  void compute(ActivePlan& plan) {
+    samples.motion() = robot.motion(mechanism);
+    ASSERT_TRUE(samples.compute(plan, 1));
+  }
+
+  void expectSound(ActivePlan& plan) {
+    compute(plan);
+    EXPECT_LE(plan.cross_check->check().largest, kSound);
+    const auto certified = certificates.take();
+    ASSERT_TRUE(certified);
+    EXPECT_LE(certified->largest(), kSound);
+  }
+
+  RandomRobot robot;
+  Mechanism mechanism;
+  Scene scene;
+  Counters counters;
+  CertificateRecord certificates;
+  SampleComputation samples;
+};
+
+Audience effortOnly() {
+  Audience audience;
+  audience.effort = true;
+  return audience;
+}
+
+Audience everything() {
+  Audience audience;
+  audience.effort = audience.reactions = audience.trajectory = true;
+  audience.wrenches = {0, 2};
+  return audience;
+}
+
+Audience wrenchesOnly() {
+  Audience audience;
+  audience.wrenches = {0, 2};
+  return audience;
+}
+
+TEST_F(CheckedPlans, CheckNothingThatNobodyListensTo) {
+  const auto plan = compile(Audience());
+  EXPECT_FALSE(plan->cross_check);
+  EXPECT_FALSE(plan->certifier);
+  EXPECT_FALSE(plan->dynamics.request().efforts);
+  EXPECT_EQ(describe(*plan), "nothing");
+}
+
+TEST_F(CheckedPlans, PublishNothingOfWhatCertificatesNeed) {
+  const auto plan = compile(wrenchesOnly());
+  EXPECT_TRUE(plan->dynamics.request().efforts);
+  EXPECT_EQ(plan->dynamics.request().child_axes.size(), 3u);
+  compute(*plan);
+  EXPECT_TRUE(plan->messages.effort().effort.empty());
+  EXPECT_EQ(plan->messages.wrenches().size(), 2u);
+}
+
+TEST_F(CheckedPlans, AreAsEverWithChecksOff) {
+  const auto plan = compile(wrenchesOnly(), false);
+  EXPECT_FALSE(plan->cross_check);
+  EXPECT_FALSE(plan->certifier);
+  EXPECT_FALSE(plan->dynamics.request().efforts);
+  EXPECT_EQ(plan->dynamics.request().child_axes.size(), 2u);
+  compute(*plan);
+  EXPECT_FALSE(certificates.take());
+}
+
+TEST_F(CheckedPlans, AreCheckedAcrossSwitches) {
+  PlanSwitch plans(compile(Audience()));
+  CrossCheck cross_check(1000);
+  std::uint64_t done = 0;
+  for (const Audience& audience : {effortOnly(), wrenchesOnly(), effortOnly()}) {
+    auto next = compile(audience);
+    cross_check.watch(next->cross_check);
+    plans.offer(std::move(next));
+    compute(plans.current());
+    plans.collect();
+    CrossCheck::Report report;
+    waitUntil([&] { return (report = cross_check.takeReport()).news; });
+    EXPECT_EQ(report.done, ++done);
+    EXPECT_LE(report.finding.largest, kSound);
+    const auto certified = certificates.take();
+    ASSERT_TRUE(certified);
+    EXPECT_LE(certified->largest(), kSound);
+  }
+}
+
+Scene staticScene() {
+  Scene scene;
+  scene.static_motion = true;
+  return scene;
+}
+
+class CheckedStaticPlans : public CheckedPlans {
+ protected:
+  CheckedStaticPlans() : CheckedPlans(staticScene()) {}
+};
+
+// Accelerations of the motion are none of theirs.
+TEST_F(CheckedStaticPlans, AreSound) {
+  expectSound(*compile(everything()));
+}
+
+Scene busyScene() {
+  Scene scene;
+  scene.include_active = false;
+  scene.reactions = ReactionSelection::kNamed;
+  scene.reaction_names = {kGround, "joint_3", "joint_5", "joint_8"};
+  scene.applied_wrenches.resize(1);
+  scene.applied_wrenches[0].link = "link_5";
+  scene.applied_wrenches[0].at << 0.1, -0.2, 0.3;
+  scene.applied_wrenches[0].force << 10, 20, -30;
+  scene.applied_wrenches[0].torque << 1, -2, 3;
+  return scene;
+}
+
+class CheckedBusyPlans : public CheckedPlans {
+ protected:
+  CheckedBusyPlans() : CheckedPlans(busyScene()) {}
+};
+
+TEST_F(CheckedBusyPlans, AreSound) {
+  expectSound(*compile(everything()));
+  // Ground is among them, first of all.
+  expectSound(*compile(wrenchesOnly()));
+}
+
+TEST_F(CheckedPlans, ComputeAndCheckWithoutAllocation) {
+  const auto plan = compile(effortOnly());
+  samples.motion() = robot.motion(mechanism);
+  const AllocationGuard guard;
+  const bool finite = samples.compute(*plan, 1);
+  const std::size_t allocations = guard.allocations();
+  EXPECT_TRUE(finite);
+  EXPECT_EQ(allocations, 0u);
+  EXPECT_TRUE(plan->cross_check->full());
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics
