@@ -32,10 +32,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Lets Certifiers be built for an instruction set.
 class InstructionSetChoice {
  public:
-  explicit InstructionSetChoice(InstructionSet set) {
+  explicit InstructionSetChoice(InstructionSet set) : before_(toString(chosenInstructionSet())) {
     setenv(kInstructionSetVariable, toString(set).c_str(), 1);
   }
-  ~InstructionSetChoice() { unsetenv(kInstructionSetVariable); }
+  ~InstructionSetChoice() { setenv(kInstructionSetVariable, before_.c_str(), 1); }
+
+ private:
+  std::string before_;
 };
 
 // Results of one motion with a certifier for them.
@@ -307,6 +310,24 @@ TEST(Certifier, MotionsThatAreTooLargeNeverPass) {
   EXPECT_FALSE(std::isfinite(found.power));
   EXPECT_FALSE(std::isfinite(found.ground_force));
   EXPECT_FALSE(std::isfinite(found.ground_moment));
+}
+
+// A finite difference of an infinite scale would be none.
+TEST(Certifier, ScalesThatOverflowCertifyNothing) {
+  const Mechanism mechanism = chainOf(1).build();
+  Scene scene;
+  scene.static_motion = true;
+  scene.applied_wrenches.resize(2);
+  for (AppliedWrench& applied : scene.applied_wrenches) {
+    applied.link = "link_0";
+    applied.axes = Axes::kRoot;
+    applied.force << 1e308, 0, 0;
+  }
+  scene.applied_wrenches[1].force *= -1;
+  Certified results(mechanism, scene, Motion(1));
+  EXPECT_TRUE(results.ground.force.allFinite());
+  EXPECT_TRUE(std::isnan(results.check().ground_force));
+  EXPECT_LE(results.check().ground_moment, kRounding);
 }
 
 TEST(Certificates, LargestIsNaNWhenAnyIs) {
