@@ -74,16 +74,28 @@ CrossCheckSlot::CrossCheckSlot(const Mechanism& mechanism, const Scene& scene,
 bool CrossCheckSlot::offer(const Motion& motion, const Eigen::VectorXd& effort,
                            const std::vector<Wrench>& child_axes,
                            const std::vector<Wrench>& root_axes) {
-  if (full_.load(std::memory_order_acquire)) return false;
+  State state = state_.load(std::memory_order_relaxed);
+  if (state == State::kChecking) return false;
+  if (state == State::kEmpty) offered_ = 0;
+  // The n-th in place of the one before with probability 1/n leaves all equally likely.
+  ++offered_;
+  if (state == State::kFull && random_() % offered_ != 0) return false;
+  if (!state_.compare_exchange_strong(state, State::kWriting, std::memory_order_acquire)) {
+    return false;
+  }
   motion_ = motion;
   effort_ = effort;
   child_axes_ = child_axes;
   root_axes_ = root_axes;
-  full_.store(true, std::memory_order_release);
+  state_.store(State::kFull, std::memory_order_release);
   return true;
 }
 
-CrossCheckSlot::Finding CrossCheckSlot::check() {
+std::optional<CrossCheckSlot::Finding> CrossCheckSlot::check() {
+  State state = State::kFull;
+  if (!state_.compare_exchange_strong(state, State::kChecking, std::memory_order_acquire)) {
+    return std::nullopt;
+  }
   lagrange_.compute(motion_);
   bound_.compute(motion_);
   const Request& request = lagrange_.request();
@@ -92,7 +104,7 @@ CrossCheckSlot::Finding CrossCheckSlot::check() {
   compareWrenches(child_axes_, lagrange_.childAxes(), request.child_axes, child_magnitudes_,
                   finding);
   compareWrenches(root_axes_, lagrange_.rootAxes(), request.root_axes, root_magnitudes_, finding);
-  full_.store(false, std::memory_order_release);
+  state_.store(State::kEmpty, std::memory_order_release);
   return finding;
 }
 
@@ -155,14 +167,15 @@ void CrossCheck::run() {
     const Clock::time_point now = Clock::now();
     next = now + poll;
     if (!slot_ || !slot_->full()) continue;
-    next = now + period_;
     std::shared_ptr<CrossCheckSlot> slot = slot_;
     lock.unlock();
-    const CrossCheckSlot::Finding finding = slot->check();
+    const std::optional<CrossCheckSlot::Finding> finding = slot->check();
     slot.reset();
     lock.lock();
+    if (!finding) continue;
+    next = now + period_;
     ++report_.done;
-    if (!report_.news || finding.largest > report_.finding.largest) report_.finding = finding;
+    if (!report_.news || finding->largest > report_.finding.largest) report_.finding = *finding;
     report_.news = true;
   }
 }

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <random>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,9 +20,10 @@
 
 namespace virtual_work_dynamics {
 
-/// Where the thread that computes leaves a sample of one plan for the thread that checks it. The
-/// computing side neither waits, locks nor allocates: while the sample before is still to be
-/// checked, the next ones pass by.
+/// Where the thread that computes leaves a sample of one plan for the thread that checks it: of all
+/// those offered since the check before, each with the same probability. Always the first one, or
+/// the last one, would see trajectories at rest, where many errors do not show. The computing side
+/// neither waits, locks nor allocates: samples that come during a check pass by.
 class CrossCheckSlot {
  public:
   /// How far results are from Lagrange's.
@@ -33,18 +36,20 @@ class CrossCheckSlot {
   /// @throws SceneError as InverseDynamics does.
   CrossCheckSlot(const Mechanism& mechanism, const Scene& scene, const Request& request);
 
-  /// Computing thread: copies the sample if there is room, and says whether there was. Motion and
-  /// results are of the plan's sizes.
+  /// Computing thread: copies the sample in place of the one before if its turn has come, and says
+  /// whether it has. Motion and results are of the plan's sizes.
   bool offer(const Motion& motion, const Eigen::VectorXd& effort,
              const std::vector<Wrench>& child_axes, const std::vector<Wrench>& root_axes);
 
-  /// Checking thread: true when there is a sample.
-  bool full() const { return full_.load(std::memory_order_acquire); }
+  /// Any thread: true while a sample waits to be checked.
+  bool full() const { return state_.load(std::memory_order_acquire) == State::kFull; }
   /// Checking thread: computes the sample by Lagrange's equations, compares, and makes room for the
-  /// next one. Allocates only for the name of the culprit.
-  Finding check();
+  /// next one; nothing when there is none. Allocates only for the name of the culprit.
+  std::optional<Finding> check();
 
  private:
+  enum class State { kEmpty, kWriting, kFull, kChecking };
+
   void compareEfforts(Finding& finding) const;
   void compareWrenches(const std::vector<Wrench>& results, const std::vector<Wrench>& others,
                        const std::vector<std::string>& joints,
@@ -56,12 +61,14 @@ class CrossCheckSlot {
   LagrangeDynamics<long double> lagrange_;
   ErrorBound bound_;
 
-  // The computing thread's while empty, the checking thread's while full.
+  std::atomic<State> state_{State::kEmpty};
+  std::uint64_t offered_ = 0;  // since the check before
+  std::minstd_rand random_;
+  // The computing thread's while writing, the checking thread's while checking.
   Motion motion_;
   Eigen::VectorXd effort_;
   std::vector<Wrench> child_axes_;
   std::vector<Wrench> root_axes_;
-  std::atomic<bool> full_{false};
 };
 
 /// Checks now and then a sample of the plan in use against the paper's other formalism, in a thread

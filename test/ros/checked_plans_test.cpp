@@ -46,7 +46,9 @@ class CheckedPlans : public testing::Test {
 
   void expectSound(ActivePlan& plan) {
     compute(plan);
-    EXPECT_LE(plan.cross_check->check().largest, kSound);
+    const auto finding = plan.cross_check->check();
+    ASSERT_TRUE(finding);
+    EXPECT_LE(finding->largest, kSound);
     const auto certified = certificates.take();
     ASSERT_TRUE(certified);
     EXPECT_LE(certified->largest(), kSound);
