@@ -11,6 +11,8 @@ set(peers kdl)
 add_library(benchmark_contenders STATIC
   contenders/check.cpp
   contenders/kdl.cpp
+  contenders/kdl_model.cpp
+  contenders/long_double_dynamics.cpp
   contenders/offers.cpp
   contenders/own_block.cpp
   contenders/own_lagrange.cpp
@@ -19,7 +21,7 @@ add_library(benchmark_contenders STATIC
   contenders/peer_input.cpp
   contenders/robots.cpp)
 target_include_directories(benchmark_contenders PRIVATE ../src PUBLIC contenders ../test/core)  # the yardstick
-set_source_files_properties(contenders/own_long_double.cpp PROPERTIES COMPILE_FLAGS "${kernel_flags}")
+set_source_files_properties(contenders/long_double_dynamics.cpp PROPERTIES COMPILE_FLAGS "${kernel_flags}")
 target_include_directories(benchmark_contenders SYSTEM PRIVATE ${orocos_kdl_INCLUDE_DIRS})
 target_compile_definitions(benchmark_contenders PRIVATE
   VWD_SOURCE_DIR="${PROJECT_SOURCE_DIR}"

@@ -1,35 +1,16 @@
-#include <cmath>
-
-#include "core/aligned_memory.h"
-#include "core/kernel/joint_angles.h"
-#include "core/kernel/scratch.h"
-#include "core/plan.h"
+#include "long_double_dynamics.h"
 #include "offers.h"
 #include "own_request.h"
 
 namespace virtual_work_dynamics {
 namespace {
 
-using Real = long double;
-
-Real sineOf(Real angle) {
-  return std::sin(angle);
-}
-Real cosineOf(Real angle) {
-  return std::cos(angle);
-}
-
-/// The recursion itself, on long double: what one sample costs where double does not suffice.
+/// What one sample costs where double does not suffice.
 class OwnLongDouble : public Contender {
  public:
   OwnLongDouble(const BenchmarkScene& scene, const std::string& outputs)
-      : plan_(compilePlan(scene.mechanism, ownScene(scene), ownRequest(scene, outputs))),
-        view_(viewOf(plan_)),
-        memory_(sizeOf(view_)),
-        scratch_(scratchIn(view_, memory_)),
-        effort_(static_cast<std::size_t>(plan_.coordinates)),
-        reactions_(6 * plan_.child_axes.size()) {
-    prepareScratch(view_, 0, scratch_);
+      : dynamics_(scene.mechanism, ownScene(scene), ownRequest(scene, outputs)),
+        coordinates_(scene.mechanism.coordinates().size()) {
     for (const Motion& motion : scene.motions) {
       for (const Eigen::VectorXd* values : {&motion.q, &motion.qd, &motion.qdd}) {
         inputs_.insert(inputs_.end(), values->data(), values->data() + values->size());
@@ -38,37 +19,20 @@ class OwnLongDouble : public Contender {
   }
 
   void run(std::size_t calls) override {
-    const KernelOutputs<Real> out = {
-        effort_.data(), reactions_.empty() ? nullptr : reactions_.data(),
-        nullptr,        nullptr,
-        nullptr,        1};
     for (; calls > 0; --calls) {
-      const Real* const q = inputs_.data() + 3 * cycle_.next() * effort_.size();
-      const KernelInputs<Real> in = {q, q + effort_.size(), q + 2 * effort_.size(), 1, nullptr};
-      plainAngles(view_, in, scratch_, sineOf, cosineOf);
-      evaluate(view_, in, out, scratch_);
+      const long double* const q = inputs_.data() + 3 * cycle_.next() * coordinates_;
+      dynamics_.compute(q, q + coordinates_, q + 2 * coordinates_);
     }
   }
 
-  SampleResults results(std::size_t) const override { return {effort_, reactions_}; }
+  SampleResults results(std::size_t) const override {
+    return {dynamics_.efforts(), dynamics_.childAxes()};
+  }
 
  private:
-  static std::size_t sizeOf(const PlanView<Real>& view) {
-    ScratchDealer dealer(nullptr);
-    dealScratch<Real>(view, 0, dealer);
-    return dealer.used();
-  }
-
-  static Scratch<Real, Real> scratchIn(const PlanView<Real>& view, const AlignedMemory& memory) {
-    ScratchDealer dealer(memory.get());
-    return dealScratch<Real>(view, 0, dealer);
-  }
-
-  Plan<Real> plan_;
-  PlanView<Real> view_;
-  AlignedMemory memory_;
-  Scratch<Real, Real> scratch_;
-  std::vector<Real> inputs_, effort_, reactions_;
+  LongDoubleDynamics dynamics_;
+  std::size_t coordinates_;
+  std::vector<long double> inputs_;
   StateCycle cycle_;
 };
 
