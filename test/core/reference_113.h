@@ -152,7 +152,8 @@ class Reference113 {
  private:
   struct LinkState {
     Matrix113 R;              // link -> root axes
-    Vector113 o, a;           // position and acceleration of the origin
+    Vector113 r;              // from the parent's origin to this one
+    Vector113 a;              // acceleration of the origin
     Vector113 w, alpha;       // angular velocity and acceleration
     Vector113 force, torque;  // of all joints on link and what it carries, about the origin
   };
@@ -182,7 +183,7 @@ class Reference113 {
     Vector113 r = parent.R * toVector113(joint.p_PoKo_P);
     if (slides) r = r + q * axis;
     link.R = R_joint;
-    link.o = parent.o + r;
+    link.r = r;
     link.w = parent.w;
     link.alpha = parent.alpha;
     link.a = parent.a + cross(parent.alpha, r) + cross(parent.w, cross(parent.w, r));
@@ -237,7 +238,7 @@ class Reference113 {
     const LinkState& link = links_[k + 1];
     LinkState& parent = links_[mechanism_.joints()[k].parent_link];
     parent.force = parent.force + link.force;
-    parent.torque = parent.torque + link.torque + cross(link.o - parent.o, link.force);
+    parent.torque = parent.torque + link.torque + cross(link.r, link.force);
   }
 
   const Mechanism& mechanism_;
