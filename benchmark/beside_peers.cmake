@@ -1,6 +1,4 @@
 # The package beside other libraries: those that are found.
-find_path(VWD_KDL_TREE_SOLVER kdl/treeidsolver_recursive_newton_euler.hpp
-  HINTS ${orocos_kdl_INCLUDE_DIRS})
 # Not by MuJoCo's package configuration: Debian's names a folder that does not exist.
 find_path(VWD_MUJOCO_INCLUDE_DIR mujoco/mujoco.h)
 find_library(VWD_MUJOCO_LIBRARY mujoco)
@@ -29,7 +27,7 @@ target_compile_definitions(benchmark_contenders PRIVATE
 target_link_libraries(benchmark_contenders
   PUBLIC ${PROJECT_NAME} quadmath
   PRIVATE ${orocos_kdl_LIBRARIES} ${PROJECT_NAME}_warnings)
-if(VWD_KDL_TREE_SOLVER)  # since KDL 1.5
+if(VWD_KDL_TREE_SOLVER)
   target_compile_definitions(benchmark_contenders PRIVATE VWD_WITH_KDL_TREE)
 endif()
 

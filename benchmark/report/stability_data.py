@@ -1,0 +1,87 @@
+"""What the program `stability` measured: error over the bound, relative error, sensitivity."""
+import csv
+import math
+
+from report_data import ReportError
+
+COLUMNS = ('scene', 'parameter', 'value', 'path', 'precision', 'error_over_bound',
+           'max_relative_error', 'one_ulp_sensitivity', 'kdl_relative_error')
+PRECISIONS = ('double', 'float', 'long_double')  # in the order of the plots
+DOUBLE = 'double'
+
+
+class Row:
+    def __init__(self, fields):
+        self.scene, self.parameter = fields['scene'], fields['parameter']
+        self.path, self.precision = fields['path'], fields['precision']
+        self.value = float(fields['value'])
+        self.over_bound = float(fields['error_over_bound'])
+        self.relative = float(fields['max_relative_error'])
+        self.sensitivity = float(fields['one_ulp_sensitivity'])
+        kdl = fields['kdl_relative_error']
+        self.kdl = float(kdl) if kdl else None
+
+
+class Curve:
+    """Numbers over the values of a scene's parameter; None where there are none."""
+
+    def __init__(self, values, numbers):
+        self.values, self.numbers = values, numbers
+
+
+class Scene:
+    """The rows of one scene."""
+
+    def __init__(self, name, rows):
+        self.name, self.rows = name, rows
+        self.parameter = rows[0].parameter
+        self.values = sorted({row.value for row in rows})
+        self.precisions = [p for p in PRECISIONS if any(row.precision == p for row in rows)]
+
+    def worst(self, precision=None):
+        """The row that is closest to its bound, or furthest beyond."""
+        rows = [row for row in self.rows if precision in (None, row.precision)]
+        return max(rows, key=lambda row: row.over_bound) if rows else None
+
+    def largest_relative(self, precision):
+        return max((row.relative for row in self.rows if row.precision == precision), default=None)
+
+    def largest_kdl(self):
+        return max((row.kdl for row in self.rows if row.kdl is not None), default=None)
+
+    def curve(self, precision, number):
+        """The worst of all paths at every value; number: what is taken of a row."""
+        return Curve(self.values, [self._worst_at(value, precision, number)
+                                   for value in self.values])
+
+    def left_out(self, precision):
+        """Values at which this precision was not computed."""
+        computed = {row.value for row in self.rows if row.precision == precision}
+        return [value for value in self.values if value not in computed]
+
+    def _worst_at(self, value, precision, number):
+        numbers = [number(row) for row in self.rows
+                   if row.value == value and row.precision == precision]
+        return max((n for n in numbers if n is not None), default=None)
+
+
+class Stability:
+    def __init__(self, path):
+        with open(str(path), newline='', encoding='utf-8') as file:
+            reader = csv.DictReader(file)
+            if tuple(reader.fieldnames or ()) != COLUMNS:
+                raise ReportError('%s: its columns are not %s' % (path, ','.join(COLUMNS)))
+            rows = [Row(fields) for fields in reader]
+        if not rows:
+            raise ReportError('%s: there are no results' % path)
+        names = list(dict.fromkeys(row.scene for row in rows))
+        self.scenes = [Scene(name, [row for row in rows if row.scene == name]) for name in names]
+        self.row_count = len(rows)
+        self.paths = list(dict.fromkeys((row.precision, row.path) for row in rows))
+
+    def worst(self):
+        return max((scene.worst() for scene in self.scenes), key=lambda row: row.over_bound)
+
+    def stable(self):
+        return self.worst().over_bound <= 1 and not any(
+            math.isnan(row.over_bound) for scene in self.scenes for row in scene.rows)

@@ -1,0 +1,164 @@
+#!/usr/bin/python3
+"""Makes stability.md and its pictures from FOLDER/stability.csv, which the program stability has
+written; scripts/stability.sh calls it.
+"""
+import argparse
+import math
+import pathlib
+import sys
+
+import markdown_text as md
+import stability_plots as plots
+from report_data import ReportError
+from stability_data import DOUBLE, PRECISIONS, Stability
+
+CSV = 'stability.csv'
+PAGE = 'stability.md'
+TEMPLATE = pathlib.Path(__file__).resolve().parent / 'stability_template.md'
+
+TITLES = {  # scene in the CSV: for readers
+    'mass_tip_to_base': 'Chain of seven: masses from base to tip',
+    'mass_link_to_link': 'Chain of seven: masses from link to link',
+    'length_tip_to_base': 'Chain of seven: lengths from base to tip',
+    'length_link_to_link': 'Chain of seven: lengths from link to link',
+    'needles': 'Needles',
+    'discs': 'Discs',
+    'point_masses': 'Small bodies and point masses',
+    'massless': 'Massless links',
+    'angles': 'Large angles',
+    'geared_angles': 'Large angles of a joint that two others mimic',
+    'rates': 'Fast motion',
+    'accelerations': 'Large accelerations',
+    'time_scales': 'Time scales',
+    'tiny_masses': 'Masses near the smallest number',
+    'tiny_rates': 'Rates near the smallest number, no gravity',
+    'tiny_positions': 'Positions near the smallest number',
+    'signed_zeros': 'Zeros of either sign',
+    'chains': 'Long chains',
+    'stars': 'Stars',
+    'binary_trees': 'Binary trees',
+    'balance_counterweights': 'Balanced by counterweights: efforts are zero',
+    'balance_hanging': 'Hanging links at rest: efforts are zero',
+    'balance_vertical_axes': 'Axes along gravity, at rest: efforts are zero',
+    'joint_stiffness': 'Stiff joints',
+    'joint_damping': 'Damped joints',
+}
+
+
+def title_of(scene):
+    return TITLES.get(scene.name, scene.name.replace('_', ' '))
+
+
+def picture_of(scene):
+    return 'stability_%s.png' % scene.name
+
+
+def number(value):
+    return md.NONE if value is None else 'infinite' if math.isinf(value) else md.error(value)
+
+
+def over_bound(row):
+    if row is None:
+        return md.NONE
+    text = 'not finite' if math.isinf(row.over_bound) else '%.3g' % row.over_bound
+    return text if row.over_bound <= 1 else '**%s**' % text
+
+
+def span(scene):
+    return '%.3g … %.3g' % (scene.values[0], scene.values[-1])
+
+
+def table(data):
+    header = ['scene', 'from … to', 'worst error over the bound', 'worst relative error, double',
+              'KDL’s, efforts only']
+    rows = [['[%s](%s)' % (title_of(scene), picture_of(scene)), span(scene),
+             over_bound(scene.worst()), number(scene.largest_relative(DOUBLE)),
+             number(scene.largest_kdl())] for scene in data.scenes]
+    return md.table(header, rows, left=2)
+
+
+def precision_table(data):
+    header = ['scene'] + [word for p in PRECISIONS
+                          for word in (plots.LOOK[p][0] + ': over the bound', 'relative')]
+    rows = []
+    for scene in data.scenes:
+        row = [title_of(scene)]
+        for precision in PRECISIONS:
+            row += [over_bound(scene.worst(precision)), number(scene.largest_relative(precision))]
+        rows.append(row)
+    return md.table(header, rows)
+
+
+def verdict(data):
+    worst = data.worst()
+    where = '%s, %s = %g: %s, `%s`' % (worst.scene, worst.parameter, worst.value,
+                                      plots.LOOK[worst.precision][0], worst.path)
+    if data.stable():
+        return ('**All scenes are stable**: the worst error is %.3g of its bound (%s).'
+                % (worst.over_bound, where))
+    scenes = [scene for scene in data.scenes if scene.worst().over_bound > 1]
+    return ('**Not stable in all %d scenes**: errors beyond the bound in %s; the worst is %.3g '
+            'times its bound (%s).' % (len(data.scenes),
+                                       md.listed('“%s”' % title_of(scene) for scene in scenes),
+                                       worst.over_bound, where))
+
+
+def float_left_out(data):
+    lines = ['- %s: %s' % (title_of(scene), 'all' if len(values) == len(scene.values)
+                           else md.listed('%.3g' % value for value in values))
+             for scene in data.scenes for values in [scene.left_out('float')] if values]
+    return '\n'.join(lines) if lines else 'Nothing.'
+
+
+def paths(data):
+    return md.listed(
+        '%s (%s)' % (plots.LOOK[p][0],
+                     md.listed('`%s`' % path for precision, path in data.paths if precision == p))
+        for p in PRECISIONS if any(precision == p for precision, _ in data.paths))
+
+
+def page(data, quick):
+    return TEMPLATE.read_text(encoding='utf-8').format(
+        table=table(data), verdict=verdict(data), paths=paths(data),
+        quick='This is a quick run (`--quick`): few states of each scene.\n\n' if quick else '',
+        precisions=precision_table(data), left_out=float_left_out(data),
+        rows='{:,}'.format(data.row_count),
+        pictures='\n'.join('### %s\n\n%s' % (title_of(scene),
+                                             md.image(title_of(scene), picture_of(scene)))
+                           for scene in data.scenes))
+
+
+def progress(what):
+    """One line of a terminal, which None wipes out."""
+    if sys.stderr.isatty():
+        print('\r\033[K' + (what or ''), end='', file=sys.stderr, flush=True)
+
+
+def write(folder, quick):
+    data = Stability(folder / CSV)
+    for old in folder.glob('stability_*.png'):
+        old.unlink()
+    for scene in data.scenes:
+        progress('drawing ' + picture_of(scene))
+        plots.plot_scene(scene, title_of(scene), folder / picture_of(scene))
+    (folder / PAGE).write_text(page(data, quick), encoding='utf-8')
+    progress(None)
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument('--quick', action='store_true', help='say that the run was a quick one')
+    parser.add_argument('folder', metavar='FOLDER', type=pathlib.Path)
+    arguments = parser.parse_args()
+    try:
+        write(arguments.folder, arguments.quick)
+    except (ReportError, OSError) as problem:
+        progress(None)
+        print('stability_page.py: %s' % problem, file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

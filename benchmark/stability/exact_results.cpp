@@ -1,0 +1,213 @@
+#include "stability/exact_results.h"
+
+#ifdef VWD_HAS_REAL113
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace virtual_work_dynamics {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// What is smaller, relative to the terms it is the sum of, is zero but for the rounding of 113
+// bits.
+constexpr long double kZero113 = 0x1p-100L;
+
+// The length of the longest way from the root to a centre of mass, m.
+long double longestLever(const Mechanism& mechanism, const Motion& motion) {
+  std::vector<long double> ways(mechanism.links().size(), 0);
+  long double longest = 1;
+  for (std::size_t k = 0; k < mechanism.joints().size(); ++k) {
+    const Joint& joint = mechanism.joints()[k];
+    long double way = ways[joint.parent_link] + joint.p_PoKo_P.norm();
+    if (joint.type == JointType::kPrismatic) {
+      way += std::fabs(joint.multiplier * motion.q[joint.coordinate] + joint.offset);
+    }
+    ways[k + 1] = way;
+    longest = std::max(longest, way + mechanism.links()[k + 1].p_KoCm_K.norm());
+  }
+  return longest;
+}
+
+// The norm of the difference between three numbers and the exact ones.
+long double distance(const long double* numbers, const ExactNumber* exact, int count) {
+  long double sum = 0;
+  for (int i = 0; i < count; ++i) {
+    const long double difference = (numbers[i] - exact[i].high) - exact[i].low;
+    sum += difference * difference;
+  }
+  return std::sqrt(sum);
+}
+
+long double normOf(const ExactNumber* v) {
+  return std::sqrt(v[0].high * v[0].high + v[1].high * v[1].high + v[2].high * v[2].high);
+}
+
+bool withinRange(const ExactNumber* exact, int count, long double largest) {
+  return std::all_of(exact, exact + count, [&](const ExactNumber& number) {
+    return std::fabs(number.high) <= largest;  // false for NaN
+  });
+}
+
+// Not finite: infinite, and never lost in a maximum as NaN would be.
+double ratio(long double error, long double unit) {
+  if (error == 0) return 0;
+  const double value = static_cast<double>(error / unit);
+  return std::isfinite(error) && !std::isnan(value) ? value : kInfinity;
+}
+
+void takeRelative(long double error, long double largest, double& relative) {
+  if (largest > 0) relative = std::max(relative, ratio(error, largest));
+}
+
+std::string nameOf(const Mechanism& mechanism, std::size_t link) {
+  return link == 0 ? kGround : mechanism.joints()[link - 1].name;
+}
+
+template <typename Name>
+void take(long double error, long double bound, Errors& errors, const Name& name) {
+  const double over_bound = ratio(error, bound);
+  if (over_bound <= errors.over_bound) return;
+  errors.over_bound = over_bound;
+  errors.worst = name();
+}
+
+}  // namespace
+
+void Errors::include(const Errors& other) {
+  if (other.over_bound > over_bound) {
+    over_bound = other.over_bound;
+    worst = other.worst;
+  }
+  relative = std::max(relative, other.relative);
+}
+
+ExactResults::ExactResults(const Mechanism& mechanism, const Scene& scene, const Motion& motion,
+                           const ErrorBound& bound)
+    : mechanism_(mechanism),
+      magnitudes_(bound.wrenches()),
+      effort_magnitudes_(bound.efforts()),
+      depths_(bound.depths()),
+      effort_depths_(bound.effortDepths()),
+      lever_(longestLever(mechanism, motion)) {
+  const Reference113 reference(mechanism, scene, motion);
+  for (const Real113 effort : reference.efforts()) efforts_.emplace_back(effort);
+  for (int k = -1; k < static_cast<int>(mechanism.joints().size()); ++k) {
+    child_axes_.push_back(split(reference.childAxes(k)));
+    root_axes_.push_back(split(reference.rootAxes(k)));
+  }
+  noteLargest();
+}
+
+ExactResults::Wrench ExactResults::split(const Reference113::Wrench& wrench) {
+  const Vector113 &f = wrench.force, &m = wrench.torque;
+  return {{ExactNumber(f.x), ExactNumber(f.y), ExactNumber(f.z)},
+          {ExactNumber(m.x), ExactNumber(m.y), ExactNumber(m.z)}};
+}
+
+void ExactResults::noteLargest() {
+  long double force_terms = 0, moment_terms = 0;
+  for (std::size_t i = 0; i < child_axes_.size(); ++i) {
+    largest_force_ = std::max(largest_force_, normOf(child_axes_[i].force));
+    largest_moment_ = std::max(largest_moment_, normOf(child_axes_[i].moment));
+    force_terms = std::max<long double>(force_terms, magnitudes_[i].force);
+    moment_terms = std::max<long double>(moment_terms, magnitudes_[i].moment);
+  }
+  for (std::size_t i = 0; i < efforts_.size(); ++i) {
+    long double& largest = turns(i) ? largest_moment_ : largest_force_;
+    largest = std::max(largest, std::fabs(efforts_[i].high));
+    long double& terms = turns(i) ? moment_terms : force_terms;
+    terms = std::max<long double>(terms, effort_magnitudes_[i]);
+  }
+  if (largest_force_ < kZero113 * force_terms) largest_force_ = 0;
+  if (largest_moment_ < kZero113 * moment_terms) largest_moment_ = 0;
+}
+
+bool ExactResults::turns(std::size_t coordinate) const {
+  const int joint = mechanism_.coordinates()[coordinate];
+  return mechanism_.joints()[joint].type != JointType::kPrismatic;
+}
+
+long double ExactResults::bound(double magnitude, int depth, const PrecisionLimits& limits) const {
+  return 4 * depth * limits.eps * magnitude + mechanism_.links().size() * limits.smallest * lever_;
+}
+
+void ExactResults::judgeEfforts(const std::vector<long double>& results,
+                                const PrecisionLimits& limits, Errors& errors) const {
+  for (std::size_t i = 0; i < efforts_.size(); ++i) {
+    if (!withinRange(&efforts_[i], 1, limits.largest)) continue;
+    const long double error = distance(&results[i], &efforts_[i], 1);
+    take(error, bound(effort_magnitudes_[i], effort_depths_[i], limits), errors,
+         [&] { return "effort of " + mechanism_.coordinateNames()[i]; });
+    takeRelative(error, turns(i) ? largest_moment_ : largest_force_, errors.relative);
+  }
+}
+
+void ExactResults::judgeWrenches(const std::vector<Wrench>& exact,
+                                 const std::vector<long double>& results,
+                                 const PrecisionLimits& limits, const char* axes,
+                                 Errors& errors) const {
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    const Wrench& wrench = exact[i];
+    const auto name = [&](const char* what) { return what + (axes + nameOf(mechanism_, i)); };
+    if (withinRange(wrench.force, 3, limits.largest)) {
+      const long double error = distance(&results[6 * i], wrench.force, 3);
+      take(error, bound(magnitudes_[i].force, depths_[i], limits), errors,
+           [&] { return name("force"); });
+      takeRelative(error, largest_force_, errors.relative);
+    }
+    if (withinRange(wrench.moment, 3, limits.largest)) {
+      const long double error = distance(&results[6 * i + 3], wrench.moment, 3);
+      take(error, bound(magnitudes_[i].moment, depths_[i], limits), errors,
+           [&] { return name("moment"); });
+      takeRelative(error, largest_moment_, errors.relative);
+    }
+  }
+}
+
+Errors ExactResults::errorsOf(const StateResults& results, const PrecisionLimits& limits) const {
+  Errors errors;
+  judgeEfforts(results.efforts, limits, errors);
+  judgeWrenches(child_axes_, results.child_axes, limits, " in child axes of ", errors);
+  judgeWrenches(root_axes_, results.root_axes, limits, " in root axes of ", errors);
+  return errors;
+}
+
+double ExactResults::relativeErrorOfEfforts(const std::vector<double>& efforts) const {
+  double relative = 0;
+  for (std::size_t i = 0; i < efforts_.size(); ++i) {
+    if (!withinRange(&efforts_[i], 1, std::numeric_limits<double>::max())) continue;
+    const long double effort = efforts[i];
+    takeRelative(distance(&effort, &efforts_[i], 1), turns(i) ? largest_moment_ : largest_force_,
+                 relative);
+  }
+  return relative;
+}
+
+double ExactResults::relativeDifference(const ExactResults& other) const {
+  double relative = 0;
+  const auto differ = [&](const ExactNumber* a, const ExactNumber* b, int count,
+                          long double largest) {
+    long double sum = 0;
+    for (int i = 0; i < count; ++i) {
+      const long double difference = (b[i].high - a[i].high) + (b[i].low - a[i].low);
+      sum += difference * difference;
+    }
+    takeRelative(std::sqrt(sum), largest, relative);
+  };
+  for (std::size_t i = 0; i < efforts_.size(); ++i) {
+    differ(&efforts_[i], &other.efforts_[i], 1, turns(i) ? largest_moment_ : largest_force_);
+  }
+  for (std::size_t i = 0; i < child_axes_.size(); ++i) {
+    differ(child_axes_[i].force, other.child_axes_[i].force, 3, largest_force_);
+    differ(child_axes_[i].moment, other.child_axes_[i].moment, 3, largest_moment_);
+    differ(root_axes_[i].force, other.root_axes_[i].force, 3, largest_force_);
+    differ(root_axes_[i].moment, other.root_axes_[i].moment, 3, largest_moment_);
+  }
+  return relative;
+}
+
+}  // namespace virtual_work_dynamics
+
+#endif  // VWD_HAS_REAL113

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stability/exact_results.h"
+#include "stability/sweeps.h"
+
+namespace virtual_work_dynamics {
+
+#ifdef VWD_HAS_REAL113
+
+/// What one path did in some states.
+struct PathVerdict {
+  std::string path, precision;
+  Errors errors;
+};
+
+/// What all of them did.
+struct Verdict {
+  std::vector<PathVerdict> paths;  ///< none where the states are no numbers of float
+  double sensitivity = 0;          ///< see README
+  std::optional<double> kdl;       ///< largest relative error of KDL's efforts
+
+  void include(const Verdict& other);
+};
+
+/// Numbers of the input.
+enum class InputNumbers { kDouble, kFloat };
+
+/// Computes `count` random states in every way that takes such numbers, and by KDL if they are
+/// double.
+Verdict measureStates(const StabilityCase& stability_case, InputNumbers numbers, std::uint32_t seed,
+                      int count);
+
+#endif  // VWD_HAS_REAL113
+
+}  // namespace virtual_work_dynamics

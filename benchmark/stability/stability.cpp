@@ -1,0 +1,229 @@
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "offline/output_file.h"
+#include "stability/measure.h"
+#include "stability/stability_options.h"
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+// No multiple of a pack, so that blocks end in part of one.
+constexpr int kStatesOfTask = 21, kQuickStatesOfTask = 25;
+constexpr int kTasksOfValue = 20;  // for each kind of numbers
+// Mechanisms of so many joints take long in 113 bits.
+constexpr std::size_t kManyJoints = 500;
+constexpr int kTasksOfManyJoints = 10;
+
+struct Task {
+  std::size_t sweep, value;
+  InputNumbers numbers;
+  std::uint32_t seed;
+};
+
+// Of one scene and value.
+struct Row {
+  Verdict of_double, of_float;
+};
+
+std::vector<Sweep> wantedSweeps(const std::vector<std::string>& names) {
+  const std::vector<Sweep> all = allSweeps();
+  if (names.empty()) return all;
+  std::vector<Sweep> wanted;
+  for (const std::string& name : names) {
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const Sweep& sweep) { return sweep.scene == name; });
+    if (found == all.end()) {
+      throw OptionError("--scene: there is no scene '" + name + "'; --list names all");
+    }
+    wanted.push_back(*found);
+  }
+  return wanted;
+}
+
+std::vector<Task> tasksOf(const std::vector<Sweep>& sweeps, bool quick) {
+  std::vector<Task> tasks;
+  for (std::size_t s = 0; s < sweeps.size(); ++s) {
+    for (std::size_t v = 0; v < sweeps[s].values.size(); ++v) {
+      const std::size_t joints = sweeps[s].make(sweeps[s].values[v]).mechanism.joints().size();
+      const int count = quick ? 1 : joints >= kManyJoints ? kTasksOfManyJoints : kTasksOfValue;
+      for (int i = 0; i < count; ++i) {
+        const std::uint32_t seed = static_cast<std::uint32_t>(1000 * v + 2 * i + 1);
+        tasks.push_back({s, v, InputNumbers::kDouble, seed});
+        tasks.push_back({s, v, InputNumbers::kFloat, seed + 1});
+      }
+    }
+  }
+  return tasks;
+}
+
+// One line that is written over, on a terminal only.
+void showProgress(const std::string& text) {
+  if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r\033[K%s", text.c_str());
+}
+
+// Rows of every sweep, computed by several threads; the results do not depend on their number.
+class Measurement {
+ public:
+  Measurement(const std::vector<Sweep>& sweeps, bool quick)
+      : sweeps_(sweeps), quick_(quick), tasks_(tasksOf(sweeps, quick)) {
+    for (const Sweep& sweep : sweeps) rows_.emplace_back(sweep.values.size());
+  }
+
+  const std::vector<std::vector<Row>>& run(int threads) {
+    std::vector<std::thread> others;
+    for (int i = 1; i < threads; ++i) others.emplace_back([this] { work(); });
+    work();
+    for (std::thread& thread : others) thread.join();
+    showProgress("");
+    if (failure_) std::rethrow_exception(failure_);
+    return rows_;
+  }
+
+ private:
+  void work() {
+    for (std::size_t i = next_++; i < tasks_.size(); i = next_++) {
+      try {
+        compute(tasks_[i]);
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        failure_ = std::current_exception();
+        next_ = tasks_.size();
+      }
+    }
+  }
+
+  void compute(const Task& task) {
+    const Sweep& sweep = sweeps_[task.sweep];
+    const StabilityCase stability_case = sweep.make(sweep.values[task.value]);
+    const Verdict verdict = measureStates(stability_case, task.numbers, task.seed,
+                                          quick_ ? kQuickStatesOfTask : kStatesOfTask);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    Row& row = rows_[task.sweep][task.value];
+    (task.numbers == InputNumbers::kFloat ? row.of_float : row.of_double).include(verdict);
+    ++done_;
+    showProgress("[" + std::to_string(done_) + "/" + std::to_string(tasks_.size()) + "] " +
+                 sweep.scene);
+  }
+
+  const std::vector<Sweep>& sweeps_;
+  bool quick_;
+  std::vector<Task> tasks_;
+  std::atomic<std::size_t> next_{0};
+  std::mutex mutex_;  // of all below
+  std::size_t done_ = 0;
+  std::vector<std::vector<Row>> rows_;
+  std::exception_ptr failure_;
+};
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
+std::string csv(const std::vector<Sweep>& sweeps, const std::vector<std::vector<Row>>& rows) {
+  std::string text =
+      "scene,parameter,value,path,precision,error_over_bound,max_relative_error,"
+      "one_ulp_sensitivity,kdl_relative_error\n";
+  for (std::size_t s = 0; s < sweeps.size(); ++s) {
+    for (std::size_t v = 0; v < rows[s].size(); ++v) {
+      const std::optional<double>& kdl = rows[s][v].of_double.kdl;
+      for (const Verdict* verdict : {&rows[s][v].of_double, &rows[s][v].of_float}) {
+        for (const PathVerdict& path : verdict->paths) {
+          text += sweeps[s].scene + ',' + sweeps[s].parameter + ',' + number(sweeps[s].values[v]) +
+                  ',' + path.path + ',' + path.precision + ',' + number(path.errors.over_bound) +
+                  ',' + number(path.errors.relative) + ',' + number(verdict->sensitivity) + ',' +
+                  (kdl ? number(*kdl) : "") + '\n';
+        }
+      }
+    }
+  }
+  return text;
+}
+
+// The path that came closest to the bound, or went beyond it, in words.
+struct Worst {
+  double over_bound = -1;
+  std::string words;
+
+  void take(const Sweep& sweep, double value, const PathVerdict& path) {
+    if (path.errors.over_bound <= over_bound) return;
+    over_bound = path.errors.over_bound;
+    words = sweep.scene + " at " + number(value) + ": " + path.precision + ' ' + path.path + ", " +
+            path.errors.worst;
+  }
+  void take(const Sweep& sweep, const std::vector<Row>& rows) {
+    for (std::size_t v = 0; v < rows.size(); ++v) {
+      for (const Verdict* verdict : {&rows[v].of_double, &rows[v].of_float}) {
+        for (const PathVerdict& path : verdict->paths) take(sweep, sweep.values[v], path);
+      }
+    }
+  }
+};
+
+int report(const std::vector<Sweep>& sweeps, const std::vector<std::vector<Row>>& rows) {
+  Worst worst;
+  for (std::size_t s = 0; s < sweeps.size(); ++s) {
+    Worst of_scene;
+    of_scene.take(sweeps[s], rows[s]);
+    std::printf("%-24s %9s of the bound  %s\n", sweeps[s].scene.c_str(),
+                number(of_scene.over_bound).c_str(), of_scene.words.c_str());
+    worst.take(sweeps[s], rows[s]);
+  }
+  if (worst.over_bound <= 1) {
+    std::printf("all stable\n");
+    return 0;
+  }
+  std::fprintf(stderr, "stability: %s times the bound: %s\n", number(worst.over_bound).c_str(),
+               worst.words.c_str());
+  return 1;
+}
+
+int runProgram(const std::vector<std::string>& arguments) {
+  try {
+    const StabilityOptions options = parseOptions(arguments);
+    if (options.help) {
+      std::printf("%s", kStabilityHelp);
+      return 0;
+    }
+    const std::vector<Sweep> sweeps = wantedSweeps(options.scenes);
+    if (options.list) {
+      for (const Sweep& sweep : sweeps) {
+        std::printf("%-24s %s\n", sweep.scene.c_str(), sweep.parameter.c_str());
+      }
+      return 0;
+    }
+    std::unique_ptr<OutputFile> output;
+    if (!options.output.empty()) output = std::make_unique<OutputFile>(options.output);
+    const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    Measurement measurement(sweeps, options.quick);
+    const auto& rows = measurement.run(options.threads > 0 ? options.threads : cores);
+    if (output) {
+      output->write(csv(sweeps, rows));
+      output->commit();
+    }
+    return report(sweeps, rows);
+  } catch (const OptionError& error) {
+    std::fprintf(stderr, "stability: %s\n", error.what());
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "stability: %s\n", error.what());
+    return 1;
+  }
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics
+
+int main(int argc, char** argv) {
+  return virtual_work_dynamics::runProgram({argv + 1, argv + argc});
+}

@@ -1,0 +1,82 @@
+#include "stability/stability_options.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+int parseThreads(const std::string& text) {
+  constexpr std::size_t kMostDigits = 3;
+  const bool digits = !text.empty() && text.size() <= kMostDigits &&
+                      text.find_first_not_of("0123456789") == std::string::npos;
+  if (!digits || std::stoi(text) < 1) {
+    throw OptionError("--threads: '" + text + "' is no number from 1 to 999");
+  }
+  return std::stoi(text);
+}
+
+}  // namespace
+
+const char kStabilityHelp[] =
+    R"(stability: errors of inverse dynamics where scenes go to extremes
+
+  stability [options]
+
+  --output FILE   all results as CSV; FILE is complete or not there
+  --quick         fewer states of each scene
+  --scene NAME    only this scene; may be repeated
+  --threads N     computes on so many threads (default: one for each core)
+  --list          name the scenes and what is varied in them
+  --help          this text
+
+Every scene varies one parameter of a mechanism or its motion. For each value random states, the
+same in every run, are computed in every way that the package has: one sample and blocks in both
+layouts, by each build that this machine runs, on double and float; one sample on long double. All
+are compared with an evaluation in 113 bits of the same input; float is given numbers of float.
+
+error_over_bound    largest error of an effort, or of the force or moment of a reaction (ground and
+                    all joints, link and root axes), over 4 L eps S + n d l: S is the sum of the
+                    norms of the terms that it is the sum of, L the number of joints of the longest
+                    path in what the joint carries plus the binary logarithms of the numbers of
+                    children along it, eps 2^-52, 2^-23 or 2^-63, n the number of links, d the
+                    smallest denormal number, l the longest lever, at least 1 m
+max_relative_error  the largest error over the largest number of its kind in the state: forces with
+                    efforts in N, moments with efforts in N m
+one_ulp_sensitivity what the exact results change by, in the same measure, when every number of the
+                    motion moves by one unit of its last digit, up or down at random: of float's for
+                    float, of double's for the others, whose motions are double
+kdl_relative_error  the error of KDL's efforts, in the same measure; empty where KDL has no solver:
+                    mimic joints, joint terms
+
+Float is left out where the numbers of a scene are smaller than 1e-30 or larger than 1e30.
+
+Exit status: 0 all stable, 1 an error is beyond its bound, a result is not finite, or something
+failed, 2 wrong usage.
+)";
+
+StabilityOptions parseOptions(const std::vector<std::string>& arguments) {
+  StabilityOptions options;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& option = arguments[i];
+    const auto value = [&] {
+      if (i + 1 == arguments.size()) throw OptionError(option + " needs a value");
+      return arguments[++i];
+    };
+    if (option == "--output") {
+      options.output = value();
+    } else if (option == "--scene") {
+      options.scenes.push_back(value());
+    } else if (option == "--threads") {
+      options.threads = parseThreads(value());
+    } else if (option == "--quick") {
+      options.quick = true;
+    } else if (option == "--list") {
+      options.list = true;
+    } else if (option == "--help" || option == "-h") {
+      options.help = true;
+    } else {
+      throw OptionError("unknown option '" + option + "'");
+    }
+  }
+  return options;
+}
+
+}  // namespace virtual_work_dynamics
