@@ -14,20 +14,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // bits.
 constexpr long double kZero113 = 0x1p-100L;
 
-// The length of the longest way from the root to a centre of mass, m.
-long double longestLever(const Mechanism& mechanism, const Motion& motion) {
-  std::vector<long double> ways(mechanism.links().size(), 0);
-  long double longest = 1;
-  for (std::size_t k = 0; k < mechanism.joints().size(); ++k) {
-    const Joint& joint = mechanism.joints()[k];
-    long double way = ways[joint.parent_link] + joint.p_PoKo_P.norm();
-    if (joint.type == JointType::kPrismatic) {
-      way += std::fabs(joint.multiplier * motion.q[joint.coordinate] + joint.offset);
-    }
-    ways[k + 1] = way;
-    longest = std::max(longest, way + mechanism.links()[k + 1].p_KoCm_K.norm());
-  }
-  return longest;
+long double boundOf(double magnitude, int depth, const PrecisionLimits& limits) {
+  return 4 * depth * limits.eps * magnitude;
 }
 
 // The norm of the difference between three numbers and the exact ones.
@@ -85,19 +73,14 @@ void Errors::include(const Errors& other) {
 
 ExactResults::ExactResults(const Mechanism& mechanism, const Scene& scene, const Motion& motion,
                            const ErrorBound& bound)
-    : mechanism_(mechanism),
-      magnitudes_(bound.wrenches()),
-      effort_magnitudes_(bound.efforts()),
-      depths_(bound.depths()),
-      effort_depths_(bound.effortDepths()),
-      lever_(longestLever(mechanism, motion)) {
+    : mechanism_(mechanism) {
   const Reference113 reference(mechanism, scene, motion);
   for (const Real113 effort : reference.efforts()) efforts_.emplace_back(effort);
   for (int k = -1; k < static_cast<int>(mechanism.joints().size()); ++k) {
     child_axes_.push_back(split(reference.childAxes(k)));
     root_axes_.push_back(split(reference.rootAxes(k)));
   }
-  noteLargest();
+  noteLargest(bound);
 }
 
 ExactResults::Wrench ExactResults::split(const Reference113::Wrench& wrench) {
@@ -106,19 +89,19 @@ ExactResults::Wrench ExactResults::split(const Reference113::Wrench& wrench) {
           {ExactNumber(m.x), ExactNumber(m.y), ExactNumber(m.z)}};
 }
 
-void ExactResults::noteLargest() {
+void ExactResults::noteLargest(const ErrorBound& bound) {
   long double force_terms = 0, moment_terms = 0;
   for (std::size_t i = 0; i < child_axes_.size(); ++i) {
     largest_force_ = std::max(largest_force_, normOf(child_axes_[i].force));
     largest_moment_ = std::max(largest_moment_, normOf(child_axes_[i].moment));
-    force_terms = std::max<long double>(force_terms, magnitudes_[i].force);
-    moment_terms = std::max<long double>(moment_terms, magnitudes_[i].moment);
+    force_terms = std::max<long double>(force_terms, bound.wrenches()[i].force);
+    moment_terms = std::max<long double>(moment_terms, bound.wrenches()[i].moment);
   }
   for (std::size_t i = 0; i < efforts_.size(); ++i) {
     long double& largest = turns(i) ? largest_moment_ : largest_force_;
     largest = std::max(largest, std::fabs(efforts_[i].high));
     long double& terms = turns(i) ? moment_terms : force_terms;
-    terms = std::max<long double>(terms, effort_magnitudes_[i]);
+    terms = std::max<long double>(terms, bound.efforts()[i]);
   }
   if (largest_force_ < kZero113 * force_terms) largest_force_ = 0;
   if (largest_moment_ < kZero113 * moment_terms) largest_moment_ = 0;
@@ -129,16 +112,13 @@ bool ExactResults::turns(std::size_t coordinate) const {
   return mechanism_.joints()[joint].type != JointType::kPrismatic;
 }
 
-long double ExactResults::bound(double magnitude, int depth, const PrecisionLimits& limits) const {
-  return 4 * depth * limits.eps * magnitude + mechanism_.links().size() * limits.smallest * lever_;
-}
-
 void ExactResults::judgeEfforts(const std::vector<long double>& results,
-                                const PrecisionLimits& limits, Errors& errors) const {
+                                const PrecisionLimits& limits, const ErrorBound& bound,
+                                Errors& errors) const {
   for (std::size_t i = 0; i < efforts_.size(); ++i) {
     if (!withinRange(&efforts_[i], 1, limits.largest)) continue;
     const long double error = distance(&results[i], &efforts_[i], 1);
-    take(error, bound(effort_magnitudes_[i], effort_depths_[i], limits), errors,
+    take(error, boundOf(bound.efforts()[i], bound.effortDepths()[i], limits), errors,
          [&] { return "effort of " + mechanism_.coordinateNames()[i]; });
     takeRelative(error, turns(i) ? largest_moment_ : largest_force_, errors.relative);
   }
@@ -146,31 +126,32 @@ void ExactResults::judgeEfforts(const std::vector<long double>& results,
 
 void ExactResults::judgeWrenches(const std::vector<Wrench>& exact,
                                  const std::vector<long double>& results,
-                                 const PrecisionLimits& limits, const char* axes,
-                                 Errors& errors) const {
+                                 const PrecisionLimits& limits, const ErrorBound& bound,
+                                 const char* axes, Errors& errors) const {
   for (std::size_t i = 0; i < exact.size(); ++i) {
     const Wrench& wrench = exact[i];
     const auto name = [&](const char* what) { return what + (axes + nameOf(mechanism_, i)); };
     if (withinRange(wrench.force, 3, limits.largest)) {
       const long double error = distance(&results[6 * i], wrench.force, 3);
-      take(error, bound(magnitudes_[i].force, depths_[i], limits), errors,
+      take(error, boundOf(bound.wrenches()[i].force, bound.depths()[i], limits), errors,
            [&] { return name("force"); });
       takeRelative(error, largest_force_, errors.relative);
     }
     if (withinRange(wrench.moment, 3, limits.largest)) {
       const long double error = distance(&results[6 * i + 3], wrench.moment, 3);
-      take(error, bound(magnitudes_[i].moment, depths_[i], limits), errors,
+      take(error, boundOf(bound.wrenches()[i].moment, bound.depths()[i], limits), errors,
            [&] { return name("moment"); });
       takeRelative(error, largest_moment_, errors.relative);
     }
   }
 }
 
-Errors ExactResults::errorsOf(const StateResults& results, const PrecisionLimits& limits) const {
+Errors ExactResults::errorsOf(const StateResults& results, const PrecisionLimits& limits,
+                              const ErrorBound& bound) const {
   Errors errors;
-  judgeEfforts(results.efforts, limits, errors);
-  judgeWrenches(child_axes_, results.child_axes, limits, " in child axes of ", errors);
-  judgeWrenches(root_axes_, results.root_axes, limits, " in root axes of ", errors);
+  judgeEfforts(results.efforts, limits, bound, errors);
+  judgeWrenches(child_axes_, results.child_axes, limits, bound, " in child axes of ", errors);
+  judgeWrenches(root_axes_, results.root_axes, limits, bound, " in root axes of ", errors);
   return errors;
 }
 

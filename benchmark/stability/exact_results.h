@@ -29,8 +29,8 @@ struct StateResults {
 
 /// What a number type can do.
 struct PrecisionLimits {
-  long double eps = 0;       ///< distance from 1 to the next number
-  long double smallest = 0;  ///< denormal number
+  long double eps = 0;  ///< distance from 1 to the next number
+  double least = 0;     ///< normal number; as a double: zero for long double
   long double largest = 0;
 };
 
@@ -53,9 +53,10 @@ class ExactResults {
   ExactResults(const Mechanism& mechanism, const Scene& scene, const Motion& motion,
                const ErrorBound& bound);
 
-  /// Bounds of DESIGN section 9: 4 L eps S + n (smallest denormal) (longest lever, at least 1 m).
-  /// Whatever is beyond the largest number of the precision is left out.
-  Errors errorsOf(const StateResults& results, const PrecisionLimits& limits) const;
+  /// Errors over 4 L eps S. Whatever is beyond the largest number of the precision is left out.
+  /// @param bound after bound.compute(motion, limits.least).
+  Errors errorsOf(const StateResults& results, const PrecisionLimits& limits,
+                  const ErrorBound& bound) const;
 
   /// Largest relative error of efforts alone.
   double relativeErrorOfEfforts(const std::vector<double>& efforts) const;
@@ -69,13 +70,13 @@ class ExactResults {
     ExactNumber force[3], moment[3];
   };
   static Wrench split(const Reference113::Wrench& wrench);
-  void noteLargest();
+  void noteLargest(const ErrorBound& bound);
   bool turns(std::size_t coordinate) const;
   void judgeEfforts(const std::vector<long double>& results, const PrecisionLimits& limits,
-                    Errors& errors) const;
+                    const ErrorBound& bound, Errors& errors) const;
   void judgeWrenches(const std::vector<Wrench>& exact, const std::vector<long double>& results,
-                     const PrecisionLimits& limits, const char* axes, Errors& errors) const;
-  long double bound(double magnitude, int depth, const PrecisionLimits& limits) const;
+                     const PrecisionLimits& limits, const ErrorBound& bound, const char* axes,
+                     Errors& errors) const;
   void include(const Wrench& wrench);
   void judge(const std::vector<Wrench>& exact, const std::vector<long double>& results,
              const PrecisionLimits& limits, const char* axes, Errors& errors) const;
@@ -83,11 +84,7 @@ class ExactResults {
   const Mechanism& mechanism_;
   std::vector<ExactNumber> efforts_;
   std::vector<Wrench> child_axes_, root_axes_;
-  std::vector<WrenchMagnitude> magnitudes_;
-  std::vector<double> effort_magnitudes_;
-  std::vector<int> depths_, effort_depths_;
   long double largest_force_ = 0, largest_moment_ = 0;
-  long double lever_ = 1;
 };
 
 }  // namespace virtual_work_dynamics

@@ -15,34 +15,37 @@ namespace {
 // Sensitivities take one more evaluation in 113 bits: every so many states have one.
 constexpr int kStatesForEachSensitivity = 4;
 
-// Float's range is 1e-45 to 3e38: this leaves room for products of two factors of the input.
-constexpr double kSmallestOfFloat = 1e-30, kLargestOfFloat = 1e30;
+// Float's numbers are 1e-45 to 3e38: this leaves room for a product with another factor of the
+// input.
+constexpr long double kLargestOfFloat = 1e30L;
 
-bool fitsFloat(long double value) {
-  const long double size = std::fabs(value);
-  return size == 0 || (size >= kSmallestOfFloat && size <= kLargestOfFloat);
+// Whether float has such numbers; those that are small beside others may vanish.
+bool fitsFloat(long double size) {
+  const bool vanishes = size > 0 && size < std::numeric_limits<float>::denorm_min();
+  return size <= kLargestOfFloat && !vanishes;
+}
+
+bool fitsFloat(const Eigen::VectorXd& values) {
+  return values.size() == 0 || fitsFloat(values.cwiseAbs().maxCoeff());
 }
 
 bool fitsFloat(const Mechanism& mechanism) {
   const auto link_fits = [](const Link& link) {
-    const long double arm = link.p_KoCm_K.norm();
-    return fitsFloat(link.mass) && fitsFloat(arm) && fitsFloat(link.mass * arm) &&
-           fitsFloat(link.mass * arm * arm) && fitsFloat(link.inertia_Cm_K.norm());
+    return fitsFloat(link.mass) && link.p_KoCm_K.norm() <= kLargestOfFloat &&
+           link.inertia_Cm_K.norm() <= kLargestOfFloat;
   };
-  const auto joint_fits = [](const Joint& joint) { return fitsFloat(joint.p_PoKo_P.norm()); };
+  const auto joint_fits = [](const Joint& joint) {
+    return joint.p_PoKo_P.norm() <= kLargestOfFloat;
+  };
   return std::all_of(mechanism.links().begin(), mechanism.links().end(), link_fits) &&
          std::all_of(mechanism.joints().begin(), mechanism.joints().end(), joint_fits);
 }
 
 bool fitsFloat(const Motion& motion, const ErrorBound& bound) {
-  const auto numbers_fit = [](const Eigen::VectorXd& values) {
-    return std::all_of(values.data(), values.data() + values.size(),
-                       [](double value) { return fitsFloat(value); });
-  };
   const auto wrench_fits = [](const WrenchMagnitude& wrench) {
-    return fitsFloat(wrench.force) && fitsFloat(wrench.moment);
+    return wrench.force <= kLargestOfFloat && wrench.moment <= kLargestOfFloat;
   };
-  return numbers_fit(motion.q) && numbers_fit(motion.qd) && numbers_fit(motion.qdd) &&
+  return fitsFloat(motion.q) && fitsFloat(motion.qd) && fitsFloat(motion.qdd) &&
          std::all_of(bound.wrenches().begin(), bound.wrenches().end(), wrench_fits);
 }
 
@@ -112,7 +115,8 @@ Verdict measureStates(const StabilityCase& stability_case, InputNumbers numbers,
     const std::vector<StateResults> results = path.compute(motions);
     PathVerdict judged{path.name, path.precision, {}};
     for (std::size_t n = 0; n < exact.size(); ++n) {
-      judged.errors.include(exact[n].errorsOf(results[n], path.limits));
+      bound.compute(motions[n], path.limits.least);
+      judged.errors.include(exact[n].errorsOf(results[n], path.limits, bound));
     }
     verdict.paths.push_back(std::move(judged));
   }

@@ -114,10 +114,15 @@ StabilityCase dampedJoints(double damping) {
 
 std::vector<Sweep> motionSweeps() {
   // Around the smallest normal number, and around its square root, as rates are squared.
-  const std::vector<double> denormal = {1e-280, 1e-290, 1e-300, 1e-305, 1e-308,
-                                        1e-310, 1e-313, 1e-316, 1e-319, 1e-322};
-  const std::vector<double> squared = {1e-100, 1e-140, 1e-150, 1e-154, 1e-157, 1e-160,
-                                       1e-162, 1e-170, 1e-200, 1e-300, 1e-310, 1e-320};
+  const std::vector<double> denormal = {1e-322, 1e-319, 1e-316, 1e-313, 1e-310,
+                                        1e-308, 1e-305, 1e-300, 1e-290, 1e-280};
+  const std::vector<double> squared = {1e-320, 1e-310, 1e-300, 1e-200, 1e-170, 1e-162,
+                                       1e-160, 1e-157, 1e-154, 1e-150, 1e-140, 1e-100};
+  const std::vector<double> float_denormal = powersOfTen(-44, -32);
+  const std::vector<double> float_squared = powersOfTen(-44, -14, 2);
+  const auto with_tiny_masses = [](double mass) {
+    return caseOf(chain(mass).mechanism("tiny masses"));
+  };
   return {
       {"angles", "angles up to [rad]", powersOfTen(0, 9),
        [](double angle) { return caseOf(chain().mechanism("angles"), withAngles(angle)); }},
@@ -128,10 +133,13 @@ std::vector<Sweep> motionSweeps() {
       {"time_scales", "time scale [s]", powersOfTen(-6, 6), chainInTime},
       {"joint_stiffness", "stiffness [N m/rad or N/m]", powersOfTen(0, 12), stiffJoints},
       {"joint_damping", "damping [N m s/rad or N s/m]", powersOfTen(0, 12), dampedJoints},
-      {"tiny_masses", "masses of about [kg]", denormal,
-       [](double mass) { return caseOf(chain(mass).mechanism("tiny masses")); }},
+      {"tiny_masses", "masses of about [kg]", denormal, with_tiny_masses},
       {"tiny_rates", "rates and accelerations up to [1/s and 1/s^2]", squared, slowChain},
       {"tiny_positions", "positions up to [rad]", denormal, almostStraightChain},
+      {"tiny_float_masses", "masses of about [kg]", float_denormal, with_tiny_masses},
+      {"tiny_float_rates", "rates and accelerations up to [1/s and 1/s^2]", float_squared,
+       slowChain},
+      {"tiny_float_positions", "positions up to [rad]", float_denormal, almostStraightChain},
       {"signed_zeros", "share of zeros in the motion", {0, 0.25, 0.5, 0.75, 1}, chainWithZeros},
   };
 }

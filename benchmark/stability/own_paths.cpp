@@ -127,7 +127,7 @@ double nearestFloat(double value) {
 template <typename Real>
 PrecisionLimits limitsOf() {
   using Limits = std::numeric_limits<Real>;
-  return {Limits::epsilon(), Limits::denorm_min(), Limits::max()};
+  return {Limits::epsilon(), static_cast<double>(Limits::min()), Limits::max()};
 }
 template PrecisionLimits limitsOf<float>();
 template PrecisionLimits limitsOf<double>();

@@ -33,11 +33,11 @@ layouts, by each build that this machine runs, on double and float; one sample o
 are compared with an evaluation in 113 bits of the same input; float is given numbers of float.
 
 error_over_bound    largest error of an effort, or of the force or moment of a reaction (ground and
-                    all joints, link and root axes), over 4 L eps S + n d l: S is the sum of the
-                    norms of the terms that it is the sum of, L the number of joints of the longest
-                    path in what the joint carries plus the binary logarithms of the numbers of
-                    children along it, eps 2^-52, 2^-23 or 2^-63, n the number of links, d the
-                    smallest denormal number, l the longest lever, at least 1 m
+                    all joints, link and root axes), over 4 L eps S: S is the sum of the norms of
+                    the terms that it is the sum of, each number counted as at least the smallest
+                    normal one; L the number of joints of the longest path from the root through the
+                    joint to a leaf plus the binary logarithms of the numbers of children on the
+                    joint's side of it; eps 2^-52, 2^-23 or 2^-63
 max_relative_error  the largest error over the largest number of its kind in the state: forces with
                     efforts in N, moments with efforts in N m
 one_ulp_sensitivity what the exact results change by, in the same measure, when every number of the
@@ -46,7 +46,7 @@ one_ulp_sensitivity what the exact results change by, in the same measure, when 
 kdl_relative_error  the error of KDL's efforts, in the same measure; empty where KDL has no solver:
                     mimic joints, joint terms
 
-Float is left out where the numbers of a scene are smaller than 1e-30 or larger than 1e30.
+Float is left out where the numbers of a scene are larger than 1e30, or all vanish in float.
 
 Exit status: 0 all stable, 1 an error is beyond its bound, a result is not finite, or something
 failed, 2 wrong usage.

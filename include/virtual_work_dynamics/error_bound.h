@@ -30,8 +30,11 @@ class ErrorBound {
   ErrorBound& operator=(ErrorBound&&) noexcept;
 
   /// Magnitudes of one sample. Does not allocate. Fixed joints are joints like others.
+  /// @param least what every number counts as at least. Rounding errors are relative down to the
+  ///   smallest normal number of a number type, and below it as large as there: given that number,
+  ///   the digits that denormal numbers lose are parts of the magnitudes, too.
   /// @throws MotionError when a vector of `motion` has the wrong length.
-  void compute(const Motion& motion);
+  void compute(const Motion& motion, double least = 0);
 
   /// Of the wrench on each link's origin: [0] of ground, [k + 1] of joint k.
   const std::vector<WrenchMagnitude>& wrenches() const;

@@ -116,6 +116,10 @@ struct ErrorBound::Impl {
     return rests ? 0 : joint.multiplier * std::abs(motion.qdd[joint.coordinate]);
   }
 
+  double counted(double magnitude) const { return std::max(magnitude, least); }
+
+  double gradient(const MotionSums& motion) const { return counted(motion.gradient()); }
+
   // (2.5), (2.7)
   void move(std::size_t k, const Motion& motion) {
     const JointNorms& joint = joints[k];
@@ -123,7 +127,7 @@ struct ErrorBound::Impl {
     MotionSums& link = motions[k + 1];
     slides[k] = joint.slides ? position(joint, motion) : 0;
     link = parent;
-    link.gamma += parent.gradient() * (joint.distance + slides[k]);
+    link.gamma += gradient(parent) * counted(joint.distance + slides[k]);
     if (joint.coordinate < 0) return;
     const double qd = rate(joint, motion), qdd = acceleration(joint, motion);
     if (joint.slides) {
@@ -137,10 +141,11 @@ struct ErrorBound::Impl {
   // (3.5), (3.6)
   void load(std::size_t i) {
     const LinkNorms& link = links[i];
-    const MotionSums& motion = motions[i];
-    const double gradient = motion.gradient();
-    wrenches[i] = {link.mass * motion.gamma + link.first * gradient + link.applied.force,
-                   link.first * motion.gamma + link.second * gradient + link.applied.moment};
+    const double gamma = counted(motions[i].gamma), U = gradient(motions[i]);
+    const double mass = counted(link.mass), first = counted(link.first);
+    const double second = counted(link.second);
+    wrenches[i] = {counted(mass * gamma + first * U + link.applied.force),
+                   counted(first * gamma + second * U + link.applied.moment)};
   }
 
   // (3.7), (3.8)
@@ -149,7 +154,7 @@ struct ErrorBound::Impl {
     const WrenchMagnitude& wrench = wrenches[k + 1];
     WrenchMagnitude& parent = wrenches[joint.parent_link];
     parent.force += wrench.force;
-    parent.moment += wrench.moment + (joint.distance + slides[k]) * wrench.force;
+    parent.moment += wrench.moment + counted(joint.distance + slides[k]) * wrench.force;
     if (joint.coordinate < 0) return;
     efforts[joint.coordinate] += joint.multiplier * (joint.slides ? wrench.force : wrench.moment);
   }
@@ -164,6 +169,7 @@ struct ErrorBound::Impl {
   }
 
   bool rests;
+  double least = 0;
   std::vector<JointNorms> joints;
   std::vector<LinkNorms> links;
   std::vector<ResolvedJointTerms> terms;
@@ -182,8 +188,9 @@ ErrorBound::~ErrorBound() = default;
 ErrorBound::ErrorBound(ErrorBound&&) noexcept = default;
 ErrorBound& ErrorBound::operator=(ErrorBound&&) noexcept = default;
 
-void ErrorBound::compute(const Motion& motion) {
+void ErrorBound::compute(const Motion& motion, double least) {
   Impl& impl = *impl_;
+  impl.least = least;
   requireLengths(motion, static_cast<Eigen::Index>(impl.efforts.size()));
   std::fill(impl.efforts.begin(), impl.efforts.end(), 0.0);
   for (std::size_t k = 0; k < impl.joints.size(); ++k) impl.move(k, motion);

@@ -71,6 +71,29 @@ TEST(ErrorBound, AddsUpNormsOfTheTerms) {
   expectNear(bound.efforts()[1], slide_force);
 }
 
+// A hinge that rests without gravity: all numbers are zero but the mass and its arm of half a
+// metre.
+TEST(ErrorBound, CountsNumbersAsAtLeastTheSmallestNormalOne) {
+  RobotBuilder builder(1);
+  builder.add(JointType::kRevolute, 0, Vector3l::UnitZ(), Matrix3l::Identity(), {3, 0, 0});
+  builder.removeInertia(1);
+  builder.link(1).mass = 2;
+  builder.link(1).p_KoCm_K << 0, 0, 0.5L;
+  Scene scene;
+  scene.gravity.setZero();
+  ErrorBound bound(builder.build(), scene);
+  bound.compute(Motion(1));
+  EXPECT_EQ(bound.wrenches()[0].force, 0);
+  // U = least; the hinge's gamma = 3 U; the root's own wrench is as small as its numbers.
+  constexpr double kLeast = 1e-6;
+  bound.compute(Motion(1), kLeast);
+  const double gamma = kLeast * 3, force = 2 * gamma + 1 * kLeast;
+  const double moment = 1 * gamma + 0.5 * kLeast;
+  expectNear(bound.wrenches()[1].force, force);
+  expectNear(bound.wrenches()[1].moment, moment);
+  expectNear(bound.wrenches()[0].moment, kLeast + moment + 3 * force);
+}
+
 TEST(ErrorBound, StaticMotionLeavesWeights) {
   const Mechanism mechanism = turningSlide().build();
   Scene scene;
