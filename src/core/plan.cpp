@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/exact_products.h"
 #include "core/input_checks.h"
 #include "core/joint_terms.h"
 #include "core/plan_reduction.h"
@@ -38,7 +39,7 @@ Matrix3l alignZ(const Vector3l& axis) {
   R_KZ.col(0) = Vector3l::Unit(least).cross(axis).normalized();
   R_KZ.col(1) = axis.cross(R_KZ.col(0));
   R_KZ.col(2) = axis;
-  return R_KZ;
+  return orthonormalized(R_KZ);
 }
 
 Vec3<Real> plain(const Vector3l& v) {
@@ -150,8 +151,8 @@ class Compiler {
     for (std::size_t k = 0; k < mechanism_.joints().size(); ++k) {
       const Joint& joint = mechanism_.joints()[k];
       const Placement& parent = places_[joint.parent_link];
-      const Matrix3l R_PK = parent.R_ZL * joint.R_PK;
-      const Vector3l p_PoKo_P = parent.p_ZoLo_Z + parent.R_ZL * joint.p_PoKo_P;
+      const Matrix3l R_PK = exactProduct(parent.R_ZL, joint.R_PK);
+      const Vector3l p_PoKo_P = exactProduct(parent.p_ZoLo_Z, parent.R_ZL, joint.p_PoKo_P);
       if (joint.type == JointType::kFixed && !reported_[k + 1]) {
         places_[k + 1] = {parent.body, R_PK, p_PoKo_P};
         plan_.left_out.merged.push_back(joint.name);
@@ -160,7 +161,7 @@ class Compiler {
       const Matrix3l R_KZ =
           joint.type == JointType::kFixed ? Matrix3l(Matrix3l::Identity()) : alignZ(joint.axis_K);
       places_[k + 1] = {static_cast<int>(plan_.bodies.size()), R_KZ.transpose(), Vector3l::Zero()};
-      addBody(joint, parent.body, R_PK * R_KZ, p_PoKo_P);
+      addBody(joint, parent.body, orthonormalized(exactProduct(R_PK, R_KZ)), p_PoKo_P);
     }
   }
 
@@ -212,7 +213,7 @@ class Compiler {
       const Link& link = mechanism_.links()[i];
       const Placement& place = places_[i];
       Body<Real>& body = plan_.bodies[place.body];
-      const Vector3l c = place.p_ZoLo_Z + place.R_ZL * link.p_KoCm_K;
+      const Vector3l c = exactProduct(place.p_ZoLo_Z, place.R_ZL, link.p_KoCm_K);
       // Second moment about the centre of mass, then about O_k: both add up over welded links.
       const Matrix3l G_Cm = secondMoment(link.inertia_Cm_K);
       const Matrix3l G = place.R_ZL * G_Cm * place.R_ZL.transpose() + link.mass * c * c.transpose();
