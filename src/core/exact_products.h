@@ -40,13 +40,17 @@ inline Matrix3l exactProduct(const Matrix3l& A, const Matrix3l& B) {
   return product;
 }
 
-/// The rotation next to R, which is one but for rounding errors: R + R (1 - R^T R) / 2.
+/// A rotation next to R, which is one but for rounding errors. Its z axis keeps its direction, and
+/// so its zeros.
 inline Matrix3l orthonormalized(const Matrix3l& R) {
-  Matrix3l defect;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) defect(i, j) = -exactDot(i == j ? -1 : 0, R.col(i), R.col(j));
-  }
-  return R + R * (defect / 2);
+  // 1 - R^T R, to be taken back in first order.
+  const auto defect = [&](int i, int j) { return -exactDot(i == j ? -1 : 0, R.col(i), R.col(j)); };
+  Matrix3l result;
+  result.col(2) = R.col(2) + defect(2, 2) / 2 * R.col(2);
+  result.col(1) = R.col(1) + (defect(1, 1) / 2 * R.col(1) + defect(1, 2) * R.col(2));
+  result.col(0) =
+      R.col(0) + (defect(0, 0) / 2 * R.col(0) + defect(0, 2) * R.col(2) + defect(0, 1) * R.col(1));
+  return result;
 }
 
 }  // namespace virtual_work_dynamics

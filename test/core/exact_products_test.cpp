@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "reference_113.h"
@@ -55,6 +56,15 @@ TEST(ExactProducts, OrthonormalizedRotationsAreOnesButForTheirRounding) {
     }
   }
   EXPECT_GE(worst_before, 1e-13L);
+}
+
+TEST(ExactProducts, KeepTheZerosOfTheZAxis) {
+  const long double y = std::sin(0.7L), z = std::cos(0.7L);
+  Matrix3l R;
+  R.col(2) << 0, y, z;
+  R.col(0) << 1, 1e-19L, -2e-19L;
+  R.col(1) << 3e-19L, z, -y;
+  EXPECT_EQ(orthonormalized(R)(0, 2), 0);
 }
 
 TEST(ExactProducts, LeaveSignedPermutationsAlone) {
