@@ -70,9 +70,12 @@ void cosineAndSine(const Drive& drive, double q, double& cosine, double& sine) {
   const double back = angle - product;
   const double rest = std::fma(drive.multiplier, q, -product) +
                       ((product - (angle - back)) + (drive.offset - back));
+  // At a billion radians even the square of the rest is more than other rounding.
   const double c = std::cos(angle), s = std::sin(angle);
-  cosine = c - rest * s;
-  sine = s + rest * c;
+  const double half_sine = std::sin(rest / 2), versine = 2 * half_sine * half_sine;
+  const double rest_sine = std::sin(rest);
+  cosine = c - (rest_sine * s + versine * c);
+  sine = s + (rest_sine * c - versine * s);
 }
 
 // to = from Rz, columns.
