@@ -10,7 +10,10 @@ Installs what is needed, builds in build/benchmark (without ROS), computes, and 
   stability.md            the results; begin here
   stability_<scene>.png   error over what is varied, one picture for each scene
   stability.csv           the measurements
-Exit status 1 when an error is beyond its bound or a result is not finite.
+  stability_certificates.csv
+                          the worst certificates
+Exit status 1 when an error is beyond its bound, a certificate beyond its limit, or one of them is not
+finite.
   --quick       fewer states of each scene: a minute or less once everything is built
   --no-install  do not install packages first
   --output      where to write (report/ in this repository)
@@ -71,10 +74,11 @@ program=$build/benchmark/stability
 if $list; then exec "$program" --list; fi
 
 announce "Computing in every way and in 113 bits"
-rm -f "$output/stability.csv"
+rm -f "$output/stability.csv" "$output/stability_certificates.csv"
 status=0
-"$program" "${quick[@]}" "${scenes[@]}" --output "$output/stability.csv" || status=$?
-[[ -f "$output/stability.csv" ]] || exit "$status"
+"$program" "${quick[@]}" "${scenes[@]}" --output "$output/stability.csv" \
+  --certificates "$output/stability_certificates.csv" || status=$?
+[[ -f "$output/stability.csv" && -f "$output/stability_certificates.csv" ]] || exit "$status"
 announce "Pictures and table"
 /usr/bin/python3 benchmark/report/stability_page.py "${quick[@]}" "$output"
 announce "Done: ${output}/stability.md"

@@ -6,6 +6,8 @@ from report_data import ReportError
 
 COLUMNS = ('scene', 'parameter', 'value', 'path', 'precision', 'error_over_bound',
            'max_relative_error', 'one_ulp_sensitivity', 'kdl_relative_error')
+CERTIFICATE_COLUMNS = ('scene', 'parameter', 'value', 'power', 'ground_force', 'ground_moment',
+                       'limit')
 PRECISIONS = ('double', 'float', 'long_double')  # in the order of the plots
 DOUBLE = 'double'
 
@@ -22,6 +24,17 @@ class Row:
         self.kdl = float(kdl) if kdl else None
 
 
+class Certificate:
+    """The worst at one value of a scene's parameter."""
+
+    def __init__(self, fields):
+        self.scene = fields['scene']
+        self.parameter, self.value = fields['parameter'], float(fields['value'])
+        self.largest = max(float(fields[name])
+                           for name in ('power', 'ground_force', 'ground_moment'))
+        self.over_limit = self.largest / float(fields['limit'])
+
+
 class Curve:
     """Numbers over the values of a scene's parameter; None where there are none."""
 
@@ -32,8 +45,8 @@ class Curve:
 class Scene:
     """The rows of one scene."""
 
-    def __init__(self, name, rows):
-        self.name, self.rows = name, rows
+    def __init__(self, name, rows, certificates):
+        self.name, self.rows, self.certificates = name, rows, certificates
         self.parameter = rows[0].parameter
         self.values = sorted({row.value for row in rows})
         self.precisions = [p for p in PRECISIONS if any(row.precision == p for row in rows)]
@@ -48,6 +61,12 @@ class Scene:
 
     def largest_kdl(self):
         return max((row.kdl for row in self.rows if row.kdl is not None), default=None)
+
+    def largest_certificate(self):
+        return max((found.largest for found in self.certificates), default=None)
+
+    def certified(self):
+        return all(found.over_limit <= 1 for found in self.certificates)
 
     def curve(self, precision, number):
         """The worst of all paths at every value; number: what is taken of a row."""
@@ -65,22 +84,36 @@ class Scene:
         return max((n for n in numbers if n is not None), default=None)
 
 
+def read(path, columns, row):
+    """A row for each line of a CSV."""
+    with open(str(path), newline='', encoding='utf-8') as file:
+        reader = csv.DictReader(file)
+        if tuple(reader.fieldnames or ()) != columns:
+            raise ReportError('%s: its columns are not %s' % (path, ','.join(columns)))
+        rows = [row(fields) for fields in reader]
+    if not rows:
+        raise ReportError('%s: there are no results' % path)
+    return rows
+
+
 class Stability:
-    def __init__(self, path):
-        with open(str(path), newline='', encoding='utf-8') as file:
-            reader = csv.DictReader(file)
-            if tuple(reader.fieldnames or ()) != COLUMNS:
-                raise ReportError('%s: its columns are not %s' % (path, ','.join(COLUMNS)))
-            rows = [Row(fields) for fields in reader]
-        if not rows:
-            raise ReportError('%s: there are no results' % path)
+    def __init__(self, path, certificates_path):
+        rows = read(path, COLUMNS, Row)
+        certificates = read(certificates_path, CERTIFICATE_COLUMNS, Certificate)
         names = list(dict.fromkeys(row.scene for row in rows))
-        self.scenes = [Scene(name, [row for row in rows if row.scene == name]) for name in names]
+        self.scenes = [Scene(name, [row for row in rows if row.scene == name],
+                             [found for found in certificates if found.scene == name])
+                       for name in names]
+        self.certificates = certificates
         self.row_count = len(rows)
         self.paths = list(dict.fromkeys((row.precision, row.path) for row in rows))
 
     def worst(self):
         return max((scene.worst() for scene in self.scenes), key=lambda row: row.over_bound)
+
+    def worst_certificate(self):
+        """The one that is closest to its limit, or furthest beyond."""
+        return max(self.certificates, key=lambda found: found.over_limit)
 
     def stable(self):
         return self.worst().over_bound <= 1 and not any(

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Makes stability.md and its pictures from FOLDER/stability.csv, which the program stability has
-written; scripts/stability.sh calls it.
+"""Makes stability.md and its pictures from FOLDER/stability.csv and
+FOLDER/stability_certificates.csv, which the program stability has written; scripts/stability.sh
+calls it.
 """
 import argparse
 import math
@@ -13,6 +14,7 @@ from report_data import ReportError
 from stability_data import DOUBLE, PRECISIONS, Stability
 
 CSV = 'stability.csv'
+CERTIFICATES_CSV = 'stability_certificates.csv'
 PAGE = 'stability.md'
 TEMPLATE = pathlib.Path(__file__).resolve().parent / 'stability_template.md'
 
@@ -67,16 +69,21 @@ def over_bound(row):
     return text if row.over_bound <= 1 else '**%s**' % text
 
 
+def certificate(scene):
+    text = number(scene.largest_certificate())
+    return text if scene.certified() else '**%s**' % text
+
+
 def span(scene):
     return '%.3g … %.3g' % (scene.values[0], scene.values[-1])
 
 
 def table(data):
     header = ['scene', 'from … to', 'worst error over the bound', 'worst relative error, double',
-              'KDL’s, efforts only']
+              'KDL’s, efforts only', 'worst certificate']
     rows = [['[%s](%s)' % (title_of(scene), picture_of(scene)), span(scene),
              over_bound(scene.worst()), number(scene.largest_relative(DOUBLE)),
-             number(scene.largest_kdl())] for scene in data.scenes]
+             number(scene.largest_kdl()), certificate(scene)] for scene in data.scenes]
     return md.table(header, rows, left=2)
 
 
@@ -106,6 +113,17 @@ def verdict(data):
                                        worst.over_bound, where))
 
 
+def certificates_verdict(data):
+    worst = data.worst_certificate()
+    scene = next(scene for scene in data.scenes if scene.name == worst.scene)
+    where = '%s, %s = %g' % (title_of(scene), worst.parameter, worst.value)
+    if worst.over_limit <= 1:
+        return ('All certificates are within their limits: the worst, %s, is %.3g of its limit '
+                '(%s).' % (number(worst.largest), worst.over_limit, where))
+    return ('**Not all certificates are within their limits**: the worst, %s, is %.3g times its '
+            'limit (%s).' % (number(worst.largest), worst.over_limit, where))
+
+
 def float_left_out(data):
     lines = ['- %s: %s' % (title_of(scene), 'all' if len(values) == len(scene.values)
                            else md.listed('%.3g' % value for value in values))
@@ -122,7 +140,8 @@ def paths(data):
 
 def page(data, quick):
     return TEMPLATE.read_text(encoding='utf-8').format(
-        table=table(data), verdict=verdict(data), paths=paths(data),
+        table=table(data), verdict=verdict(data), certificates=certificates_verdict(data),
+        paths=paths(data),
         quick='This is a quick run (`--quick`): few states of each scene.\n\n' if quick else '',
         precisions=precision_table(data), left_out=float_left_out(data),
         rows='{:,}'.format(data.row_count),
@@ -138,7 +157,7 @@ def progress(what):
 
 
 def write(folder, quick):
-    data = Stability(folder / CSV)
+    data = Stability(folder / CSV, folder / CERTIFICATES_CSV)
     for old in folder.glob('stability_*.png'):
         old.unlink()
     for scene in data.scenes:

@@ -8,6 +8,7 @@
 
 #include "stability/kdl_efforts.h"
 #include "stability/own_paths.h"
+#include "virtual_work_dynamics/instruction_set.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -82,6 +83,9 @@ void Verdict::include(const Verdict& other) {
   }
   sensitivity = std::max(sensitivity, other.sensitivity);
   if (other.kdl) kdl = std::max(kdl.value_or(0), *other.kdl);
+  if (!other.certificates) return;
+  if (!certificates) certificates = WorstCertificates();
+  certificates->include(*other.certificates);
 }
 
 Verdict measureStates(const StabilityCase& stability_case, InputNumbers numbers, std::uint32_t seed,
@@ -111,6 +115,7 @@ Verdict measureStates(const StabilityCase& stability_case, InputNumbers numbers,
     }
     motions.push_back(std::move(motion));
   }
+  const std::string certified = singlePathName(chosenInstructionSet());
   for (const Path& path : is_float ? floatPaths(mechanism, scene) : doublePaths(mechanism, scene)) {
     const std::vector<StateResults> results = path.compute(motions);
     PathVerdict judged{path.name, path.precision, {}};
@@ -119,6 +124,9 @@ Verdict measureStates(const StabilityCase& stability_case, InputNumbers numbers,
       judged.errors.include(exact[n].errorsOf(results[n], path.limits, bound));
     }
     verdict.paths.push_back(std::move(judged));
+    if (path.name == certified) {
+      verdict.certificates = certify(mechanism, scene, motions, results);
+    }
   }
   if (!is_float && kdlComputes(mechanism, scene)) {
     const std::vector<std::vector<double>> efforts = kdlEfforts(mechanism, scene, motions);

@@ -6,6 +6,7 @@
 
 #include "stability/exact_results.h"
 #include "stability/sweeps.h"
+#include "stability/worst_certificates.h"
 
 namespace virtual_work_dynamics {
 
@@ -22,6 +23,8 @@ struct Verdict {
   std::vector<PathVerdict> paths;  ///< none where the states are no numbers of float
   double sensitivity = 0;          ///< see README
   std::optional<double> kdl;       ///< largest relative error of KDL's efforts
+  /// Of one sample by the chosen instruction set, where numbers are double.
+  std::optional<WorstCertificates> certificates;
 
   void include(const Verdict& other);
 };

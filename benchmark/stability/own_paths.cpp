@@ -133,6 +133,10 @@ template PrecisionLimits limitsOf<float>();
 template PrecisionLimits limitsOf<double>();
 template PrecisionLimits limitsOf<long double>();
 
+std::string singlePathName(InstructionSet instruction_set) {
+  return "single_" + toString(instruction_set);
+}
+
 Request everything(const Mechanism& mechanism) {
   Request request;
   request.child_axes.push_back(kGround);
@@ -153,7 +157,7 @@ Path singlePath(const Mechanism& mechanism, const Scene& scene, InstructionSet i
     }
     return all;
   };
-  return {"single_" + toString(instruction_set), "double", limitsOf<double>(), compute};
+  return {singlePathName(instruction_set), "double", limitsOf<double>(), compute};
 }
 
 std::vector<Path> doublePaths(const Mechanism& mechanism, const Scene& scene) {

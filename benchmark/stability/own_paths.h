@@ -22,6 +22,9 @@ struct Path {
 template <typename Real>
 PrecisionLimits limitsOf();
 
+/// Name of the path of one sample of double.
+std::string singlePathName(InstructionSet instruction_set);
+
 /// Everything that a state has: efforts, and the reactions of ground and all joints in both axes.
 Request everything(const Mechanism& mechanism);
 

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstdio>
 #include <exception>
-#include <memory>
 #include <mutex>
 #include <thread>
 
@@ -150,6 +149,34 @@ std::string csv(const std::vector<Sweep>& sweeps, const std::vector<std::vector<
   return text;
 }
 
+std::string certificatesCsv(const std::vector<Sweep>& sweeps,
+                            const std::vector<std::vector<Row>>& rows) {
+  std::string text = "scene,parameter,value,power,ground_force,ground_moment,limit\n";
+  for (std::size_t s = 0; s < sweeps.size(); ++s) {
+    for (std::size_t v = 0; v < rows[s].size(); ++v) {
+      const std::optional<WorstCertificates>& found = rows[s][v].of_double.certificates;
+      if (!found) continue;
+      text += sweeps[s].scene + ',' + sweeps[s].parameter + ',' + number(sweeps[s].values[v]) +
+              ',' + number(found->worst.power) + ',' + number(found->worst.ground_force) + ',' +
+              number(found->worst.ground_moment) + ',' + number(found->limit) + '\n';
+    }
+  }
+  return text;
+}
+
+void writeFile(const std::string& path, const std::string& text) {
+  OutputFile output(path);
+  output.write(text);
+  output.commit();
+}
+
+// So that no minutes of computing are lost to a wrong path. OutputFile leaves nothing behind.
+void requireWritable(const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    if (!path.empty()) OutputFile{path};
+  }
+}
+
 // The path that came closest to the bound, or went beyond it, in words.
 struct Worst {
   double over_bound = -1;
@@ -170,22 +197,47 @@ struct Worst {
   }
 };
 
+// The certificates that came closest to their limit, or went beyond it.
+struct WorstCertified {
+  double over_limit = -1;
+  double largest = 0;
+  std::string where;
+
+  void take(const Sweep& sweep, const std::vector<Row>& rows) {
+    for (std::size_t v = 0; v < rows.size(); ++v) {
+      const std::optional<WorstCertificates>& found = rows[v].of_double.certificates;
+      if (!found || found->overLimit() <= over_limit) continue;
+      over_limit = found->overLimit();
+      largest = found->worst.largest();
+      where = sweep.scene + " at " + number(sweep.values[v]) + ": " + found->worstName();
+    }
+  }
+  std::string words() const {
+    return number(largest) + ", " + number(over_limit) + " of its limit (" + where + ')';
+  }
+};
+
 int report(const std::vector<Sweep>& sweeps, const std::vector<std::vector<Row>>& rows) {
   Worst worst;
+  WorstCertified certified;
   for (std::size_t s = 0; s < sweeps.size(); ++s) {
     Worst of_scene;
     of_scene.take(sweeps[s], rows[s]);
     std::printf("%-24s %9s of the bound  %s\n", sweeps[s].scene.c_str(),
                 number(of_scene.over_bound).c_str(), of_scene.words.c_str());
     worst.take(sweeps[s], rows[s]);
+    certified.take(sweeps[s], rows[s]);
   }
-  if (worst.over_bound <= 1) {
-    std::printf("all stable\n");
-    return 0;
+  if (worst.over_bound > 1) {
+    std::fprintf(stderr, "stability: %s times the bound: %s\n", number(worst.over_bound).c_str(),
+                 worst.words.c_str());
   }
-  std::fprintf(stderr, "stability: %s times the bound: %s\n", number(worst.over_bound).c_str(),
-               worst.words.c_str());
-  return 1;
+  if (certified.over_limit > 1) {
+    std::fprintf(stderr, "stability: certificate %s\n", certified.words().c_str());
+  }
+  if (worst.over_bound > 1 || certified.over_limit > 1) return 1;
+  std::printf("all stable; worst certificate %s\n", certified.words().c_str());
+  return 0;
 }
 
 int runProgram(const std::vector<std::string>& arguments) {
@@ -202,14 +254,13 @@ int runProgram(const std::vector<std::string>& arguments) {
       }
       return 0;
     }
-    std::unique_ptr<OutputFile> output;
-    if (!options.output.empty()) output = std::make_unique<OutputFile>(options.output);
+    requireWritable({options.output, options.certificates});
     const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     Measurement measurement(sweeps, options.quick);
     const auto& rows = measurement.run(options.threads > 0 ? options.threads : cores);
-    if (output) {
-      output->write(csv(sweeps, rows));
-      output->commit();
+    if (!options.output.empty()) writeFile(options.output, csv(sweeps, rows));
+    if (!options.certificates.empty()) {
+      writeFile(options.certificates, certificatesCsv(sweeps, rows));
     }
     return report(sweeps, rows);
   } catch (const OptionError& error) {

@@ -20,12 +20,13 @@ const char kStabilityHelp[] =
 
   stability [options]
 
-  --output FILE   all results as CSV; FILE is complete or not there
-  --quick         fewer states of each scene
-  --scene NAME    only this scene; may be repeated
-  --threads N     computes on so many threads (default: one for each core)
-  --list          name the scenes and what is varied in them
-  --help          this text
+  --output FILE        all results as CSV; FILE is complete or not there
+  --certificates FILE  the worst certificates as CSV, in the same way
+  --quick              fewer states of each scene
+  --scene NAME         only this scene; may be repeated
+  --threads N          computes on so many threads (default: one for each core)
+  --list               name the scenes and what is varied in them
+  --help               this text
 
 Every scene varies one parameter of a mechanism or its motion. For each value random states, the
 same in every run, are computed in every way that the package has: one sample and blocks in both
@@ -46,10 +47,14 @@ one_ulp_sensitivity what the exact results change by, in the same measure, when 
 kdl_relative_error  the error of KDL's efforts, in the same measure; empty where KDL has no solver:
                     mimic joints, joint terms
 
+The efforts and the reaction of ground of one sample of double, by the chosen instruction set, are
+certified as well (Certifier, certificates.h). A certificate is relative to the sums of norms that
+bounds are made of; its limit is 4 L eps, L of the reaction of ground.
+
 Float is left out where the numbers of a scene are larger than 1e30, or all vanish in float.
 
-Exit status: 0 all stable, 1 an error is beyond its bound, a result is not finite, or something
-failed, 2 wrong usage.
+Exit status: 0 all stable, 1 an error is beyond its bound, a certificate beyond its limit, one of
+them not finite, or something failed, 2 wrong usage.
 )";
 
 StabilityOptions parseOptions(const std::vector<std::string>& arguments) {
@@ -62,6 +67,8 @@ StabilityOptions parseOptions(const std::vector<std::string>& arguments) {
     };
     if (option == "--output") {
       options.output = value();
+    } else if (option == "--certificates") {
+      options.certificates = value();
     } else if (option == "--scene") {
       options.scenes.push_back(value());
     } else if (option == "--threads") {
@@ -75,6 +82,9 @@ StabilityOptions parseOptions(const std::vector<std::string>& arguments) {
     } else {
       throw OptionError("unknown option '" + option + "'");
     }
+  }
+  if (!options.output.empty() && options.output == options.certificates) {
+    throw OptionError("--output and --certificates both name '" + options.output + "'");
   }
   return options;
 }

@@ -8,6 +8,7 @@ namespace virtual_work_dynamics {
 
 struct StabilityOptions {
   std::string output;               ///< empty: no table as CSV
+  std::string certificates;         ///< empty: no table of certificates
   std::vector<std::string> scenes;  ///< empty: all
   int threads = 0;                  ///< 0: as many as cores
   bool quick = false;
