@@ -38,12 +38,17 @@ while [[ $# -gt 0 ]]; do
       if [[ "$1" == --output ]]; then output=$2; else scenes+=(--scene "$2"); fi
       shift ;;
     -h | --help) usage; exit 0 ;;
-    *) echo "stability.sh: unknown option $1" >&2; usage >&2; exit 2 ;;
+    *) echo "stability.sh: unknown option $1; --help names all" >&2; exit 2 ;;
   esac
   shift
 done
-$list || mkdir -p "$output"
-$list || output=$(realpath "$output")
+if ! $list; then
+  if ! { mkdir -p "$output" && [[ -w "$output" ]]; } 2>/dev/null; then
+    echo "stability.sh: --output: cannot write into $output" >&2
+    exit 1
+  fi
+  output=$(realpath "$output")
+fi
 cd "$repository"
 build=$repository/build/benchmark
 log=$repository/build/stability.log
@@ -58,7 +63,7 @@ if $install; then scripts/install_dependencies.sh --build --benchmark; fi
 step=0
 announce() {
   step=$((step + 1))
-  echo "[$step/4] $* ($SECONDS s)"
+  if ! $list; then echo "[$step/4] $* ($SECONDS s)"; fi
 }
 
 announce "Building in ${build#"$repository"/}, output in ${log#"$repository"/} ..."
@@ -71,14 +76,16 @@ if ! { cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DVWD_CORE_ONLY=ON \
   exit 1
 fi
 program=$build/benchmark/stability
-if $list; then exec "$program" --list; fi
+if $list; then exec "$program" "${scenes[@]}" --list; fi
 
 announce "Computing in every way and in 113 bits"
-rm -f "$output/stability.csv" "$output/stability_certificates.csv"
+measured=$(mktemp -d)  # results of a run before stay until there are others
+trap 'rm -rf "$measured"' EXIT
 status=0
-"$program" "${quick[@]}" "${scenes[@]}" --output "$output/stability.csv" \
-  --certificates "$output/stability_certificates.csv" || status=$?
-[[ -f "$output/stability.csv" && -f "$output/stability_certificates.csv" ]] || exit "$status"
+"$program" "${quick[@]}" "${scenes[@]}" --output "$measured/stability.csv" \
+  --certificates "$measured/stability_certificates.csv" || status=$?
+[[ -f "$measured/stability.csv" && -f "$measured/stability_certificates.csv" ]] || exit "$status"
+mv "$measured"/*.csv "$output"
 announce "Pictures and table"
 /usr/bin/python3 benchmark/report/stability_page.py "${quick[@]}" "$output"
 announce "Done: ${output}/stability.md"
