@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "plain_results.h"
 #include "stability/exact_results.h"
 #include "stability/sweeps.h"
+#include "stability/worst_certificates.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -34,29 +37,40 @@ StateResults resultsOf(const InverseDynamics& dynamics, const Motion& motion) {
           {results.root_axes.begin(), results.root_axes.end()}};
 }
 
-Errors errorsOf(const StabilityCase& stability_case) {
+struct Judged {
+  Errors errors;
+  WorstCertificates certificates;
+};
+
+Judged judge(const StabilityCase& stability_case) {
   const Mechanism& mechanism = stability_case.mechanism;
   const Scene& scene = stability_case.scene;
   const InverseDynamics dynamics(mechanism, scene, requestEveryJoint(mechanism));
   ErrorBound bound(mechanism, scene);
   RandomNumbers random(kSeed);
   Errors errors;
+  std::vector<Motion> motions;
+  std::vector<StateResults> results;
   for (int n = 0; n < kStates; ++n) {
-    const Motion motion = stability_case.motion(random);
+    motions.push_back(stability_case.motion(random));
+    const Motion& motion = motions.back();
     bound.compute(motion);
     const ExactResults exact(mechanism, scene, motion, bound);
     bound.compute(motion, kDouble.least);
-    errors.include(exact.errorsOf(resultsOf(dynamics, motion), kDouble, bound));
+    results.push_back(resultsOf(dynamics, motion));
+    errors.include(exact.errorsOf(results.back(), kDouble, bound));
   }
-  return errors;
+  return {errors, certify(mechanism, scene, motions, results)};
 }
 
-TEST(Stability, ErrorsStayWithinTheirBoundsAtTheEndsOfEveryScene) {
+TEST(Stability, ErrorsAndCertificatesStayWithinTheirBoundsAtTheEndsOfEveryScene) {
   for (const Sweep& sweep : allSweeps()) {
     for (const double value : {sweep.values.front(), sweep.values.back()}) {
-      const Errors errors = errorsOf(sweep.make(value));
-      EXPECT_LE(errors.over_bound, 1)
-          << sweep.scene << ", " << sweep.parameter << ": " << value << "; " << errors.worst;
+      const Judged judged = judge(sweep.make(value));
+      const std::string where = sweep.scene + ", " + sweep.parameter + ": " + std::to_string(value);
+      EXPECT_LE(judged.errors.over_bound, 1) << where << "; " << judged.errors.worst;
+      EXPECT_LE(judged.certificates.overLimit(), 1)
+          << where << "; " << judged.certificates.worstName();
     }
   }
 }
@@ -75,6 +89,10 @@ class StabilityJudge : public ::testing::Test {
   Errors judged(const StateResults& results) const {
     return ExactResults(case_.mechanism, case_.scene, motion_, bound_)
         .errorsOf(results, kDouble, bound_);
+  }
+
+  WorstCertificates certified(const StateResults& results) const {
+    return certify(case_.mechanism, case_.scene, {motion_}, {results});
   }
 
   StabilityCase case_;
@@ -112,6 +130,38 @@ TEST_F(StabilityJudge, LeavesOutWhatIsBeyondThePrecision) {
   const ExactResults exact(case_.mechanism, case_.scene, motion_, bound_);
   const PrecisionLimits narrow{kDouble.eps, kDouble.least, 1e-30L};
   EXPECT_EQ(exact.errorsOf(overflowed, narrow, bound_).over_bound, 0);
+}
+
+TEST_F(StabilityJudge, CertifiesOneNumberOfEveryKind) {
+  EXPECT_LE(certified(good_).overLimit(), 1);
+  const auto name_of = [&](const StateResults& wrong) {
+    const WorstCertificates certificates = certified(wrong);
+    return certificates.overLimit() > 1 ? certificates.worstName() : "within its limit";
+  };
+  StateResults wrong = good_;
+  wrong.efforts[0] += 1e-9L;
+  EXPECT_EQ(name_of(wrong), "power");
+  wrong = good_;
+  wrong.child_axes[2] += 1e-9L;
+  EXPECT_EQ(name_of(wrong), "ground's force");
+  wrong = good_;
+  wrong.child_axes[3] += 1e-9L;
+  EXPECT_EQ(name_of(wrong), "ground's moment");
+}
+
+TEST_F(StabilityJudge, LeavesStatesThatAreNotFiniteToTheBounds) {
+  StateResults wrong = good_;
+  wrong.efforts[0] = NAN;
+  EXPECT_EQ(certified(wrong).worst.largest(), 0);
+}
+
+TEST_F(StabilityJudge, NeverLosesACertificateThatIsNoNumber) {
+  for (const double bad : {std::nan(""), HUGE_VAL}) {
+    WorstCertificates certificates = certified(good_);
+    certificates.include(Certificates{0, bad, 0});
+    certificates.include(certified(good_));
+    EXPECT_TRUE(std::isinf(certificates.overLimit())) << bad;
+  }
 }
 
 #endif
