@@ -28,8 +28,7 @@ class Certificate:
     """The worst at one value of a scene's parameter."""
 
     def __init__(self, fields):
-        self.scene = fields['scene']
-        self.parameter, self.value = fields['parameter'], float(fields['value'])
+        self.scene, self.value = fields['scene'], float(fields['value'])
         self.largest = max(float(fields[name])
                            for name in ('power', 'ground_force', 'ground_moment'))
         self.over_limit = self.largest / float(fields['limit'])
@@ -108,11 +107,17 @@ class Stability:
         self.row_count = len(rows)
         self.paths = list(dict.fromkeys((row.precision, row.path) for row in rows))
 
+    def scene(self, name):
+        return next(scene for scene in self.scenes if scene.name == name)
+
     def worst(self):
         return max((scene.worst() for scene in self.scenes), key=lambda row: row.over_bound)
 
+    def largest_certificate(self):
+        return max(self.certificates, key=lambda found: found.largest)
+
     def worst_certificate(self):
-        """The one that is closest to its limit, or furthest beyond."""
+        """The one that is closest to its limit, or furthest beyond: limits are not all the same."""
         return max(self.certificates, key=lambda found: found.over_limit)
 
     def stable(self):

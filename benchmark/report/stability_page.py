@@ -4,6 +4,7 @@ FOLDER/stability_certificates.csv, which the program stability has written; scri
 calls it.
 """
 import argparse
+import decimal
 import math
 import pathlib
 import sys
@@ -74,8 +75,19 @@ def certificate(scene):
     return text if scene.certified() else '**%s**' % text
 
 
+def plain(value):
+    """A value of a scene's parameter, in the fewest digits."""
+    if value == 0 or 1e-3 <= value < 1e5:
+        return '{:,g}'.format(value)
+    return '{:e}'.format(decimal.Decimal(repr(value)).normalize()).replace('e+', 'e')
+
+
+def place(scene, value):
+    return '%s; %s: %s' % (title_of(scene), scene.parameter, plain(value))
+
+
 def span(scene):
-    return '%.3g … %.3g' % (scene.values[0], scene.values[-1])
+    return '%s … %s' % (plain(scene.values[0]), plain(scene.values[-1]))
 
 
 def table(data):
@@ -101,8 +113,9 @@ def precision_table(data):
 
 def verdict(data):
     worst = data.worst()
-    where = '%s, %s = %g: %s, `%s`' % (worst.scene, worst.parameter, worst.value,
-                                      plots.LOOK[worst.precision][0], worst.path)
+    scene = data.scene(worst.scene)
+    where = '%s; %s, `%s`' % (place(scene, worst.value), plots.LOOK[worst.precision][0],
+                              worst.path)
     if data.stable():
         return ('**All scenes are stable**: the worst error is %.3g of its bound (%s).'
                 % (worst.over_bound, where))
@@ -114,19 +127,20 @@ def verdict(data):
 
 
 def certificates_verdict(data):
-    worst = data.worst_certificate()
-    scene = next(scene for scene in data.scenes if scene.name == worst.scene)
-    where = '%s, %s = %g' % (title_of(scene), worst.parameter, worst.value)
+    largest, worst = data.largest_certificate(), data.worst_certificate()
+    where = place(data.scene(worst.scene), worst.value)
     if worst.over_limit <= 1:
-        return ('All certificates are within their limits: the worst, %s, is %.3g of its limit '
-                '(%s).' % (number(worst.largest), worst.over_limit, where))
+        return ('All certificates are within their limits: the largest is %s (%s), the closest to '
+                'its limit %.3g of it (%s).'
+                % (number(largest.largest), place(data.scene(largest.scene), largest.value),
+                   worst.over_limit, where))
     return ('**Not all certificates are within their limits**: the worst, %s, is %.3g times its '
             'limit (%s).' % (number(worst.largest), worst.over_limit, where))
 
 
 def float_left_out(data):
     lines = ['- %s: %s' % (title_of(scene), 'all' if len(values) == len(scene.values)
-                           else md.listed('%.3g' % value for value in values))
+                           else md.listed(plain(value) for value in values))
              for scene in data.scenes for values in [scene.left_out('float')] if values]
     return '\n'.join(lines) if lines else 'Nothing.'
 

@@ -97,8 +97,8 @@ def _over_bound(axes, scene, places):
               color=readable(VERMILLION), fontsize=9.5)
     axes.set_yscale('log')
     axes.set_ylim(floor, top)
-    axes.set_ylabel('largest error over its bound')
-    axes.set_title('Over the bound')
+    axes.set_ylabel('largest error over 4 L eps S')
+    axes.set_title('Error over its bound')
 
 
 def _relative(axes, scene, places):
@@ -118,7 +118,7 @@ def _relative(axes, scene, places):
     axes.set_yscale('log')
     axes.set_ylim(floor, top)
     axes.set_ylabel('largest error over largest of its kind')
-    axes.set_title('Relative')
+    axes.set_title('Relative error')
 
 
 def plot_scene(scene, title, path):

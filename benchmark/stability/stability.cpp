@@ -197,23 +197,27 @@ struct Worst {
   }
 };
 
-// The certificates that came closest to their limit, or went beyond it.
+// The largest certificate, and the one that came closest to its limit or went beyond it: limits are
+// not all the same.
 struct WorstCertified {
-  double over_limit = -1;
-  double largest = 0;
-  std::string where;
+  double largest = 0, over_limit = -1;
+  std::string of_largest, of_closest;
 
   void take(const Sweep& sweep, const std::vector<Row>& rows) {
     for (std::size_t v = 0; v < rows.size(); ++v) {
       const std::optional<WorstCertificates>& found = rows[v].of_double.certificates;
-      if (!found || found->overLimit() <= over_limit) continue;
-      over_limit = found->overLimit();
-      largest = found->worst.largest();
-      where = sweep.scene + " at " + number(sweep.values[v]) + ": " + found->worstName();
+      if (!found) continue;
+      const std::string words = number(found->worst.largest()) + ", " + sweep.scene + " at " +
+                                number(sweep.values[v]) + ", " + found->worstName();
+      if (found->worst.largest() >= largest) {
+        largest = found->worst.largest();
+        of_largest = words;
+      }
+      if (found->overLimit() > over_limit) {
+        over_limit = found->overLimit();
+        of_closest = words;
+      }
     }
-  }
-  std::string words() const {
-    return number(largest) + ", " + number(over_limit) + " of its limit (" + where + ')';
   }
 };
 
@@ -233,10 +237,13 @@ int report(const std::vector<Sweep>& sweeps, const std::vector<std::vector<Row>>
                  worst.words.c_str());
   }
   if (certified.over_limit > 1) {
-    std::fprintf(stderr, "stability: certificate %s\n", certified.words().c_str());
+    std::fprintf(stderr, "stability: a certificate is %s times its limit: %s\n",
+                 number(certified.over_limit).c_str(), certified.of_closest.c_str());
   }
   if (worst.over_bound > 1 || certified.over_limit > 1) return 1;
-  std::printf("all stable; worst certificate %s\n", certified.words().c_str());
+  std::printf("all stable; worst certificate %s; closest to its limit, %s of it: %s\n",
+              certified.of_largest.c_str(), number(certified.over_limit).c_str(),
+              certified.of_closest.c_str());
   return 0;
 }
 
