@@ -18,8 +18,6 @@ namespace {
 
 // A handful of products and sums in double.
 constexpr double kByHand = 1e-14;
-// A sum of norms may equal the norm of the sum, but for its own rounding.
-constexpr double kOwnRounding = 1e-13;
 
 void expectNear(double actual, double expected) {
   EXPECT_LE(std::abs(actual - expected), kByHand * expected) << actual << " for " << expected;
@@ -238,6 +236,9 @@ TEST(ErrorBound, DepthOfAnEffortIsThatOfItsDeepestJoint) {
 }
 
 #ifdef VWD_HAS_REAL113
+
+// A sum of norms may equal the norm of the sum, but for its own rounding.
+constexpr double kOwnRounding = 1e-13;
 
 // Every magnitude is at least that of what is summed.
 void expectBounds(const Mechanism& mechanism, const Scene& scene, const Motion& motion) {
