@@ -18,7 +18,7 @@ add_library(benchmark_contenders STATIC
   contenders/own_single.cpp
   contenders/peer_input.cpp
   contenders/robots.cpp)
-target_include_directories(benchmark_contenders PRIVATE ../src PUBLIC contenders ../test/core)  # the yardstick
+target_include_directories(benchmark_contenders PRIVATE ../src PUBLIC . ../test/core)  # the yardstick
 set_source_files_properties(contenders/long_double_dynamics.cpp PROPERTIES COMPILE_FLAGS "${kernel_flags}")
 target_include_directories(benchmark_contenders SYSTEM PRIVATE ${orocos_kdl_INCLUDE_DIRS})
 target_compile_definitions(benchmark_contenders PRIVATE

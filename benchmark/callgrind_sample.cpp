@@ -3,7 +3,7 @@
 #include <exception>
 #include <string>
 
-#include "contender.h"
+#include "contenders/contender.h"
 #include "virtual_work_dynamics/error.h"
 
 // Computes samples in a function that valgrind can be told to count; see

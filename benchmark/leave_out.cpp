@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
+#include "contenders/robots.h"
 #include "cores.h"
 #include "offline/output_file.h"
 #include "omissions.h"
-#include "robots.h"
 #include "same_numbers.h"
 
 namespace virtual_work_dynamics {

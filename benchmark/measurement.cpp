@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <exception>
 
-#include "check.h"
+#include "contenders/check.h"
 #include "cores.h"
 
 namespace virtual_work_dynamics {

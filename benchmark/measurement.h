@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "contender.h"
+#include "contenders/contender.h"
 
 namespace virtual_work_dynamics {
 

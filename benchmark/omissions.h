@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "robots.h"
+#include "contenders/robots.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 
 namespace virtual_work_dynamics {

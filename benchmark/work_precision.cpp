@@ -5,11 +5,11 @@
 #include <exception>
 #include <memory>
 
+#include "contenders/robots.h"
 #include "cores.h"
 #include "measurement.h"
 #include "offline/output_file.h"
 #include "result_table.h"
-#include "robots.h"
 #include "work_precision_options.h"
 
 namespace virtual_work_dynamics {

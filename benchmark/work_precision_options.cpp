@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "robots.h"
+#include "contenders/robots.h"
 
 namespace virtual_work_dynamics {
 namespace {

@@ -1,9 +1,9 @@
-#include "check.h"
+#include "contenders/check.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "peer_input.h"
+#include "contenders/peer_input.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {

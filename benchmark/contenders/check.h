@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "contender.h"
+#include "contenders/contender.h"
 #include "reference_113.h"
 
 namespace virtual_work_dynamics {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "robots.h"
+#include "contenders/robots.h"
 
 namespace virtual_work_dynamics {
 

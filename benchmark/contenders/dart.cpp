@@ -4,8 +4,8 @@
 #include <dart/dynamics/Skeleton.hpp>
 #include <iostream>
 
-#include "offers.h"
-#include "peer_input.h"
+#include "contenders/offers.h"
+#include "contenders/peer_input.h"
 
 namespace virtual_work_dynamics {
 namespace {

@@ -3,9 +3,9 @@
 #include <kdl/treeidsolver_recursive_newton_euler.hpp>
 #endif
 
-#include "kdl_model.h"
-#include "offers.h"
-#include "peer_input.h"
+#include "contenders/kdl_model.h"
+#include "contenders/offers.h"
+#include "contenders/peer_input.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {

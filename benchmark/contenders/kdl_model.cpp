@@ -1,4 +1,4 @@
-#include "kdl_model.h"
+#include "contenders/kdl_model.h"
 
 namespace virtual_work_dynamics {
 namespace {

@@ -1,4 +1,4 @@
-#include "long_double_dynamics.h"
+#include "contenders/long_double_dynamics.h"
 
 #include <cmath>
 

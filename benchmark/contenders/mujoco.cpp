@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "offers.h"
-#include "peer_input.h"
+#include "contenders/offers.h"
+#include "contenders/peer_input.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {

@@ -1,4 +1,4 @@
-#include "offers.h"
+#include "contenders/offers.h"
 
 namespace virtual_work_dynamics {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "contender.h"
+#include "contenders/contender.h"
 
 namespace virtual_work_dynamics {
 

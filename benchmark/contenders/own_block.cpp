@@ -1,5 +1,5 @@
-#include "offers.h"
-#include "own_request.h"
+#include "contenders/offers.h"
+#include "contenders/own_request.h"
 #include "virtual_work_dynamics/block.h"
 
 namespace virtual_work_dynamics {

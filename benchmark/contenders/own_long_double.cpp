@@ -1,6 +1,6 @@
-#include "long_double_dynamics.h"
-#include "offers.h"
-#include "own_request.h"
+#include "contenders/long_double_dynamics.h"
+#include "contenders/offers.h"
+#include "contenders/own_request.h"
 
 namespace virtual_work_dynamics {
 namespace {

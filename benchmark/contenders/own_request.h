@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "contender.h"
-#include "peer_input.h"
+#include "contenders/contender.h"
+#include "contenders/peer_input.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 
 namespace virtual_work_dynamics {

@@ -1,4 +1,4 @@
-#include "peer_input.h"
+#include "contenders/peer_input.h"
 
 namespace virtual_work_dynamics {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "contender.h"
-#include "robots.h"
+#include "contenders/contender.h"
+#include "contenders/robots.h"
 
 namespace virtual_work_dynamics {
 

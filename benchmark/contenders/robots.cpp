@@ -1,4 +1,4 @@
-#include "robots.h"
+#include "contenders/robots.h"
 
 #include <array>
 #include <cstdint>
