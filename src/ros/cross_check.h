@@ -82,7 +82,7 @@ class CrossCheck {
     CrossCheckSlot::Finding finding;  ///< the largest of these
   };
 
-  /// @param rate the most checks a second, positive.
+  /// @param rate the most checks a second, 0.001 to 1000.
   explicit CrossCheck(double rate);
   /// Waits for the check under way, if any.
   ~CrossCheck();

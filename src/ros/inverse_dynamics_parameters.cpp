@@ -63,15 +63,20 @@ double readTrajectoryRate(PrivateParameters& parameters, double fallback) {
   return rate;
 }
 
-SelfCheckSettings readSelfCheck(PrivateParameters& parameters) {
-  constexpr double kFastest = 1000;
-  SelfCheckSettings settings;
-  settings.cross_check_rate = parameters.number("cross_check_rate", settings.cross_check_rate);
-  if (!(settings.cross_check_rate >= 0 && settings.cross_check_rate <= kFastest)) {
-    throw parameterError("cross_check_rate", numberText(settings.cross_check_rate) +
-                                                 " checks/s is not from 0 to " +
+double readCrossCheckRate(PrivateParameters& parameters, double fallback) {
+  constexpr double kSlowest = 0.001, kFastest = 1000;
+  const double rate = parameters.number("cross_check_rate", fallback);
+  if (rate != 0 && !(rate >= kSlowest && rate <= kFastest)) {
+    throw parameterError("cross_check_rate", numberText(rate) + " checks/s is neither 0 nor from " +
+                                                 numberText(kSlowest) + " to " +
                                                  numberText(kFastest));
   }
+  return rate;
+}
+
+SelfCheckSettings readSelfCheck(PrivateParameters& parameters) {
+  SelfCheckSettings settings;
+  settings.cross_check_rate = readCrossCheckRate(parameters, settings.cross_check_rate);
   settings.certificates = parameters.boolean("certificates", settings.certificates);
   settings.residual_warn = parameters.number("residual_warn", settings.residual_warn);
   settings.residual_error = parameters.number("residual_error", settings.residual_error);

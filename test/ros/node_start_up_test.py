@@ -127,6 +127,8 @@ BAD_PARAMETERS = {
     'negative_cross_check_rate': ({'cross_check_rate': -1}, ['~cross_check_rate: -1 checks/s']),
     'cross_check_rate_too_high': ({'cross_check_rate': 1001},
                                   ['~cross_check_rate: 1001 checks/s', 'to 1000']),
+    'cross_check_rate_of_ages': ({'cross_check_rate': 1e-11},
+                                 ['~cross_check_rate: 1e-11 checks/s', 'from 0.001']),
     'certificates_that_are_a_number': ({'certificates': 1}, ['~certificates', 'true or false']),
     'warning_at_nothing': ({'residual_warn': 0}, ['~residual_warn: 0 is not positive']),
     'warning_that_is_text': ({'residual_warn': 'small'}, ['~residual_warn', "'small'"]),
