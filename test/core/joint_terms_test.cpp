@@ -175,6 +175,13 @@ TEST(JointTerms, RefusesByName) {
   terms = allTerms("joint_1");
   terms.coulomb_velocity = 0;
   expectRefusal(mechanism, terms, "'joint_1': coulomb_velocity = 0");
+  const Mechanism negative = readUrdf(R"(<robot name="r"><link name="a"/><link name="b"/>
+    <joint name="j" type="continuous"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
+      <dynamics damping="-0.5" friction="0"/></joint></robot>)");
+  Scene described;
+  EXPECT_NO_THROW(InverseDynamics(negative, described));
+  described.use_urdf_dynamics = true;
+  EXPECT_THROW(InverseDynamics(negative, described), SceneError);
   Scene twice;
   twice.joints = {allTerms("joint_1"), allTerms("joint_1")};
   EXPECT_THROW(InverseDynamics(mechanism, twice), SceneError);
@@ -234,6 +241,7 @@ TEST(JointTerms, StiffPendulumIsExactToTheBound) {
     motion.qdd[0] =
         -0.4 * pi * pi * std::sin(2 * pi * t) - 1e-6 * ripple * ripple * std::sin(ripple * t);
     dynamics.compute(motion, workspace);
+    ASSERT_TRUE(std::isfinite(workspace.effort()[0])) << t;  // the maximum passes over NaN
     const Real113 q = motion.q[0], inertia = Real113(0.01) + Real113(0.5) * 0.0625;
     const Real113 weight = Real113(0.5) * 0.25 * Real113(9.81) * sine(q);
     const Real113 spring = Real113(1e9) * (q - Real113(0.25));
