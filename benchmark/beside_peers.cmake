@@ -25,7 +25,7 @@ target_compile_definitions(benchmark_contenders PRIVATE
   VWD_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
   VWD_SHARED_DATA="${VWD_SHARED_DATA}")
 target_link_libraries(benchmark_contenders
-  PUBLIC ${PROJECT_NAME} quadmath
+  PUBLIC ${PROJECT_NAME} ${VWD_REAL113_LIBRARIES}
   PRIVATE ${orocos_kdl_LIBRARIES} ${PROJECT_NAME}_warnings)
 if(VWD_KDL_TREE_SOLVER)
   target_compile_definitions(benchmark_contenders PRIVATE VWD_WITH_KDL_TREE)

@@ -1,0 +1,38 @@
+# Errors where scenes go to extremes, against 113 bits.
+add_executable(stability
+  ../src/offline/output_file.cpp
+  contenders/long_double_dynamics.cpp
+  stability/balance_sweeps.cpp
+  stability/body_sweeps.cpp
+  stability/exact_results.cpp
+  stability/kdl_efforts.cpp
+  stability/measure.cpp
+  stability/mechanism_maker.cpp
+  stability/motion_sweeps.cpp
+  stability/own_paths.cpp
+  stability/stability.cpp
+  stability/stability_options.cpp
+  stability/structure_sweeps.cpp
+  stability/sweeps.cpp
+  stability/worst_certificates.cpp)
+set_source_files_properties(contenders/long_double_dynamics.cpp
+  PROPERTIES COMPILE_FLAGS "${kernel_flags}")
+target_include_directories(stability PRIVATE . ../src ../test/core)  # the yardstick
+target_link_libraries(stability
+  PRIVATE ${PROJECT_NAME} ${VWD_REAL113_LIBRARIES} Threads::Threads ${PROJECT_NAME}_warnings)
+if(orocos_kdl_FOUND)
+  target_sources(stability PRIVATE contenders/kdl_model.cpp contenders/peer_input.cpp)
+  target_include_directories(stability SYSTEM PRIVATE ${orocos_kdl_INCLUDE_DIRS})
+  target_link_libraries(stability PRIVATE ${orocos_kdl_LIBRARIES})
+  target_compile_definitions(stability PRIVATE VWD_WITH_KDL)
+  if(VWD_KDL_TREE_SOLVER)
+    target_compile_definitions(stability PRIVATE VWD_WITH_KDL_TREE)
+  endif()
+else()
+  message(STATUS "Stability is measured without KDL's errors beside (Debian, Ubuntu: "
+    "liborocos-kdl-dev)")
+endif()
+
+if(NOT VWD_CORE_ONLY)
+  install(TARGETS stability RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+endif()
