@@ -10,8 +10,7 @@ Installs what is needed, builds in build/benchmark (without ROS), computes, and 
   stability.md            the results; begin here
   stability_<scene>.png   error over what is varied, one picture for each scene
   stability.csv           the measurements
-  stability_certificates.csv
-                          the worst certificates
+  stability_details.csv   certificates, KDL's error over the bound, ours over a narrower one
 Exit status 1 when an error is beyond its bound, a certificate beyond its limit, or one of them is not
 finite.
   --quick       fewer states of each scene: a minute or less once everything is built
@@ -83,8 +82,8 @@ measured=$(mktemp -d)  # results of a run before stay until there are others
 trap 'rm -rf "$measured"' EXIT
 status=0
 "$program" "${quick[@]}" "${scenes[@]}" --output "$measured/stability.csv" \
-  --certificates "$measured/stability_certificates.csv" || status=$?
-[[ -f "$measured/stability.csv" && -f "$measured/stability_certificates.csv" ]] || exit "$status"
+  --details "$measured/stability_details.csv" || status=$?
+[[ -f "$measured/stability.csv" && -f "$measured/stability_details.csv" ]] || exit "$status"
 mv "$measured"/*.csv "$output"
 announce "Pictures and table"
 /usr/bin/python3 benchmark/report/stability_page.py "${quick[@]}" "$output"

@@ -6,8 +6,9 @@ from report_data import ReportError
 
 COLUMNS = ('scene', 'parameter', 'value', 'path', 'precision', 'error_over_bound',
            'max_relative_error', 'one_ulp_sensitivity', 'kdl_relative_error')
-CERTIFICATE_COLUMNS = ('scene', 'parameter', 'value', 'power', 'ground_force', 'ground_moment',
-                       'limit')
+CERTIFICATES = ('certificate_power', 'certificate_ground_force', 'certificate_ground_moment')
+DETAIL_COLUMNS = ('scene', 'parameter', 'value') + CERTIFICATES + (
+    'certificate_limit', 'kdl_error_over_bound', 'error_over_subtree_bound')
 PRECISIONS = ('double', 'float', 'long_double')  # in the order of the plots
 DOUBLE = 'double'
 
@@ -24,14 +25,16 @@ class Row:
         self.kdl = float(kdl) if kdl else None
 
 
-class Certificate:
-    """The worst at one value of a scene's parameter."""
+class Detail:
+    """Of double, the worst at one value of a scene's parameter."""
 
     def __init__(self, fields):
         self.scene, self.value = fields['scene'], float(fields['value'])
-        self.largest = max(float(fields[name])
-                           for name in ('power', 'ground_force', 'ground_moment'))
-        self.over_limit = self.largest / float(fields['limit'])
+        self.certificate = max(float(fields[name]) for name in CERTIFICATES)
+        self.over_limit = self.certificate / float(fields['certificate_limit'])
+        kdl = fields['kdl_error_over_bound']
+        self.kdl_over_bound = float(kdl) if kdl else None
+        self.over_subtree_bound = float(fields['error_over_subtree_bound'])
 
 
 class Curve:
@@ -44,8 +47,8 @@ class Curve:
 class Scene:
     """The rows of one scene."""
 
-    def __init__(self, name, rows, certificates):
-        self.name, self.rows, self.certificates = name, rows, certificates
+    def __init__(self, name, rows, details):
+        self.name, self.rows, self.details = name, rows, details
         self.parameter = rows[0].parameter
         self.values = sorted({row.value for row in rows})
         self.precisions = [p for p in PRECISIONS if any(row.precision == p for row in rows)]
@@ -62,10 +65,17 @@ class Scene:
         return max((row.kdl for row in self.rows if row.kdl is not None), default=None)
 
     def largest_certificate(self):
-        return max((found.largest for found in self.certificates), default=None)
+        return max((detail.certificate for detail in self.details), default=None)
 
     def certified(self):
-        return all(found.over_limit <= 1 for found in self.certificates)
+        return all(detail.over_limit <= 1 for detail in self.details)
+
+    def largest_kdl_over_bound(self):
+        return max((detail.kdl_over_bound for detail in self.details
+                    if detail.kdl_over_bound is not None), default=None)
+
+    def largest_over_subtree_bound(self):
+        return max((detail.over_subtree_bound for detail in self.details), default=None)
 
     def curve(self, precision, number):
         """The worst of all paths at every value; number: what is taken of a row."""
@@ -96,14 +106,14 @@ def read(path, columns, row):
 
 
 class Stability:
-    def __init__(self, path, certificates_path):
+    def __init__(self, path, details_path):
         rows = read(path, COLUMNS, Row)
-        certificates = read(certificates_path, CERTIFICATE_COLUMNS, Certificate)
+        details = read(details_path, DETAIL_COLUMNS, Detail)
         names = list(dict.fromkeys(row.scene for row in rows))
         self.scenes = [Scene(name, [row for row in rows if row.scene == name],
-                             [found for found in certificates if found.scene == name])
+                             [detail for detail in details if detail.scene == name])
                        for name in names]
-        self.certificates = certificates
+        self.details = details
         self.row_count = len(rows)
         self.paths = list(dict.fromkeys((row.precision, row.path) for row in rows))
 
@@ -114,11 +124,14 @@ class Stability:
         return max((scene.worst() for scene in self.scenes), key=lambda row: row.over_bound)
 
     def largest_certificate(self):
-        return max(self.certificates, key=lambda found: found.largest)
+        return max(self.details, key=lambda detail: detail.certificate)
 
     def worst_certificate(self):
         """The one that is closest to its limit, or furthest beyond: limits are not all the same."""
-        return max(self.certificates, key=lambda found: found.over_limit)
+        return max(self.details, key=lambda detail: detail.over_limit)
+
+    def worst_of_subtrees(self):
+        return max(self.details, key=lambda detail: detail.over_subtree_bound)
 
     def stable(self):
         return self.worst().over_bound <= 1 and not any(

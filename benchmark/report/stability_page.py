@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Makes stability.md and its pictures from FOLDER/stability.csv and
-FOLDER/stability_certificates.csv, which the program stability has written; scripts/stability.sh
+FOLDER/stability_details.csv, which the program stability has written; scripts/stability.sh
 calls it.
 """
 import argparse
@@ -15,7 +15,7 @@ from report_data import ReportError
 from stability_data import DOUBLE, PRECISIONS, Stability
 
 CSV = 'stability.csv'
-CERTIFICATES_CSV = 'stability_certificates.csv'
+DETAILS_CSV = 'stability_details.csv'
 PAGE = 'stability.md'
 TEMPLATE = pathlib.Path(__file__).resolve().parent / 'stability_template.md'
 
@@ -63,10 +63,15 @@ def number(value):
     return md.NONE if value is None else 'infinite' if math.isinf(value) else md.error(value)
 
 
+def times(ratio):
+    """So many times a bound."""
+    return md.NONE if ratio is None else 'not finite' if math.isinf(ratio) else '%.3g' % ratio
+
+
 def over_bound(row):
     if row is None:
         return md.NONE
-    text = 'not finite' if math.isinf(row.over_bound) else '%.3g' % row.over_bound
+    text = times(row.over_bound)
     return text if row.over_bound <= 1 else '**%s**' % text
 
 
@@ -91,12 +96,21 @@ def span(scene):
 
 
 def table(data):
-    header = ['scene', 'from … to', 'worst error over the bound', 'worst relative error, double',
-              'KDL’s, efforts only', 'worst certificate']
+    header = ['scene', 'from … to', 'worst error over the bound',
+              'KDL’s over the bound (efforts, double)', 'over the narrower bound (double)',
+              'worst certificate']
     rows = [['[%s](%s)' % (title_of(scene), picture_of(scene)), span(scene),
-             over_bound(scene.worst()), number(scene.largest_relative(DOUBLE)),
-             number(scene.largest_kdl()), certificate(scene)] for scene in data.scenes]
+             over_bound(scene.worst()), times(scene.largest_kdl_over_bound()),
+             times(scene.largest_over_subtree_bound()), certificate(scene)]
+            for scene in data.scenes]
     return md.table(header, rows, left=2)
+
+
+def relative_table(data):
+    header = ['scene', 'worst relative error, double', 'KDL’s, efforts only']
+    rows = [[title_of(scene), number(scene.largest_relative(DOUBLE)), number(scene.largest_kdl())]
+            for scene in data.scenes]
+    return md.table(header, rows)
 
 
 def precision_table(data):
@@ -132,10 +146,19 @@ def certificates_verdict(data):
     if worst.over_limit <= 1:
         return ('All certificates are within their limits: the largest is %s (%s), the closest to '
                 'its limit %.3g of it (%s).'
-                % (number(largest.largest), place(data.scene(largest.scene), largest.value),
+                % (number(largest.certificate), place(data.scene(largest.scene), largest.value),
                    worst.over_limit, where))
     return ('**Not all certificates are within their limits**: the worst, %s, is %.3g times its '
-            'limit (%s).' % (number(worst.largest), worst.over_limit, where))
+            'limit (%s).' % (number(worst.certificate), worst.over_limit, where))
+
+
+def narrower_verdict(data):
+    worst = data.worst_of_subtrees()
+    beyond = [scene for scene in data.scenes if scene.largest_over_subtree_bound() > 1]
+    return ('Errors are beyond the narrower bound in %s of the %d scenes; the worst is '
+            '%s times it (%s).'
+            % (len(beyond) or 'none', len(data.scenes), times(worst.over_subtree_bound),
+               place(data.scene(worst.scene), worst.value)))
 
 
 def float_left_out(data):
@@ -155,7 +178,7 @@ def paths(data):
 def page(data, quick):
     return TEMPLATE.read_text(encoding='utf-8').format(
         table=table(data), verdict=verdict(data), certificates=certificates_verdict(data),
-        paths=paths(data),
+        narrower=narrower_verdict(data), relative=relative_table(data), paths=paths(data),
         quick='This is a quick run (`--quick`): few states of each scene.\n\n' if quick else '',
         precisions=precision_table(data), left_out=float_left_out(data),
         rows='{:,}'.format(data.row_count),
@@ -171,7 +194,7 @@ def progress(what):
 
 
 def write(folder, quick):
-    data = Stability(folder / CSV, folder / CERTIFICATES_CSV)
+    data = Stability(folder / CSV, folder / DETAILS_CSV)
     for old in folder.glob('stability_*.png'):
         old.unlink()
     for scene in data.scenes:

@@ -14,9 +14,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // bits.
 constexpr long double kZero113 = 0x1p-100L;
 
-long double boundOf(double magnitude, int depth, const PrecisionLimits& limits) {
-  return 4 * depth * limits.eps * magnitude;
-}
+// L of the bound, and of the narrower one.
+struct Depths {
+  int path, subtree;
+};
 
 // The norm of the difference between three numbers and the exact ones.
 long double distance(const long double* numbers, const ExactNumber* exact, int count) {
@@ -54,8 +55,12 @@ std::string nameOf(const Mechanism& mechanism, std::size_t link) {
 }
 
 template <typename Name>
-void take(long double error, long double bound, Errors& errors, const Name& name) {
-  const double over_bound = ratio(error, bound);
+void take(long double error, long double magnitude, const Depths& depths,
+          const PrecisionLimits& limits, Errors& errors, const Name& name) {
+  const long double unit = 4 * limits.eps * magnitude;
+  const double over_subtree_bound = ratio(error, depths.subtree * unit);
+  errors.over_subtree_bound = std::max(errors.over_subtree_bound, over_subtree_bound);
+  const double over_bound = ratio(error, depths.path * unit);
   if (over_bound <= errors.over_bound) return;
   errors.over_bound = over_bound;
   errors.worst = name();
@@ -68,6 +73,7 @@ void Errors::include(const Errors& other) {
     over_bound = other.over_bound;
     worst = other.worst;
   }
+  over_subtree_bound = std::max(over_subtree_bound, other.over_subtree_bound);
   relative = std::max(relative, other.relative);
 }
 
@@ -81,12 +87,27 @@ ExactResults::ExactResults(const Mechanism& mechanism, const Scene& scene, const
     root_axes_.push_back(split(reference.rootAxes(k)));
   }
   noteLargest(bound);
+  countSubtrees(bound);
 }
 
 ExactResults::Wrench ExactResults::split(const Reference113::Wrench& wrench) {
   const Vector113 &f = wrench.force, &m = wrench.torque;
   return {{ExactNumber(f.x), ExactNumber(f.y), ExactNumber(f.z)},
           {ExactNumber(m.x), ExactNumber(m.y), ExactNumber(m.z)}};
+}
+
+void ExactResults::countSubtrees(const ErrorBound& bound) {
+  subtree_depths_ = bound.depths();
+  effort_subtree_depths_.assign(efforts_.size(), 0);
+  std::vector<int> before(subtree_depths_.size(), 0);  // joints, of each link's joint
+  for (std::size_t i = 1; i < before.size(); ++i) {
+    const Joint& joint = mechanism_.joints()[i - 1];
+    before[i] = joint.parent_link == 0 ? 0 : before[joint.parent_link] + 1;
+    subtree_depths_[i] -= before[i];
+    if (joint.coordinate < 0) continue;
+    int& depth = effort_subtree_depths_[joint.coordinate];
+    depth = std::max(depth, subtree_depths_[i]);
+  }
 }
 
 void ExactResults::noteLargest(const ErrorBound& bound) {
@@ -118,8 +139,8 @@ void ExactResults::judgeEfforts(const std::vector<long double>& results,
   for (std::size_t i = 0; i < efforts_.size(); ++i) {
     if (!withinRange(&efforts_[i], 1, limits.largest)) continue;
     const long double error = distance(&results[i], &efforts_[i], 1);
-    take(error, boundOf(bound.efforts()[i], bound.effortDepths()[i], limits), errors,
-         [&] { return "effort of " + mechanism_.coordinateNames()[i]; });
+    take(error, bound.efforts()[i], {bound.effortDepths()[i], effort_subtree_depths_[i]}, limits,
+         errors, [&] { return "effort of " + mechanism_.coordinateNames()[i]; });
     takeRelative(error, turns(i) ? largest_moment_ : largest_force_, errors.relative);
   }
 }
@@ -130,17 +151,17 @@ void ExactResults::judgeWrenches(const std::vector<Wrench>& exact,
                                  const char* axes, Errors& errors) const {
   for (std::size_t i = 0; i < exact.size(); ++i) {
     const Wrench& wrench = exact[i];
+    const WrenchMagnitude& magnitude = bound.wrenches()[i];
+    const Depths depths{bound.depths()[i], subtree_depths_[i]};
     const auto name = [&](const char* what) { return what + (axes + nameOf(mechanism_, i)); };
     if (withinRange(wrench.force, 3, limits.largest)) {
       const long double error = distance(&results[6 * i], wrench.force, 3);
-      take(error, boundOf(bound.wrenches()[i].force, bound.depths()[i], limits), errors,
-           [&] { return name("force"); });
+      take(error, magnitude.force, depths, limits, errors, [&] { return name("force"); });
       takeRelative(error, largest_force_, errors.relative);
     }
     if (withinRange(wrench.moment, 3, limits.largest)) {
       const long double error = distance(&results[6 * i + 3], wrench.moment, 3);
-      take(error, boundOf(bound.wrenches()[i].moment, bound.depths()[i], limits), errors,
-           [&] { return name("moment"); });
+      take(error, magnitude.moment, depths, limits, errors, [&] { return name("moment"); });
       takeRelative(error, largest_moment_, errors.relative);
     }
   }
@@ -155,15 +176,11 @@ Errors ExactResults::errorsOf(const StateResults& results, const PrecisionLimits
   return errors;
 }
 
-double ExactResults::relativeErrorOfEfforts(const std::vector<double>& efforts) const {
-  double relative = 0;
-  for (std::size_t i = 0; i < efforts_.size(); ++i) {
-    if (!withinRange(&efforts_[i], 1, std::numeric_limits<double>::max())) continue;
-    const long double effort = efforts[i];
-    takeRelative(distance(&effort, &efforts_[i], 1), turns(i) ? largest_moment_ : largest_force_,
-                 relative);
-  }
-  return relative;
+Errors ExactResults::errorsOfEfforts(const std::vector<double>& efforts,
+                                     const PrecisionLimits& limits, const ErrorBound& bound) const {
+  Errors errors;
+  judgeEfforts({efforts.begin(), efforts.end()}, limits, bound, errors);
+  return errors;
 }
 
 double ExactResults::relativeDifference(const ExactResults& other) const {

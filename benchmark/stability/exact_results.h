@@ -37,8 +37,10 @@ struct PrecisionLimits {
 /// How far results of one sample, or of many, are from the exact ones.
 struct Errors {
   double over_bound = 0;  ///< largest error over its bound; infinite where a result is not finite
-  double relative = 0;    ///< largest error over the largest number of its kind in the state
-  std::string worst;      ///< the result that is closest to its bound, or beyond it
+  /// The same of a narrower bound, whose L counts no joints before the one whose result it is.
+  double over_subtree_bound = 0;
+  double relative = 0;  ///< largest error over the largest number of its kind in the state
+  std::string worst;    ///< the result that is closest to its bound, or beyond it
 
   void include(const Errors& other);
 };
@@ -58,8 +60,10 @@ class ExactResults {
   Errors errorsOf(const StateResults& results, const PrecisionLimits& limits,
                   const ErrorBound& bound) const;
 
-  /// Largest relative error of efforts alone.
-  double relativeErrorOfEfforts(const std::vector<double>& efforts) const;
+  /// Of efforts alone, in double.
+  /// @param bound after bound.compute(motion, limits.least).
+  Errors errorsOfEfforts(const std::vector<double>& efforts, const PrecisionLimits& limits,
+                         const ErrorBound& bound) const;
 
   /// Largest difference between these results and another state's, relative to the largest of the
   /// kind in this one.
@@ -70,6 +74,7 @@ class ExactResults {
     ExactNumber force[3], moment[3];
   };
   static Wrench split(const Reference113::Wrench& wrench);
+  void countSubtrees(const ErrorBound& bound);
   void noteLargest(const ErrorBound& bound);
   bool turns(std::size_t coordinate) const;
   void judgeEfforts(const std::vector<long double>& results, const PrecisionLimits& limits,
@@ -77,13 +82,12 @@ class ExactResults {
   void judgeWrenches(const std::vector<Wrench>& exact, const std::vector<long double>& results,
                      const PrecisionLimits& limits, const ErrorBound& bound, const char* axes,
                      Errors& errors) const;
-  void include(const Wrench& wrench);
-  void judge(const std::vector<Wrench>& exact, const std::vector<long double>& results,
-             const PrecisionLimits& limits, const char* axes, Errors& errors) const;
 
   const Mechanism& mechanism_;
   std::vector<ExactNumber> efforts_;
   std::vector<Wrench> child_axes_, root_axes_;
+  std::vector<int> subtree_depths_,
+      effort_subtree_depths_;  // as ErrorBound's without joints before
   long double largest_force_ = 0, largest_moment_ = 0;
 };
 

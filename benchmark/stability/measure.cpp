@@ -82,10 +82,21 @@ void Verdict::include(const Verdict& other) {
     }
   }
   sensitivity = std::max(sensitivity, other.sensitivity);
-  if (other.kdl) kdl = std::max(kdl.value_or(0), *other.kdl);
+  if (other.kdl) {
+    if (!kdl) kdl = Errors();
+    kdl->include(*other.kdl);
+  }
   if (!other.certificates) return;
   if (!certificates) certificates = WorstCertificates();
   certificates->include(*other.certificates);
+}
+
+double Verdict::overSubtreeBound(const std::string& precision) const {
+  double largest = 0;
+  for (const PathVerdict& path : paths) {
+    if (path.precision == precision) largest = std::max(largest, path.errors.over_subtree_bound);
+  }
+  return largest;
 }
 
 Verdict measureStates(const StabilityCase& stability_case, InputNumbers numbers, std::uint32_t seed,
@@ -130,9 +141,11 @@ Verdict measureStates(const StabilityCase& stability_case, InputNumbers numbers,
   }
   if (!is_float && kdlComputes(mechanism, scene)) {
     const std::vector<std::vector<double>> efforts = kdlEfforts(mechanism, scene, motions);
-    verdict.kdl = 0;
+    const PrecisionLimits limits = limitsOf<double>();
+    verdict.kdl = Errors();
     for (std::size_t n = 0; n < exact.size(); ++n) {
-      verdict.kdl = std::max(*verdict.kdl, exact[n].relativeErrorOfEfforts(efforts[n]));
+      bound.compute(motions[n], limits.least);
+      verdict.kdl->include(exact[n].errorsOfEfforts(efforts[n], limits, bound));
     }
   }
   return verdict;

@@ -22,11 +22,13 @@ struct PathVerdict {
 struct Verdict {
   std::vector<PathVerdict> paths;  ///< none where the states are no numbers of float
   double sensitivity = 0;          ///< see README
-  std::optional<double> kdl;       ///< largest relative error of KDL's efforts
+  std::optional<Errors> kdl;       ///< of KDL's efforts
   /// Of one sample by the chosen instruction set, where numbers are double.
   std::optional<WorstCertificates> certificates;
 
   void include(const Verdict& other);
+  /// Largest error of all paths of a precision over the narrower bound.
+  double overSubtreeBound(const std::string& precision) const;
 };
 
 /// Numbers of the input.

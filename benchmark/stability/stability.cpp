@@ -135,13 +135,13 @@ std::string csv(const std::vector<Sweep>& sweeps, const std::vector<std::vector<
       "one_ulp_sensitivity,kdl_relative_error\n";
   for (std::size_t s = 0; s < sweeps.size(); ++s) {
     for (std::size_t v = 0; v < rows[s].size(); ++v) {
-      const std::optional<double>& kdl = rows[s][v].of_double.kdl;
+      const std::optional<Errors>& kdl = rows[s][v].of_double.kdl;
       for (const Verdict* verdict : {&rows[s][v].of_double, &rows[s][v].of_float}) {
         for (const PathVerdict& path : verdict->paths) {
           text += sweeps[s].scene + ',' + sweeps[s].parameter + ',' + number(sweeps[s].values[v]) +
                   ',' + path.path + ',' + path.precision + ',' + number(path.errors.over_bound) +
                   ',' + number(path.errors.relative) + ',' + number(verdict->sensitivity) + ',' +
-                  (kdl ? number(*kdl) : "") + '\n';
+                  (kdl ? number(kdl->relative) : "") + '\n';
         }
       }
     }
@@ -149,16 +149,23 @@ std::string csv(const std::vector<Sweep>& sweeps, const std::vector<std::vector<
   return text;
 }
 
-std::string certificatesCsv(const std::vector<Sweep>& sweeps,
-                            const std::vector<std::vector<Row>>& rows) {
-  std::string text = "scene,parameter,value,power,ground_force,ground_moment,limit\n";
+// Of double alone, one line for each value of a scene.
+std::string detailsCsv(const std::vector<Sweep>& sweeps,
+                       const std::vector<std::vector<Row>>& rows) {
+  std::string text =
+      "scene,parameter,value,certificate_power,certificate_ground_force,"
+      "certificate_ground_moment,certificate_limit,kdl_error_over_bound,"
+      "error_over_subtree_bound\n";
   for (std::size_t s = 0; s < sweeps.size(); ++s) {
     for (std::size_t v = 0; v < rows[s].size(); ++v) {
-      const std::optional<WorstCertificates>& found = rows[s][v].of_double.certificates;
+      const Verdict& verdict = rows[s][v].of_double;
+      const std::optional<WorstCertificates>& found = verdict.certificates;
       if (!found) continue;
       text += sweeps[s].scene + ',' + sweeps[s].parameter + ',' + number(sweeps[s].values[v]) +
               ',' + number(found->worst.power) + ',' + number(found->worst.ground_force) + ',' +
-              number(found->worst.ground_moment) + ',' + number(found->limit) + '\n';
+              number(found->worst.ground_moment) + ',' + number(found->limit) + ',' +
+              (verdict.kdl ? number(verdict.kdl->over_bound) : "") + ',' +
+              number(verdict.overSubtreeBound("double")) + '\n';
     }
   }
   return text;
@@ -261,14 +268,12 @@ int runProgram(const std::vector<std::string>& arguments) {
       }
       return 0;
     }
-    requireWritable({options.output, options.certificates});
+    requireWritable({options.output, options.details});
     const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     Measurement measurement(sweeps, options.quick);
     const auto& rows = measurement.run(options.threads > 0 ? options.threads : cores);
     if (!options.output.empty()) writeFile(options.output, csv(sweeps, rows));
-    if (!options.certificates.empty()) {
-      writeFile(options.certificates, certificatesCsv(sweeps, rows));
-    }
+    if (!options.details.empty()) writeFile(options.details, detailsCsv(sweeps, rows));
     return report(sweeps, rows);
   } catch (const OptionError& error) {
     std::fprintf(stderr, "stability: %s\n", error.what());

@@ -20,13 +20,14 @@ const char kStabilityHelp[] =
 
   stability [options]
 
-  --output FILE        all results as CSV; FILE is complete or not there
-  --certificates FILE  the worst certificates as CSV, in the same way
-  --quick              fewer states of each scene
-  --scene NAME         only this scene; may be repeated
-  --threads N          computes on so many threads (default: one for each core)
-  --list               name the scenes and what is varied in them
-  --help               this text
+  --output FILE   all results as CSV; FILE is complete or not there
+  --details FILE  of double, for each value of a scene: the worst certificates, KDL's error over
+                  the bound, the worst error over the narrower bound; as CSV, in the same way
+  --quick         fewer states of each scene
+  --scene NAME    only this scene; may be repeated
+  --threads N     computes on so many threads (default: one for each core)
+  --list          name the scenes and what is varied in them
+  --help          this text
 
 Every scene varies one parameter of a mechanism or its motion. For each value random states, the
 same in every run, are computed in every way that the package has: one sample and blocks in both
@@ -46,6 +47,11 @@ one_ulp_sensitivity what the exact results change by, in the same measure, when 
                     float, of double's for the others, whose motions are double
 kdl_relative_error  the error of KDL's efforts, in the same measure; empty where KDL has no solver:
                     mimic joints, joint terms
+
+In the details, kdl_error_over_bound is the largest error of KDL's efforts over the same 4 L eps S.
+error_over_subtree_bound is the largest error of the package over a narrower bound, whose L counts
+no joints before the one whose result it is. That is no limit: orientation in the field of gravity
+is a product of the rotations before the joint.
 
 The efforts and the reaction of ground of one sample of double, by the chosen instruction set, are
 certified as well (Certifier, certificates.h). A certificate is relative to the sums of norms that
@@ -67,8 +73,8 @@ StabilityOptions parseOptions(const std::vector<std::string>& arguments) {
     };
     if (option == "--output") {
       options.output = value();
-    } else if (option == "--certificates") {
-      options.certificates = value();
+    } else if (option == "--details") {
+      options.details = value();
     } else if (option == "--scene") {
       options.scenes.push_back(value());
     } else if (option == "--threads") {
@@ -83,8 +89,8 @@ StabilityOptions parseOptions(const std::vector<std::string>& arguments) {
       throw OptionError("unknown option '" + option + "'");
     }
   }
-  if (!options.output.empty() && options.output == options.certificates) {
-    throw OptionError("--output and --certificates both name '" + options.output + "'");
+  if (!options.output.empty() && options.output == options.details) {
+    throw OptionError("--output and --details both name '" + options.output + "'");
   }
   return options;
 }

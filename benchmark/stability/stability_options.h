@@ -8,7 +8,7 @@ namespace virtual_work_dynamics {
 
 struct StabilityOptions {
   std::string output;               ///< empty: no table as CSV
-  std::string certificates;         ///< empty: no table of certificates
+  std::string details;              ///< empty: no table of what is measured of double alone
   std::vector<std::string> scenes;  ///< empty: all
   int threads = 0;                  ///< 0: as many as cores
   bool quick = false;

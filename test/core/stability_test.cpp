@@ -114,6 +114,19 @@ TEST_F(StabilityJudge, FindsAnErrorOfOneNumberInEveryKindOfResult) {
   }
 }
 
+TEST_F(StabilityJudge, CountsNoJointsBeforeTheOneInTheNarrowerBound) {
+  const std::size_t joints = case_.mechanism.joints().size();  // a chain's
+  StateResults wrong = good_;
+  wrong.efforts.front() += 1e-9L;
+  EXPECT_GT(judged(wrong).over_bound, 1);
+  EXPECT_DOUBLE_EQ(judged(wrong).over_subtree_bound, judged(wrong).over_bound);
+  wrong = good_;
+  wrong.efforts.back() += 1e-9L;
+  EXPECT_GT(judged(wrong).over_bound, 1);
+  EXPECT_DOUBLE_EQ(judged(wrong).over_subtree_bound,
+                   static_cast<double>(joints) * judged(wrong).over_bound);
+}
+
 TEST_F(StabilityJudge, TakesWhatIsNotFiniteForAnInfiniteError) {
   for (const long double bad : {std::numeric_limits<long double>::quiet_NaN(),
                                 std::numeric_limits<long double>::infinity()}) {
