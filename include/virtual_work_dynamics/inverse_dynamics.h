@@ -53,8 +53,8 @@ class InverseDynamics {
   /// at the ends of branches, terms of motions and gravity that are zero. Fixed joints are lumped
   /// into their parents unless their reaction is requested.
   /// @throws SceneError when scene or request name a joint or link that the mechanism lacks, or a
-  ///   reaction twice, or when the scene is strict about inertias and the mechanism has doubtful
-  ///   ones; Error when the instruction set is not supported.
+  ///   reaction twice, when the scene is strict about inertias and the mechanism has doubtful ones,
+  ///   or when it needsClosedLoops(); Error when the instruction set is not supported.
   InverseDynamics(const Mechanism& mechanism, const Scene& scene, const Request& request,
                   InstructionSet instruction_set = chosenInstructionSet());
   /// Everything the scene asks for: efforts, and its reactions in both axes.

@@ -35,11 +35,78 @@ struct JointTerms {
   double rotor_inertia = 0;  ///< reflected to the joint: gear ratio squared included, kg m^2 or kg
 };
 
+/// A frame on a link.
+struct LinkFrame {
+  std::string link;
+  Eigen::Vector3d xyz = Eigen::Vector3d::Zero();  ///< origin in the link's frame, m
+  Eigen::Vector3d rpy = Eigen::Vector3d::Zero();  ///< orientation, as in a URDF: fixed x, y, z, rad
+};
+
+/// What a closure leaves free of the motion of its child frame relative to its parent frame.
+enum class ClosureType {
+  kFixed,        ///< nothing
+  kRevolute,     ///< a turn about z
+  kPrismatic,    ///< a slide along z
+  kCylindrical,  ///< both
+  kUniversal,    ///< turns about the parent's z and the child's x, which stay normal to each other
+  kSpherical,    ///< all turns
+  kPlanar,       ///< slides along x and y and a turn about z
+  kDistance      ///< everything but the distance of the origins: a massless rod
+};
+
+/// A joint that closes a loop of the mechanism: two frames on two links.
+struct Closure {
+  std::string name;
+  ClosureType type = ClosureType::kFixed;
+  LinkFrame parent;
+  LinkFrame child;
+  /// Of kDistance, m; not given: the distance in the assembly.
+  std::optional<double> length;
+};
+
+/// A massless spring between two points of the mechanism.
+struct PointSpring {
+  std::string name;
+  std::string link_a, link_b;
+  Eigen::Vector3d at_a = Eigen::Vector3d::Zero();  ///< in the frame of link_a, m
+  Eigen::Vector3d at_b = Eigen::Vector3d::Zero();
+  double stiffness = 0;    ///< N/m
+  double rest_length = 0;  ///< m
+};
+
+/// A number that belongs to a joint or closure.
+struct NamedNumber {
+  std::string name;
+  double value = 0;
+};
+
+/// What is reported of forces that rigid-body mechanics does not determine.
+enum class RedundancyPolicy {
+  kMinimumNorm,  ///< the least sum of squares of the closures' forces and moments over `length`
+  kZeroAt,       ///< as little as possible at the closures named, then as kMinimumNorm
+  kStiffness  ///< least sum of squares of reactions, each over its joint's or closure's stiffness
+};
+
+/// How that choice is made. Where there are more actuated joints than degrees of freedom the
+/// efforts come first, those of the least weighted sum of squares, whatever the policy: they are
+/// for the controller to choose, not for the stiffness of joints. Policies choose among what is
+/// then left.
+struct Redundancy {
+  RedundancyPolicy policy = RedundancyPolicy::kMinimumNorm;
+  std::vector<std::string> zero_at;         ///< closures
+  std::vector<NamedNumber> stiffness;       ///< of joints and closures, relative; others: 1
+  std::vector<NamedNumber> effort_weights;  ///< of actuated joints, in least squares; others: 1
+  /// Relative, of the length-scaled system. Closures whose frames fit each other no better than
+  /// this count as closed.
+  double rank_tolerance = 1e-10;
+  std::optional<double> length;  ///< m, makes moments comparable with forces; auto
+};
+
 /// Which reactions a scene asks for.
 enum class ReactionSelection {
-  kAll,  ///< every movable joint, mimic joints included
+  kAll,  ///< every movable joint, mimic joints included, and every closure
   kNone,
-  kNamed  ///< the joints in Scene::reaction_names; fixed joints and "ground" only this way
+  kNamed  ///< those in Scene::reaction_names; fixed joints and "ground" only this way
 };
 
 /// What a user wants of a mechanism; names are resolved when it is compiled (InverseDynamics).
@@ -55,10 +122,24 @@ struct Scene {
   std::vector<JointTerms> joints;  ///< for some joints, each once
   /// Damping and friction of the description count for joints whose terms do not give them.
   bool use_urdf_dynamics = false;
+
+  std::vector<Closure> closures;  ///< none: an open chain
+  std::vector<PointSpring> springs;
+  /// Joints, and closures with one free axis, that carry effort; the others are passive. Not given:
+  /// every joint of the tree is actuated.
+  std::optional<std::vector<std::string>> actuated;
+  /// Positions of joints from which the loops are assembled; others start at 0. Actuated ones stay
+  /// there.
+  std::vector<NamedNumber> assembly;
+  Redundancy redundancy;
 };
 
-/// Names of the reactions that the scene asks for: "ground" first, then depth-first order.
-/// @throws SceneError for a name that is no joint, or that is given twice.
+/// Whether a scene has closures, springs or passive joints, which only ClosedLoopDynamics knows.
+bool needsClosedLoops(const Scene& scene);
+
+/// Names of the reactions that the scene asks for: "ground" first, then joints in depth-first
+/// order, then closures in the scene's.
+/// @throws SceneError for a name that is no joint and no closure, or that is given twice.
 std::vector<std::string> requestedReactions(const Mechanism& mechanism, const Scene& scene);
 
 }  // namespace virtual_work_dynamics

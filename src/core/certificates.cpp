@@ -215,7 +215,7 @@ struct Certifier::Impl {
 };
 
 Certifier::Certifier(const Mechanism& mechanism, const Scene& scene)
-    : impl_(new Impl(mechanism, scene)) {}
+    : impl_(new Impl(mechanism, openChain(scene))) {}
 
 Certifier::~Certifier() = default;
 Certifier::Certifier(Certifier&&) noexcept = default;

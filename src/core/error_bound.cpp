@@ -182,7 +182,7 @@ struct ErrorBound::Impl {
 };
 
 ErrorBound::ErrorBound(const Mechanism& mechanism, const Scene& scene)
-    : impl_(new Impl(mechanism, scene)) {}
+    : impl_(new Impl(mechanism, openChain(scene))) {}
 
 ErrorBound::~ErrorBound() = default;
 ErrorBound::ErrorBound(ErrorBound&&) noexcept = default;

@@ -11,6 +11,9 @@ namespace virtual_work_dynamics {
 /// @throws MotionError naming the first vector of `motion` whose length is not `coordinates`.
 void requireLengths(const Motion& motion, Eigen::Index coordinates);
 
+/// The scene. @throws SceneError when it needs ClosedLoopDynamics, naming why.
+const Scene& openChain(const Scene& scene);
+
 /// Index of the link that an applied wrench acts on. @throws SceneError when there is none.
 int linkOf(const Mechanism& mechanism, const AppliedWrench& wrench);
 

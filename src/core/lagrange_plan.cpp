@@ -148,6 +148,7 @@ LagrangePlan<Real>::LagrangePlan(const Mechanism& mechanism, const Scene& scene,
     : gravity(triple<Real>(scene.gravity)),
       static_motion(scene.static_motion),
       coordinate_count(static_cast<int>(mechanism.coordinates().size())) {
+  openChain(scene);
   checkInertias(mechanism, scene);
   for (const Joint& joint : mechanism.joints()) joints.push_back(jointData<Real>(joint));
   for (const Link& link : mechanism.links()) links.push_back(linkData<Real>(link));

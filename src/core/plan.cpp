@@ -97,6 +97,7 @@ class Compiler {
       : mechanism_(mechanism), scene_(scene), request_(request) {}
 
   Plan<Real> compile() {
+    openChain(scene_);
     checkInertias();
     resolveReactions();
     plan_.coordinates = static_cast<int>(mechanism_.coordinates().size());

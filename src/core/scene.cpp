@@ -9,9 +9,15 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-void checkNames(const Mechanism& mechanism, const std::vector<std::string>& names) {
+bool isClosure(const Scene& scene, const std::string& name) {
+  return std::any_of(scene.closures.begin(), scene.closures.end(),
+                     [&](const Closure& closure) { return closure.name == name; });
+}
+
+void checkNames(const Mechanism& mechanism, const Scene& scene) {
+  const std::vector<std::string>& names = scene.reaction_names;
   for (auto name = names.begin(); name != names.end(); ++name) {
-    if (*name != kGround && mechanism.jointIndex(*name) < 0) {
+    if (*name != kGround && mechanism.jointIndex(*name) < 0 && !isClosure(scene, *name)) {
       throw SceneError("reactions: the robot has no joint '" + *name + "'");
     }
     if (std::find(names.begin(), name, *name) != name) {
@@ -22,11 +28,15 @@ void checkNames(const Mechanism& mechanism, const std::vector<std::string>& name
 
 }  // namespace
 
+bool needsClosedLoops(const Scene& scene) {
+  return !scene.closures.empty() || !scene.springs.empty() || scene.actuated;
+}
+
 std::vector<std::string> requestedReactions(const Mechanism& mechanism, const Scene& scene) {
   if (scene.reactions == ReactionSelection::kNone) return {};
   const auto& wanted = scene.reaction_names;
   const bool all = scene.reactions == ReactionSelection::kAll;
-  if (!all) checkNames(mechanism, wanted);
+  if (!all) checkNames(mechanism, scene);
   const auto isNamed = [&](const std::string& name) {
     return std::find(wanted.begin(), wanted.end(), name) != wanted.end();
   };
@@ -34,6 +44,9 @@ std::vector<std::string> requestedReactions(const Mechanism& mechanism, const Sc
   if (!all && isNamed(kGround)) names.emplace_back(kGround);
   for (const Joint& joint : mechanism.joints()) {
     if (all ? joint.type != JointType::kFixed : isNamed(joint.name)) names.push_back(joint.name);
+  }
+  for (const Closure& closure : scene.closures) {
+    if (all || isNamed(closure.name)) names.push_back(closure.name);
   }
   return names;
 }
