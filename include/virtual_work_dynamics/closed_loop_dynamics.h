@@ -1,0 +1,93 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "virtual_work_dynamics/inverse_dynamics.h"
+
+namespace virtual_work_dynamics {
+
+/// How far a motion violates the conditions of one closure: largest of its conditions, lengths in m
+/// and directions in rad.
+struct ClosureResidual {
+  double position = 0;      ///< m or rad
+  double velocity = 0;      ///< m/s or rad/s
+  double acceleration = 0;  ///< m/s^2 or rad/s^2
+};
+
+/// What rigid-body mechanics determines at one position, by the null space of [S^T A^T].
+struct Determinacy {
+  int rank = 0;                   ///< of [S^T A^T]
+  int redundant_constraints = 0;  ///< conditions less the rank of A
+  int redundancy = 0;             ///< unknowns less rank: redundant constraints and over-actuation
+  int free_motions = 0;           ///< that no actuated joint and no closure holds
+  double gap = 0;                 ///< between the entries that count for the rank and the others
+  double condition = 0;           ///< estimated, of what is determined
+};
+
+/// Six flags of a wrench: fx fy fz tx ty tz.
+using Determined = std::array<bool, 6>;
+
+/// Inverse dynamics of a mechanism with closures (3.1)-(3.4): the tree by InverseDynamics, its
+/// loops by multipliers, tau_tree = S^T tau + A^T lambda, and the reactions by (3.8) with the
+/// wrench of each closure applied to both of its links. Everything of a scene: closures, springs,
+/// actuated joints. One instance serves one thread.
+class ClosedLoopDynamics {
+ public:
+  /// `request` names joints, closures and "ground".
+  /// @throws SceneError naming what is wrong with closures, springs, actuated joints, assembly or
+  ///   redundancy; when the closures cannot be assembled from the given start, by how much and
+  ///   which; and when actuated joints are too few for the degrees of freedom.
+  ClosedLoopDynamics(const Mechanism& mechanism, const Scene& scene, const Request& request);
+  ~ClosedLoopDynamics();
+  ClosedLoopDynamics(ClosedLoopDynamics&&) noexcept;
+  ClosedLoopDynamics& operator=(ClosedLoopDynamics&&) noexcept;
+
+  Eigen::Index coordinates() const;
+  const Request& request() const;
+  /// The assembled position that the scene's start leads to.
+  const Eigen::VectorXd& assembly() const;
+  /// Whether each generalized coordinate is actuated.
+  const std::vector<bool>& actuated() const;
+  /// Names of actuated closures, whose efforts follow those of the coordinates.
+  const std::vector<std::string>& actuatedClosures() const;
+
+  /// Replaces the passive coordinates of `motion` by those that the closures demand: positions by
+  /// Newton's method from those given (the previous sample's), velocities and accelerations by the
+  /// conditions. False when the loops cannot be closed there. Does not allocate.
+  bool complete(Motion& motion);
+  /// The same with only part of the coordinates given.
+  bool complete(Motion& motion, const std::vector<bool>& given);
+
+  /// Efforts and reactions of one sample. Does not allocate.
+  /// @throws MotionError when a vector of `motion` has the wrong length.
+  void compute(const Motion& motion);
+
+  /// Of each generalized coordinate, zero for passive ones, then of each actuated closure.
+  const Eigen::VectorXd& effort() const;
+  /// In the order of the request. Of a closure: what its parent exerts on its child, about the
+  /// child frame's origin; child axes are that frame's.
+  const std::vector<Wrench>& childAxes() const;
+  const std::vector<Wrench>& rootAxes() const;
+  const std::vector<Pose>& poses() const;
+  const std::vector<Twist>& twists() const;
+  bool finite() const;
+
+  /// What of these is determined.
+  const Determinacy& determinacy() const;
+  const std::vector<bool>& effortDetermined() const;
+  const std::vector<Determined>& childAxesDetermined() const;
+  const std::vector<Determined>& rootAxesDetermined() const;
+
+  /// Of each closure, of the motion computed last.
+  const std::vector<ClosureResidual>& residuals() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,381 @@
+#include "virtual_work_dynamics/closed_loop_dynamics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/input_checks.h"
+#include "core/loop_assembly.h"
+#include "core/loop_completion.h"
+#include "core/loop_forces.h"
+#include "core/loop_groups.h"
+#include "core/loop_kinematics.h"
+#include "core/loop_reactions.h"
+#include "core/loop_scene.h"
+#include "core/point_springs.h"
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+
+namespace {
+
+// Efforts of actuators open by less than this, of unit changes, are determined.
+constexpr double kOpen = 1e-8;
+
+// The tree with what springs exert on it: each has two applied wrenches behind the scene's own.
+Scene treeScene(const Scene& scene, const PointSprings& springs) {
+  Scene tree = withoutLoops(scene);
+  const std::vector<AppliedWrench> ends = springs.wrenches();
+  tree.applied_wrenches.insert(tree.applied_wrenches.end(), ends.begin(), ends.end());
+  return tree;
+}
+
+// Each closure has two more: on its child and on its parent, at the frames' origins.
+Scene closedTreeScene(const Scene& scene, const PointSprings& springs) {
+  Scene tree = treeScene(scene, springs);
+  for (const Closure& closure : scene.closures) {
+    for (const LinkFrame* frame : {&closure.child, &closure.parent}) {
+      AppliedWrench wrench;
+      wrench.link = frame->link;
+      wrench.at = frame->xyz;
+      wrench.axes = Axes::kRoot;
+      tree.applied_wrenches.push_back(wrench);
+    }
+  }
+  return tree;
+}
+
+// The efforts' pass sees whole reactions, whatever is reported of them.
+Scene effortScene(const Scene& scene, const PointSprings& springs) {
+  Scene tree = treeScene(scene, springs);
+  tree.include_active = true;
+  return tree;
+}
+
+// Moving joints of loops when the policy weighs their reactions.
+Request effortRequest(const Mechanism& mechanism, const LoopScene& loops,
+                      const std::vector<LoopGroup>& groups) {
+  Request request;
+  if (loops.policy != RedundancyPolicy::kStiffness) return request;
+  for (const LoopGroup& group : groups) {
+    for (const LoopGroup::CrossedJoint& crossed : group.joints) {
+      const Joint& joint = mechanism.joints()[static_cast<std::size_t>(crossed.joint)];
+      if (crossed.moves) request.root_axes.push_back(joint.name);
+    }
+  }
+  return request;
+}
+
+Request reactionRequest(const Request& wanted, const LoopReactions& child_axes,
+                        const LoopReactions& root_axes) {
+  Request request;
+  request.efforts = false;
+  request.child_axes = child_axes.treeNames();
+  request.root_axes = root_axes.treeNames();
+  request.poses = wanted.poses;
+  request.twists = wanted.twists;
+  return request;
+}
+
+double largestOf(const Eigen::VectorXd& values, Eigen::Index begin, Eigen::Index end) {
+  return values.segment(begin, end - begin).cwiseAbs().maxCoeff();
+}
+
+bool allFinite(const std::vector<Wrench>& wrenches) {
+  return std::all_of(wrenches.begin(), wrenches.end(), [](const Wrench& wrench) {
+    return wrench.force.allFinite() && wrench.torque.allFinite();
+  });
+}
+
+}  // namespace
+
+struct ClosedLoopDynamics::Impl {
+  Impl(const Mechanism& mechanism, const Scene& scene, const Request& wanted);
+
+  void close(const Mechanism& mechanism, const Scene& scene);
+  void push(const Motion& motion);
+  void solve();
+  void react(const Motion& motion);
+  void setFlags();
+  void setDeterminacy();
+  void setResiduals(const Motion& motion);
+
+  Request request;
+  bool static_motion;
+  std::size_t own_wrenches;  // of the scene
+  LoopScene loops;
+  LoopKinematics kinematics;
+  PointSprings springs;
+  std::vector<LoopGroup> groups;
+  std::unique_ptr<LoopCompletion> completion;
+  Eigen::VectorXd assembly;
+  std::vector<LoopForces> forces;
+  std::unique_ptr<LoopReactions> child_axes, root_axes;
+
+  // Efforts of the tree without closures, then reactions with them.
+  std::unique_ptr<InverseDynamics> first_pass, second_pass;
+  std::unique_ptr<Workspace> first, second;
+  std::vector<Wrench> tree_reactions;   // by joint
+  std::vector<int> reaction_joints;     // of the first pass
+  std::vector<ClosureWrench> closures;  // by closure
+
+  Eigen::VectorXd effort;
+  std::vector<std::string> actuated_closures;
+  std::vector<Pose> poses;
+  std::vector<Twist> twists;
+  Determinacy determinacy;
+  std::vector<bool> effort_determined;
+  std::vector<double> effort_freedoms;  // sums of squares
+  std::vector<ClosureResidual> residuals;
+  Motion rest;
+};
+
+ClosedLoopDynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene,
+                               const Request& wanted)
+    : request(wanted),
+      static_motion(scene.static_motion),
+      own_wrenches(scene.applied_wrenches.size()),
+      loops(resolveLoopScene(mechanism, scene)),
+      kinematics(mechanism, scene),
+      springs(mechanism, scene),
+      groups(loopGroups(mechanism, kinematics, scene.closures.size())),
+      tree_reactions(mechanism.joints().size()),
+      closures(scene.closures.size()),
+      residuals(scene.closures.size()),
+      rest(static_cast<Eigen::Index>(mechanism.coordinates().size())) {
+  close(mechanism, scene);
+  child_axes.reset(
+      new LoopReactions(mechanism, scene, loops, forces, wanted.child_axes, Axes::kLink));
+  root_axes.reset(
+      new LoopReactions(mechanism, scene, loops, forces, wanted.root_axes, Axes::kRoot));
+  first_pass.reset(new InverseDynamics(mechanism, effortScene(scene, springs),
+                                       effortRequest(mechanism, loops, groups)));
+  for (const std::string& name : first_pass->request().root_axes) {
+    reaction_joints.push_back(mechanism.jointIndex(name));
+  }
+  second_pass.reset(new InverseDynamics(mechanism, closedTreeScene(scene, springs),
+                                        reactionRequest(wanted, *child_axes, *root_axes)));
+  first.reset(new Workspace(first_pass->makeWorkspace()));
+  second.reset(new Workspace(second_pass->makeWorkspace()));
+  for (const std::size_t c : loops.actuated_closures) {
+    actuated_closures.push_back(scene.closures[c].name);
+  }
+  effort.setZero(loops.start.size() + static_cast<Eigen::Index>(actuated_closures.size()));
+  effort_determined.resize(static_cast<std::size_t>(effort.size()));
+  effort_freedoms.resize(effort_determined.size());
+  if (wanted.poses) poses.resize(wanted.root_axes.size());
+  if (wanted.twists) twists.resize(wanted.root_axes.size());
+}
+
+// The size of the loops is known for good once they are closed.
+void ClosedLoopDynamics::Impl::close(const Mechanism& mechanism, const Scene& scene) {
+  kinematics.setPosition(loops.start);
+  const double start_length = loops.length.value_or(loopLength(groups, kinematics));
+  completion.reset(new LoopCompletion(mechanism, groups, loops.rank_tolerance, start_length));
+  assembly = assemble(scene, loops, *completion, kinematics);
+  const double length = loops.length.value_or(loopLength(groups, kinematics));
+  completion.reset(new LoopCompletion(mechanism, groups, loops.rank_tolerance, length));
+  for (const LoopGroup& group : groups) {
+    forces.emplace_back(mechanism, kinematics, loops, group, length);
+  }
+  requireHeld(mechanism, loops, assembly, *completion, kinematics, forces);
+}
+
+void ClosedLoopDynamics::Impl::push(const Motion& motion) {
+  kinematics.setPosition(motion.q);
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    const Eigen::Vector3d force = springs.force(i, kinematics);
+    for (Workspace* workspace : {first.get(), second.get()}) {
+      workspace->setAppliedWrench(own_wrenches + 2 * i, force, Eigen::Vector3d::Zero());
+      workspace->setAppliedWrench(own_wrenches + 2 * i + 1, -force, Eigen::Vector3d::Zero());
+    }
+  }
+  first_pass->compute(motion, *first);
+  for (std::size_t i = 0; i < reaction_joints.size(); ++i) {
+    tree_reactions[static_cast<std::size_t>(reaction_joints[i])] = first->rootAxes()[i];
+  }
+}
+
+void ClosedLoopDynamics::Impl::solve() {
+  for (std::size_t i = 0; i < loops.actuated.size(); ++i) {
+    const Eigen::Index row = static_cast<Eigen::Index>(i);
+    effort[row] = loops.actuated[i] ? first->effort()[row] : 0;
+  }
+  for (LoopForces& group : forces) {
+    group.setPosition();
+    group.solve(first->effort(), tree_reactions);
+    const LoopForces::State& solution = group.solution();
+    for (std::size_t j = 0; j < group.efforts().size(); ++j) {
+      const LoopForces::Effort& actuator = group.efforts()[j];
+      effort[static_cast<Eigen::Index>(actuator.index)] =
+          actuator.unit * solution.x[static_cast<Eigen::Index>(j)];
+    }
+    for (std::size_t c = 0; c < solution.closures.size(); ++c) {
+      closures[group.group().closures[c]] = solution.closures[c];
+    }
+  }
+}
+
+void ClosedLoopDynamics::Impl::react(const Motion& motion) {
+  for (std::size_t c = 0; c < closures.size(); ++c) {
+    const ClosureWrench& wrench = closures[c];
+    const std::size_t child = own_wrenches + 2 * springs.size() + 2 * c;
+    const Eigen::Vector3d lever = kinematics.childOrigin(c) - kinematics.parentOrigin(c);
+    second->setAppliedWrench(child, wrench.force, wrench.moment);
+    second->setAppliedWrench(child + 1, -wrench.force,
+                             -(wrench.moment + lever.cross(wrench.force)));
+  }
+  second_pass->compute(motion, *second);
+  child_axes->setValues(kinematics, second->childAxes(), closures);
+  root_axes->setValues(kinematics, second->rootAxes(), closures);
+  if (request.poses) root_axes->setPoses(kinematics, second->poses(), poses);
+  if (request.twists) root_axes->setTwists(kinematics, second->twists(), twists);
+}
+
+void ClosedLoopDynamics::Impl::setFlags() {
+  child_axes->reset();
+  root_axes->reset();
+  std::fill(effort_freedoms.begin(), effort_freedoms.end(), 0);
+  for (std::size_t g = 0; g < forces.size(); ++g) {
+    LoopForces& group = forces[g];
+    for (Eigen::Index i = 0; i < group.directions(); ++i) {
+      const LoopForces::State& change = group.direction(i);
+      child_axes->addChange(kinematics, g, group, change);
+      root_axes->addChange(kinematics, g, group, change);
+      for (std::size_t j = 0; j < group.efforts().size(); ++j) {
+        const double open = change.x[static_cast<Eigen::Index>(j)];
+        effort_freedoms[group.efforts()[j].index] += open * open;
+      }
+    }
+  }
+  child_axes->setFlags();
+  root_axes->setFlags();
+  for (std::size_t i = 0; i < effort_freedoms.size(); ++i) {
+    effort_determined[i] = effort_freedoms[i] <= kOpen * kOpen;
+  }
+}
+
+void ClosedLoopDynamics::Impl::setDeterminacy() {
+  // Coordinates in no loop are actuated: each is an unknown of its own.
+  determinacy = {};
+  determinacy.rank = static_cast<int>(loops.start.size());
+  determinacy.gap = std::numeric_limits<double>::infinity();
+  determinacy.condition = 1;
+  for (const LoopForces& group : forces) {
+    determinacy.rank += static_cast<int>(group.rank() - group.coordinates());
+    determinacy.free_motions += static_cast<int>(group.coordinates() - group.rank());
+    determinacy.redundancy += static_cast<int>(group.unknowns() - group.rank());
+    determinacy.redundant_constraints += static_cast<int>(group.redundantConstraints());
+    determinacy.gap = std::min(determinacy.gap, group.gap());
+    determinacy.condition = std::max(determinacy.condition, group.condition());
+  }
+}
+
+void ClosedLoopDynamics::Impl::setResiduals(const Motion& motion) {
+  kinematics.setMotion(static_motion ? rest : motion);
+  for (std::size_t c = 0; c < residuals.size(); ++c) {
+    const Eigen::Index begin = kinematics.firstOf(c), end = kinematics.firstOf(c + 1);
+    residuals[c] = {largestOf(kinematics.phi(), begin, end),
+                    largestOf(kinematics.rates(), begin, end),
+                    largestOf(kinematics.accelerations(), begin, end)};
+  }
+}
+
+ClosedLoopDynamics::ClosedLoopDynamics(const Mechanism& mechanism, const Scene& scene,
+                                       const Request& request)
+    : impl_(new Impl(mechanism, scene, request)) {}
+
+ClosedLoopDynamics::~ClosedLoopDynamics() = default;
+ClosedLoopDynamics::ClosedLoopDynamics(ClosedLoopDynamics&&) noexcept = default;
+ClosedLoopDynamics& ClosedLoopDynamics::operator=(ClosedLoopDynamics&&) noexcept = default;
+
+Eigen::Index ClosedLoopDynamics::coordinates() const {
+  return impl_->loops.start.size();
+}
+
+const Request& ClosedLoopDynamics::request() const {
+  return impl_->request;
+}
+
+const Eigen::VectorXd& ClosedLoopDynamics::assembly() const {
+  return impl_->assembly;
+}
+
+const std::vector<bool>& ClosedLoopDynamics::actuated() const {
+  return impl_->loops.actuated;
+}
+
+const std::vector<std::string>& ClosedLoopDynamics::actuatedClosures() const {
+  return impl_->actuated_closures;
+}
+
+bool ClosedLoopDynamics::complete(Motion& motion) {
+  return complete(motion, impl_->loops.actuated);
+}
+
+bool ClosedLoopDynamics::complete(Motion& motion, const std::vector<bool>& given) {
+  requireLengths(motion, coordinates());
+  if (given.size() != impl_->loops.actuated.size()) {
+    throw MotionError("motion: " + std::to_string(given.size()) +
+                      " coordinates are given or not, the mechanism has " +
+                      std::to_string(coordinates()));
+  }
+  return impl_->completion->complete(impl_->kinematics, motion, given);
+}
+
+void ClosedLoopDynamics::compute(const Motion& motion) {
+  requireLengths(motion, coordinates());
+  impl_->push(motion);
+  impl_->setResiduals(motion);
+  impl_->solve();
+  impl_->react(motion);
+  impl_->setFlags();
+  impl_->setDeterminacy();
+}
+
+const Eigen::VectorXd& ClosedLoopDynamics::effort() const {
+  return impl_->effort;
+}
+
+const std::vector<Wrench>& ClosedLoopDynamics::childAxes() const {
+  return impl_->child_axes->values();
+}
+
+const std::vector<Wrench>& ClosedLoopDynamics::rootAxes() const {
+  return impl_->root_axes->values();
+}
+
+const std::vector<Pose>& ClosedLoopDynamics::poses() const {
+  return impl_->poses;
+}
+
+const std::vector<Twist>& ClosedLoopDynamics::twists() const {
+  return impl_->twists;
+}
+
+bool ClosedLoopDynamics::finite() const {
+  return impl_->effort.allFinite() && allFinite(childAxes()) && allFinite(rootAxes()) &&
+         impl_->second->finite();
+}
+
+const Determinacy& ClosedLoopDynamics::determinacy() const {
+  return impl_->determinacy;
+}
+
+const std::vector<bool>& ClosedLoopDynamics::effortDetermined() const {
+  return impl_->effort_determined;
+}
+
+const std::vector<Determined>& ClosedLoopDynamics::childAxesDetermined() const {
+  return impl_->child_axes->determined();
+}
+
+const std::vector<Determined>& ClosedLoopDynamics::rootAxesDetermined() const {
+  return impl_->root_axes->determined();
+}
+
+const std::vector<ClosureResidual>& ClosedLoopDynamics::residuals() const {
+  return impl_->residuals;
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/loop_groups.h"
+#include "core/loop_kinematics.h"
+#include "core/rank_factorization.h"
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/motion.h"
+
+namespace virtual_work_dynamics {
+
+/// Finds the coordinates that a motion does not give from the conditions of the loops: positions by
+/// Newton's method, velocities by A_p qd_p = -A_g qd_g, accelerations by A_p qdd_p = -(A_g qdd_g +
+/// Ad qd), p: to be found, g: given. Nothing after construction allocates.
+class LoopCompletion {
+ public:
+  /// `length` compares lengths with angles.
+  LoopCompletion(const Mechanism& mechanism, const std::vector<LoopGroup>& groups,
+                 double rank_tolerance, double length);
+
+  /// Closes the loops by moving the coordinates that are not given, from where they are; leaves
+  /// `kinematics` there. False when that fails, with `q` at the best position met.
+  bool close(LoopKinematics& kinematics, Eigen::VectorXd& q, const std::vector<bool>& given);
+
+  /// Does the same and finds velocities and accelerations, too. False also when the conditions
+  /// cannot be met by any, or do not determine them, as in singular positions.
+  bool complete(LoopKinematics& kinematics, Motion& motion, const std::vector<bool>& given);
+
+  /// Rank of the conditions' Jacobian for the coordinates not given, all groups together.
+  Eigen::Index rank(const LoopKinematics& kinematics, const std::vector<bool>& given);
+
+ private:
+  void factorize(const LoopKinematics& kinematics, const LoopGroup& group,
+                 const std::vector<bool>& given);
+  double misfit(const LoopKinematics& kinematics) const;
+  double largest(const Eigen::VectorXd& rates) const;  // lengths over the length
+  void newtonStep(const LoopKinematics& kinematics, const std::vector<bool>& given);
+  bool solveRates(const LoopKinematics& kinematics, const std::vector<bool>& given,
+                  const Eigen::VectorXd& rates, double size, Eigen::VectorXd& unknown);
+  double rowScale(const LoopKinematics& kinematics, Eigen::Index condition) const;
+  double columnScale(int coordinate) const;
+
+  std::vector<LoopGroup> groups_;
+  std::vector<bool> slides_;  // by coordinate
+  double rank_tolerance_;
+  double length_;
+  RankFactorization factorization_;
+  // Of the group in work; its conditions and the coordinates to be found come first.
+  Eigen::MatrixXd A_;
+  Eigen::VectorXd right_, found_;
+  std::vector<int> columns_;
+  std::size_t column_count_ = 0;
+  Eigen::Index row_count_ = 0;
+  Eigen::VectorXd step_, tried_;  // by coordinate
+};
+
+}  // namespace virtual_work_dynamics
