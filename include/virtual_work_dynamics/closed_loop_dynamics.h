@@ -10,8 +10,8 @@
 
 namespace virtual_work_dynamics {
 
-/// How far a motion violates the conditions of one closure: largest of its conditions, lengths in m
-/// and directions in rad.
+/// How far a motion violates the conditions of one closure: the norm of those that are lengths or
+/// of those that are directions, whichever is the larger number.
 struct ClosureResidual {
   double position = 0;      ///< m or rad
   double velocity = 0;      ///< m/s or rad/s
@@ -56,10 +56,14 @@ class ClosedLoopDynamics {
   const std::vector<std::string>& actuatedClosures() const;
 
   /// Replaces the passive coordinates of `motion` by those that the closures demand: positions by
-  /// Newton's method from those given (the previous sample's), velocities and accelerations by the
-  /// conditions. False when the loops cannot be closed there. Does not allocate.
+  /// Newton's method from those in `motion` (the previous sample's), velocities and accelerations
+  /// by the conditions. False when the loops cannot be closed there, when the given velocities or
+  /// accelerations contradict them, and where they do not determine the others, as in a singular
+  /// position; `motion` is then of no use. Does not allocate.
+  /// @throws MotionError when a vector of `motion` has the wrong length.
   bool complete(Motion& motion);
-  /// The same with only part of the coordinates given.
+  /// The same with other coordinates given.
+  /// @throws MotionError when `given` has not one entry for each coordinate.
   bool complete(Motion& motion, const std::vector<bool>& given);
 
   /// Efforts and reactions of one sample. Does not allocate.

@@ -77,8 +77,10 @@ Request reactionRequest(const Request& wanted, const LoopReactions& child_axes,
   return request;
 }
 
-double largestOf(const Eigen::VectorXd& values, Eigen::Index begin, Eigen::Index end) {
-  return values.segment(begin, end - begin).cwiseAbs().maxCoeff();
+double violation(const LoopKinematics& kinematics, const Eigen::VectorXd& values,
+                 std::size_t closure) {
+  const LoopKinematics::Norms norms = kinematics.normsOf(closure, values);
+  return std::max(norms.lengths, norms.directions);
 }
 
 bool allFinite(const std::vector<Wrench>& wrenches) {
@@ -274,10 +276,9 @@ void ClosedLoopDynamics::Impl::setDeterminacy() {
 void ClosedLoopDynamics::Impl::setResiduals(const Motion& motion) {
   kinematics.setMotion(static_motion ? rest : motion);
   for (std::size_t c = 0; c < residuals.size(); ++c) {
-    const Eigen::Index begin = kinematics.firstOf(c), end = kinematics.firstOf(c + 1);
-    residuals[c] = {largestOf(kinematics.phi(), begin, end),
-                    largestOf(kinematics.rates(), begin, end),
-                    largestOf(kinematics.accelerations(), begin, end)};
+    residuals[c] = {violation(kinematics, kinematics.phi(), c),
+                    violation(kinematics, kinematics.rates(), c),
+                    violation(kinematics, kinematics.accelerations(), c)};
   }
 }
 

@@ -12,6 +12,10 @@ namespace {
 
 // How far coordinates are moved to leave a singular position, rad or of the length.
 constexpr double kDisplacement = 0.01;
+// Ends of a rod that are closer, over the length of the loops, give it no direction.
+constexpr double kCoincide = 1e-9;
+// Angles that are smaller beside the distances that remain are not worth a word.
+constexpr double kMatters = 1e-3;
 
 std::string names(const Mechanism& mechanism, const std::vector<std::size_t>& coordinates) {
   std::string text;
@@ -21,21 +25,24 @@ std::string names(const Mechanism& mechanism, const std::vector<std::size_t>& co
   return text;
 }
 
-[[noreturn]] void refuseOpen(const Scene& scene, const LoopKinematics& kinematics) {
+[[noreturn]] void refuseOpen(const Scene& scene, const LoopKinematics& kinematics, double length) {
   std::size_t worst = 0;
-  Eigen::Index condition = 0;
-  double largest = -1;
+  LoopKinematics::Norms largest{0, 0};
   for (std::size_t c = 0; c < scene.closures.size(); ++c) {
-    for (Eigen::Index i = kinematics.firstOf(c); i < kinematics.firstOf(c + 1); ++i) {
-      if (std::abs(kinematics.phi()[i]) <= largest) continue;
-      largest = std::abs(kinematics.phi()[i]);
-      condition = i;
-      worst = c;
+    const LoopKinematics::Norms norms = kinematics.normsOf(c, kinematics.phi());
+    if (norms.lengths / length + norms.directions <=
+        largest.lengths / length + largest.directions) {
+      continue;
     }
+    largest = norms;
+    worst = c;
+  }
+  std::string open = numberText(largest.lengths) + " m";
+  if (largest.directions > largest.lengths / length * kMatters) {
+    open += " and " + numberText(largest.directions) + " rad";
   }
   throw SceneError("closures: '" + scene.closures[worst].name +
-                   "' cannot be assembled from the given start: it stays open by " +
-                   numberText(largest) + (kinematics.turns(condition) ? " rad" : " m"));
+                   "' cannot be assembled from the given start: it stays open by " + open);
 }
 
 // Coordinates that no actuated joint and no closure holds at the present position.
@@ -66,14 +73,15 @@ Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopComplet
   std::vector<bool> given = loops.actuated;
   const std::vector<bool> none(given.size(), false);
   if (completion.rank(kinematics, given) < completion.rank(kinematics, none)) given = none;
-  if (!completion.close(kinematics, q, given)) refuseOpen(scene, kinematics);
+  if (!completion.close(kinematics, q, given)) refuseOpen(scene, kinematics, completion.length());
   for (std::size_t c = 0; c < scene.closures.size(); ++c) {
     if (kinematics.reversed(c)) {
       throw SceneError("closures: '" + scene.closures[c].name +
                        "' is assembled the wrong way round: its frames are half a turn apart");
     }
     if (scene.closures[c].type == ClosureType::kDistance &&
-        kinematics.parentOrigin(c) == kinematics.childOrigin(c)) {
+        (kinematics.parentOrigin(c) - kinematics.childOrigin(c)).norm() <=
+            kCoincide * completion.length()) {
       throw SceneError("closures: '" + scene.closures[c].name +
                        "': its ends coincide in the assembly");
     }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace virtual_work_dynamics {
 
@@ -51,6 +50,10 @@ LoopCompletion::LoopCompletion(const Mechanism& mechanism, const std::vector<Loo
     slides_.push_back(mechanism.joints()[static_cast<std::size_t>(k)].type ==
                       JointType::kPrismatic);
   }
+  in_loop_.resize(slides_.size());
+  for (const LoopGroup& group : groups) {
+    for (const int i : group.coordinates) in_loop_[static_cast<std::size_t>(i)] = true;
+  }
   step_.setZero(static_cast<Eigen::Index>(slides_.size()));
   tried_ = step_;
 }
@@ -95,13 +98,12 @@ Eigen::Index LoopCompletion::rank(const LoopKinematics& kinematics,
 }
 
 double LoopCompletion::misfit(const LoopKinematics& kinematics) const {
-  double largest = 0;
+  double sum = 0;
   for (Eigen::Index i = 0; i < kinematics.conditions(); ++i) {
-    const double scaled = std::abs(rowScale(kinematics, i) * kinematics.phi()[i]);
-    if (!std::isfinite(scaled)) return std::numeric_limits<double>::infinity();
-    largest = std::max(largest, scaled);
+    const double scaled = rowScale(kinematics, i) * kinematics.phi()[i];
+    sum += scaled * scaled;
   }
-  return largest;
+  return std::sqrt(sum);
 }
 
 double LoopCompletion::largest(const Eigen::VectorXd& rates) const {
@@ -139,7 +141,7 @@ bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
   kinematics.setPosition(q);
   double now = misfit(kinematics);
   const double closed = std::max(kClosed, rank_tolerance_);
-  for (int n = 0; n < kMostSteps && now > 0 && std::isfinite(now); ++n) {
+  for (steps_ = 0; steps_ < kMostSteps && now > 0 && std::isfinite(now); ++steps_) {
     newtonStep(kinematics, given);
     double factor = 1, then = now;
     for (int halving = 0; halving < kMostHalvings; ++halving, factor /= 2) {
@@ -190,6 +192,7 @@ bool LoopCompletion::complete(LoopKinematics& kinematics, Motion& motion,
   if (!close(kinematics, motion.q, given)) return false;
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (given[i]) continue;
+    if (!in_loop_[i]) return false;
     motion.qd[static_cast<Eigen::Index>(i)] = 0;
     motion.qdd[static_cast<Eigen::Index>(i)] = 0;
   }

@@ -24,8 +24,12 @@ class LoopCompletion {
   /// `kinematics` there. False when that fails, with `q` at the best position met.
   bool close(LoopKinematics& kinematics, Eigen::VectorXd& q, const std::vector<bool>& given);
 
+  double length() const { return length_; }
+  /// How many steps close() took.
+  int steps() const { return steps_; }
+
   /// Does the same and finds velocities and accelerations, too. False also when the conditions
-  /// cannot be met by any, or do not determine them, as in singular positions.
+  /// cannot be met by any, or do not determine them, as in singular positions and outside loops.
   bool complete(LoopKinematics& kinematics, Motion& motion, const std::vector<bool>& given);
 
   /// Rank of the conditions' Jacobian for the coordinates not given, all groups together.
@@ -43,9 +47,10 @@ class LoopCompletion {
   double columnScale(int coordinate) const;
 
   std::vector<LoopGroup> groups_;
-  std::vector<bool> slides_;  // by coordinate
+  std::vector<bool> slides_, in_loop_;  // by coordinate
   double rank_tolerance_;
   double length_;
+  int steps_ = 0;
   RankFactorization factorization_;
   // Of the group in work; its conditions and the coordinates to be found come first.
   Eigen::MatrixXd A_;

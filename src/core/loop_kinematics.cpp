@@ -110,6 +110,15 @@ bool LoopKinematics::turns(Eigen::Index condition) const {
   return rows_[static_cast<std::size_t>(condition)].kind == Kind::kNormal;
 }
 
+LoopKinematics::Norms LoopKinematics::normsOf(std::size_t closure,
+                                              const Eigen::VectorXd& conditions) const {
+  double lengths = 0, directions = 0;
+  for (Eigen::Index i = firstOf(closure); i < firstOf(closure + 1); ++i) {
+    (turns(i) ? directions : lengths) += conditions[i] * conditions[i];
+  }
+  return {std::sqrt(lengths), std::sqrt(directions)};
+}
+
 Eigen::Vector3d LoopKinematics::axis(const Frame& frame, int i) const {
   return axesOf(frame.link) * frame.R_LF.col(i);
 }

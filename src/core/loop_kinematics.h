@@ -46,6 +46,11 @@ class LoopKinematics {
   void setMotion(const Motion& motion);
   const Eigen::VectorXd& rates() const { return rates_; }                  ///< A qd
   const Eigen::VectorXd& accelerations() const { return accelerations_; }  ///< A qdd + Ad qd
+  /// Norms of what of phi(), rates() or accelerations() are a closure's lengths and directions.
+  struct Norms {
+    double lengths, directions;
+  };
+  Norms normsOf(std::size_t closure, const Eigen::VectorXd& conditions) const;
 
   /// Of a multiplier of one.
   ClosureWrench unitWrench(Eigen::Index condition) const;

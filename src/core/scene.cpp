@@ -18,7 +18,7 @@ void checkNames(const Mechanism& mechanism, const Scene& scene) {
   const std::vector<std::string>& names = scene.reaction_names;
   for (auto name = names.begin(); name != names.end(); ++name) {
     if (*name != kGround && mechanism.jointIndex(*name) < 0 && !isClosure(scene, *name)) {
-      throw SceneError("reactions: the robot has no joint '" + *name + "'");
+      throw SceneError("reactions: there is no joint or closure '" + *name + "'");
     }
     if (std::find(names.begin(), name, *name) != name) {
       throw SceneError("reactions: '" + *name + "' is named twice");
