@@ -66,6 +66,10 @@ class ClosedLoopDynamics {
   /// @throws MotionError when `given` has not one entry for each coordinate.
   bool complete(Motion& motion, const std::vector<bool>& given);
 
+  /// As Workspace::setAppliedWrench().
+  void setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
+                        const Eigen::Vector3d& torque);
+
   /// Efforts and reactions of one sample. Does not allocate.
   /// @throws MotionError when a vector of `motion` has the wrong length.
   void compute(const Motion& motion);

@@ -324,6 +324,15 @@ bool ClosedLoopDynamics::complete(Motion& motion, const std::vector<bool>& given
   return impl_->completion->complete(impl_->kinematics, motion, given);
 }
 
+void ClosedLoopDynamics::setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
+                                          const Eigen::Vector3d& torque) {
+  if (index >= impl_->own_wrenches) {
+    throw SceneError("the scene has no applied wrench " + std::to_string(index));
+  }
+  impl_->first->setAppliedWrench(index, force, torque);
+  impl_->second->setAppliedWrench(index, force, torque);
+}
+
 void ClosedLoopDynamics::compute(const Motion& motion) {
   requireLengths(motion, coordinates());
   impl_->push(motion);
