@@ -1,0 +1,161 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "closed_loop_results.h"
+#include "core/loop_completion.h"
+#include "four_bar.h"
+#include "robot_builder.h"
+#include "slider_crank.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+// Closed forms: Newton's method ends at a few eps, times the condition of the linkage.
+constexpr double kClosedForm = 1e-13;
+
+TEST(LoopCompletion, FourBarFollowsItsCrank) {
+  const FourBar four_bar;
+  for (const char pivot : {'B', 'C', 'D'}) {
+    const FourBar::Cut cut = four_bar.cut(pivot);
+    ClosedLoopDynamics dynamics(cut.mechanism, cut.scene, Request());
+    Motion motion(3);
+    motion.q = dynamics.assembly();
+    for (double angle = 0.8; angle < 13; angle += 0.05) {
+      const auto turnings = four_bar.turnings(angle, 3.1, -4.2);
+      const Motion expected = cut.motion(turnings);
+      motion.q[0] = angle;
+      motion.qd[0] = expected.qd[0];
+      motion.qdd[0] = expected.qdd[0];
+      ASSERT_TRUE(dynamics.complete(motion));
+      for (Eigen::Index i = 0; i < 3; ++i) {
+        const double turns = std::round((motion.q[i] - expected.q[i]) / (2 * M_PI));
+        EXPECT_NEAR(motion.q[i] - 2 * M_PI * turns, expected.q[i], kClosedForm * 20);
+        EXPECT_NEAR(motion.qd[i], expected.qd[i], kClosedForm * 100);
+        EXPECT_NEAR(motion.qdd[i], expected.qdd[i], kClosedForm * 1000);
+      }
+    }
+  }
+}
+
+// The driven joint is the one that was cut: what is given is another coordinate.
+TEST(LoopCompletion, OtherCoordinatesCanBeGiven) {
+  const FourBar four_bar;
+  const FourBar::Cut cut = four_bar.cut('A');
+  ClosedLoopDynamics dynamics(cut.mechanism, cut.scene, Request());
+  const Motion expected = cut.motion(four_bar.turnings(0.9, 3.1, -4.2));
+  Motion motion = expected;
+  motion.q = dynamics.assembly();
+  motion.q[0] = expected.q[0];
+  motion.qd.tail(2).setZero();
+  motion.qdd.tail(2).setZero();
+  ASSERT_TRUE(dynamics.complete(motion, {true, false, false}));
+  EXPECT_LE((motion.q - expected.q).norm(), 20 * kClosedForm);
+  EXPECT_LE((motion.qd - expected.qd).norm(), 100 * kClosedForm);
+  EXPECT_LE((motion.qdd - expected.qdd).norm(), 1000 * kClosedForm);
+}
+
+TEST(LoopCompletion, SliderCrankEqualsItsClosedForm) {
+  const SliderCrank slider_crank;
+  Scene scene = slider_crank.scene("joint_1");
+  ClosedLoopDynamics dynamics(slider_crank.mechanism(), scene, Request());
+  Motion motion(3);
+  motion.q = dynamics.assembly();
+  for (double angle = 0.5; angle < 7; angle += 0.1) {
+    const Motion expected = slider_crank.motion(angle, 2.0, 0.7);
+    motion.q[0] = expected.q[0];
+    motion.qd[0] = expected.qd[0];
+    motion.qdd[0] = expected.qdd[0];
+    ASSERT_TRUE(dynamics.complete(motion));
+    EXPECT_LE((motion.q - expected.q).norm(), 10 * kClosedForm);
+    EXPECT_LE((motion.qd - expected.qd).norm(), 10 * kClosedForm);
+    EXPECT_LE((motion.qdd - expected.qdd).norm(), 100 * kClosedForm);
+  }
+}
+
+// 0.1 -> 1e-2 -> 1e-4 -> 1e-8 -> 1e-16, and one step that finds no more to do.
+TEST(LoopCompletion, ConvergesQuadratically) {
+  const FourBar four_bar;
+  const FourBar::Cut cut = four_bar.cut('D');
+  LoopKinematics kinematics(cut.mechanism, cut.scene);
+  const auto groups = loopGroups(cut.mechanism, kinematics, 1);
+  LoopCompletion completion(cut.mechanism, groups, 1e-10, 1);
+  Eigen::VectorXd q = cut.motion(four_bar.turnings(1.1, 0, 0)).q;
+  q[0] += 0.1;
+  ASSERT_TRUE(completion.close(kinematics, q, {true, false, false}));
+  EXPECT_LE(completion.steps(), 6);
+  EXPECT_GE(completion.steps(), 3);
+  EXPECT_LE(kinematics.phi().cwiseAbs().maxCoeff(), 1e-15);
+}
+
+TEST(LoopCompletion, SaysWhenTheLoopCannotBeClosed) {
+  const SliderCrank slider_crank;
+  ClosedLoopDynamics dynamics(slider_crank.mechanism(), slider_crank.scene("joint_3"), Request());
+  Motion motion(3);
+  motion.q = dynamics.assembly();
+  EXPECT_TRUE(dynamics.complete(motion));
+  motion.q[2] = SliderCrank::kCrank + SliderCrank::kRod + 0.01;
+  EXPECT_FALSE(dynamics.complete(motion));
+  motion.q = dynamics.assembly();
+  motion.q[1] = std::nan("");
+  EXPECT_FALSE(dynamics.complete(motion));
+}
+
+// At dead centre no motion of the crank follows from the slider's.
+TEST(LoopCompletion, SaysWhenTheMotionIsNotDetermined) {
+  const SliderCrank slider_crank;
+  ClosedLoopDynamics dynamics(slider_crank.mechanism(), slider_crank.scene("joint_3"), Request());
+  Motion motion = slider_crank.motion(0, 0, 0);
+  EXPECT_FALSE(dynamics.complete(motion));
+}
+
+// Two coordinates of a linkage with one degree of freedom: the second must fit the first.
+TEST(LoopCompletion, SaysWhenTheMotionIsImpossible) {
+  const FourBar four_bar;
+  const FourBar::Cut cut = four_bar.cut('D');
+  ClosedLoopDynamics dynamics(cut.mechanism, cut.scene, Request());
+  Motion motion = cut.motion(four_bar.turnings(1.1, 3, -2));
+  const std::vector<bool> two{true, true, false};
+  EXPECT_TRUE(dynamics.complete(motion, two));
+  motion.qdd[1] += 1e-6;
+  EXPECT_FALSE(dynamics.complete(motion, two));
+  motion = cut.motion(four_bar.turnings(1.1, 3, -2));
+  motion.qd[1] += 1e-6;
+  EXPECT_FALSE(dynamics.complete(motion, two));
+}
+
+TEST(LoopCompletion, SaysWhenACoordinateIsInNoLoop) {
+  const SliderCrank slider_crank(0, true);
+  Scene scene = slider_crank.scene("joint_1");
+  scene.actuated->push_back("joint_4");
+  ClosedLoopDynamics dynamics(slider_crank.mechanism(), scene, Request());
+  Motion motion = slider_crank.motion(0.7, 2, 0, 4);
+  EXPECT_TRUE(dynamics.complete(motion));
+  EXPECT_FALSE(dynamics.complete(motion, {true, false, false, false}));
+}
+
+TEST(LoopCompletion, ResidualsAreThoseOfTheMotion) {
+  const SliderCrank slider_crank;
+  ClosedLoopDynamics dynamics(slider_crank.mechanism(), slider_crank.scene("joint_1"), Request());
+  const Motion closed = slider_crank.motion(0.6, 2, 0);
+  const auto residualOf = [&](const Motion& motion) {
+    dynamics.compute(motion);
+    return dynamics.residuals()[0];
+  };
+  EXPECT_LE(residualOf(closed).position, 1e-15);
+  EXPECT_LE(residualOf(closed).velocity, 1e-14);
+  EXPECT_LE(residualOf(closed).acceleration, 1e-13);
+  Motion motion = closed;
+  motion.q[2] += 1e-3;
+  EXPECT_NEAR(residualOf(motion).position, 1e-3, 1e-14);
+  motion = closed;
+  motion.qd[2] += 2e-3;
+  EXPECT_NEAR(residualOf(motion).velocity, 2e-3, 1e-14);
+  motion = closed;
+  motion.qdd[2] += 3e-3;
+  EXPECT_NEAR(residualOf(motion).acceleration, 3e-3, 1e-13);
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics
