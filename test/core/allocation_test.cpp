@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "allocation_guard.h"
+#include "four_bar.h"
 #include "sample_robots.h"
 #include "virtual_work_dynamics/block.h"
 #include "virtual_work_dynamics/certificates.h"
+#include "virtual_work_dynamics/closed_loop_dynamics.h"
 #include "virtual_work_dynamics/error_bound.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/lagrange_dynamics.h"
@@ -104,6 +106,46 @@ TEST(Certifier, CheckDoesNotAllocate) {
     bound.compute(motion);
   }
   EXPECT_EQ(guard.allocations(), 0u);
+}
+
+// An over-actuated linkage with a spring, so that every step of the solution is taken, at an
+// ordinary position and at its change point.
+TEST(ClosedLoopDynamics, ComputeAndCompleteDoNotAllocate) {
+  FourBar four_bar;
+  four_bar.lengths = {0.3L, 0.8L, 0.3L, 0.8L};
+  FourBar::Cut cut = four_bar.cut('D');
+  cut.scene.assembly = {{"A", 1.0}, {"B", -1.0}, {"C", 1.0}};
+  PointSpring spring;
+  spring.link_a = "base";
+  spring.link_b = "coupler";
+  spring.stiffness = 3;
+  cut.scene.springs = {spring};
+  Request request;
+  request.child_axes = request.root_axes = {"A", "B", "C", "D", "ground"};
+  request.poses = request.twists = true;
+  for (const RedundancyPolicy policy :
+       {RedundancyPolicy::kMinimumNorm, RedundancyPolicy::kZeroAt, RedundancyPolicy::kStiffness}) {
+    for (const bool both : {false, true}) {
+      cut.scene.actuated = std::vector<std::string>{"A"};
+      if (both) cut.scene.actuated->push_back("D");
+      cut.scene.redundancy.policy = policy;
+      cut.scene.redundancy.zero_at = {"D"};
+      ClosedLoopDynamics dynamics(cut.mechanism, cut.scene, request);
+      Motion motion = cut.motion({{{0.9, 1, 2}, {0, 0, 0}, {0.9, 1, 2}}});
+      const Motion change_point(3);
+      const std::vector<bool> given{true, false, false};
+      const AllocationGuard guard;
+      EXPECT_TRUE(dynamics.complete(motion, given));
+      EXPECT_TRUE(dynamics.complete(motion));
+      dynamics.compute(motion);
+      const int redundancy = dynamics.determinacy().redundancy;
+      dynamics.compute(change_point);
+      EXPECT_EQ(guard.allocations(), 0u);
+      EXPECT_EQ(redundancy, both ? 4 : 3);
+      EXPECT_EQ(dynamics.determinacy().free_motions, both ? 0 : 1);
+      EXPECT_TRUE(dynamics.finite());
+    }
+  }
 }
 
 template <typename Real>
