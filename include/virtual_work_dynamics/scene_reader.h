@@ -10,7 +10,7 @@ namespace virtual_work_dynamics {
 
 /// Reads a scene from YAML (README, "The scene file"). A null node is the default scene; numeric
 /// strings are numbers.
-/// @throws SceneError naming the key: unknown, not available yet, wrong type or length, not finite.
+/// @throws SceneError naming the key: unknown or missing, wrong type or length, not finite.
 Scene readScene(const YAML::Node& node);
 
 /// The same from a file. @throws FileError when it cannot be read or is no YAML, SceneError as

@@ -172,7 +172,7 @@ TEST_F(OfflineToolErrors, BadRobotsAreNamed) {
 
 TEST_F(OfflineToolErrors, BadScenesAreNamed) {
   EXPECT_TRUE(contains(scene("gravty: [0, 0, 0]\n"), "gravty"));
-  EXPECT_TRUE(contains(scene("closures: []\n"), "not available yet"));
+  EXPECT_TRUE(contains(scene("closures: [{name: pin}]\n"), "closures[0]: type is missing"));
   EXPECT_TRUE(contains(scene("reactions: [hing]\n"), "hing"));
   EXPECT_TRUE(
       contains(failure("--urdf p.urdf --motion m.csv --reactions hinge,hinge", 1), "'hinge'"));

@@ -101,12 +101,6 @@ TEST(SceneReader, RefusesByKey) {
   expectRefusal("use_urdf_dynamics: perhaps", "use_urdf_dynamics");
 }
 
-TEST(SceneReader, LaterKeysAreNotAvailableYet) {
-  for (const char* key : {"springs", "closures", "actuated", "assembly", "redundancy"}) {
-    expectRefusal(std::string(key) + ": []", std::string(key) + ": not available yet");
-  }
-}
-
 TEST(SceneReader, NamesUnreadableFiles) {
   EXPECT_THROW(readSceneFile("/nowhere/scene.yaml"), FileError);
 }
