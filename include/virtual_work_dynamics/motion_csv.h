@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <istream>
 #include <string>
 #include <vector>
@@ -26,7 +27,16 @@ MotionTable readMotionCsv(const std::string& path, const std::vector<std::string
                           std::vector<std::string>* unused = nullptr,
                           std::vector<std::size_t>* lines = nullptr);
 
-/// The same from a stream; `name` stands for the file in messages.
+/// Of the joints that have a position column, in the order of the header, those to be read.
+using JointChoice =
+    std::function<std::vector<std::string>(const std::vector<std::string>& with_positions)>;
+
+/// The same for joints that depend on the header; none are none. What `choose` throws passes.
+MotionTable readMotionCsv(const std::string& path, const JointChoice& choose,
+                          std::vector<std::string>* unused = nullptr,
+                          std::vector<std::size_t>* lines = nullptr);
+
+/// The same as the first from a stream; `name` stands for the file in messages.
 MotionTable readMotionCsv(std::istream& stream, const std::string& name,
                           const std::vector<std::string>& joints = {},
                           std::vector<std::string>* unused = nullptr,

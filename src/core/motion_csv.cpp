@@ -96,11 +96,20 @@ class CsvReader {
 
   MotionTable read(const std::vector<std::string>& joints, std::vector<std::string>* unused,
                    std::vector<std::size_t>* line_numbers) {
+    return read(
+        [&](const std::vector<std::string>& with_positions) {
+          if (joints.empty() && with_positions.empty() && header_.size() > 1) {
+            throw FileError(atHeader() + ": no column position.<joint>");
+          }
+          return joints.empty() ? with_positions : joints;
+        },
+        unused, line_numbers);
+  }
+
+  MotionTable read(const JointChoice& choose, std::vector<std::string>* unused,
+                   std::vector<std::size_t>* line_numbers) {
     readHeader();
-    table_.joints = joints.empty() ? jointsWithPositions() : joints;
-    if (joints.empty() && table_.joints.empty() && header_.size() > 1) {
-      throw FileError(atHeader() + ": no column position.<joint>");
-    }
+    table_.joints = choose(jointsWithPositions());
     assignColumns();
     if (unused != nullptr) {
       unused->clear();
@@ -258,6 +267,12 @@ MotionTable readMotionCsv(const std::string& path, const std::vector<std::string
                           std::vector<std::string>* unused, std::vector<std::size_t>* lines) {
   const std::string text = readTextFile(path);
   return CsvReader(text, path).read(joints, unused, lines);
+}
+
+MotionTable readMotionCsv(const std::string& path, const JointChoice& choose,
+                          std::vector<std::string>* unused, std::vector<std::size_t>* lines) {
+  const std::string text = readTextFile(path);
+  return CsvReader(text, path).read(choose, unused, lines);
 }
 
 MotionTable readMotionCsv(std::istream& stream, const std::string& name,

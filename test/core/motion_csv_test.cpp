@@ -189,6 +189,33 @@ TEST(MotionCsv, ReadsFromAFile) {
   EXPECT_EQ(readMotionCsv(file.path()).positions(0, 0), 1);
 }
 
+TEST(MotionCsv, TheHeaderMayDecideWhichJointsAreRead) {
+  const TemporaryFile file("time,position.c,position.a,velocity.a,position.b\n0,3,1,4,2\n");
+  std::vector<std::string> offered, unused;
+  const auto choose = [&](const std::vector<std::string>& chosen) {
+    return readMotionCsv(
+        file.path(),
+        [&, chosen](const std::vector<std::string>& with_positions) {
+          offered = with_positions;
+          return chosen;
+        },
+        &unused);
+  };
+  const MotionTable one = choose({"a"});
+  EXPECT_EQ(offered, (std::vector<std::string>{"c", "a", "b"}));
+  EXPECT_EQ(one.joints, (std::vector<std::string>{"a"}));
+  EXPECT_EQ(one.positions(0, 0), 1);
+  EXPECT_EQ(one.velocities(0, 0), 4);
+  EXPECT_EQ(unused, (std::vector<std::string>{"position.c", "position.b"}));
+  const MotionTable none = choose({});
+  EXPECT_TRUE(none.joints.empty());
+  EXPECT_EQ(none.times.size(), 1u);
+  EXPECT_EQ(none.positions.rows(), 1);
+  EXPECT_EQ(none.positions.cols(), 0);
+  EXPECT_FALSE(none.hasVelocities());
+  EXPECT_EQ(unused.size(), 4u);
+}
+
 TEST(MotionCsv, SaysWhyAFileCannotBeRead) {
   const auto refusalOfPath = [](const std::string& path) -> std::string {
     try {
