@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "virtual_work_dynamics/certificates.h"
 
@@ -13,13 +14,15 @@ class CertifiedRows {
   CertifiedRows(const Mechanism& mechanism, const Scene& scene, const Request& request)
       : certifier_(mechanism, scene), ground_(Certifier::groundIndex(request)) {}
 
-  /// Of a Workspace, or of LagrangeDynamics. @param line of the row in its file
+  /// Of a Workspace, or of LagrangeDynamics.
+  /// @param line of the row in its file   @param cells gets one for each of kCertificateColumns
   template <typename Results>
-  Certificates check(const Motion& motion, const Results& results, std::size_t line) {
+  void check(const Motion& motion, const Results& results, std::size_t line,
+             std::vector<double>& cells) {
     const Certificates found =
         certifier_.check(motion, results.effort(), results.childAxes()[ground_]);
     note(found, line);
-    return found;
+    cells.insert(cells.end(), {found.power, found.ground_force, found.ground_moment});
   }
 
   /// One line on the worst of all rows.

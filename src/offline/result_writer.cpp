@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "offline/certified_rows.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/number_text.h"
 
@@ -11,9 +10,9 @@ namespace {
 
 constexpr std::size_t kBytesAtOnce = 1 << 18;
 
-const std::string& checkedName(const std::string& name) {
+const std::string& checkedName(const char* what, const std::string& name) {
   if (name.find_first_of(",\"\r\n") != std::string::npos) {
-    throw FileError("joint '" + name +
+    throw FileError(std::string(what) + " '" + name +
                     "': a comma, quote or line end cannot stand in a CSV header");
   }
   return name;
@@ -21,18 +20,17 @@ const std::string& checkedName(const std::string& name) {
 
 }  // namespace
 
-std::string resultHeader(const std::vector<std::string>& coordinates,
-                         const std::vector<std::string>& reactions, bool certificates) {
+std::string resultHeader(const Columns& columns) {
   std::string header = "time";
-  for (const std::string& name : coordinates) header += ",effort." + checkedName(name);
-  for (const std::string& name : reactions) {
-    for (const char* component : {"fx", "fy", "fz", "tx", "ty", "tz"}) {
-      header += ",reaction." + checkedName(name) + "." + component;
+  for (const std::string& name : columns.efforts) {
+    header += ",effort." + checkedName("joint", name);
+  }
+  for (const std::string& name : columns.reactions) {
+    for (const char* component : kWrenchComponents) {
+      header += ",reaction." + checkedName("joint", name) + "." + component;
     }
   }
-  if (certificates) {
-    for (const char* column : kCertificateColumns) header += std::string(",") + column;
-  }
+  for (const std::string& name : columns.more) header += "," + checkedName("column", name);
   return header + "\n";
 }
 
@@ -42,19 +40,14 @@ void ResultWriter::appendCell(double value) {
 }
 
 void ResultWriter::writeRow(double time, const Eigen::VectorXd& effort,
-                            const std::vector<Wrench>& reactions,
-                            const Certificates* certificates) {
+                            const std::vector<Wrench>& reactions, const std::vector<double>& more) {
   appendNumber(text_, time);
   for (Eigen::Index i = 0; i < effort.size(); ++i) appendCell(effort[i]);
   for (const Wrench& wrench : reactions) {
     for (int i = 0; i < 3; ++i) appendCell(wrench.force[i]);
     for (int i = 0; i < 3; ++i) appendCell(wrench.torque[i]);
   }
-  if (certificates) {
-    appendCell(certificates->power);
-    appendCell(certificates->ground_force);
-    appendCell(certificates->ground_moment);
-  }
+  for (const double value : more) appendCell(value);
   text_ += '\n';
   if (text_.size() < kBytesAtOnce) return;
   file_.write(text_);

@@ -5,16 +5,22 @@
 #include <vector>
 
 #include "offline/output_file.h"
-#include "virtual_work_dynamics/certificates.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 
 namespace virtual_work_dynamics {
 
-/// The header line of a result: time, efforts of the coordinates, six columns a reaction, then
-/// those of the certificates where there are any.
-/// @throws FileError naming a joint whose name cannot stand in a CSV header.
-std::string resultHeader(const std::vector<std::string>& coordinates,
-                         const std::vector<std::string>& reactions, bool certificates);
+constexpr const char* kWrenchComponents[] = {"fx", "fy", "fz", "tx", "ty", "tz"};
+
+/// What the columns of a result hold, in this order behind the time.
+struct Columns {
+  std::vector<std::string> efforts;    ///< names of joints
+  std::vector<std::string> reactions;  ///< names of joints, six columns each
+  std::vector<std::string> more;       ///< names of columns
+};
+
+/// The header line of a result.
+/// @throws FileError naming a name that cannot stand in a CSV header.
+std::string resultHeader(const Columns& columns);
 
 /// Writes results as CSV rows, each number with the shortest digits that read back equal; what is
 /// not finite becomes an empty cell.
@@ -22,9 +28,8 @@ class ResultWriter {
  public:
   ResultWriter(OutputFile& file, const std::string& header) : file_(file), text_(header) {}
 
-  /// @param certificates null: there are none
   void writeRow(double time, const Eigen::VectorXd& effort, const std::vector<Wrench>& reactions,
-                const Certificates* certificates);
+                const std::vector<double>& more);
   /// Hands the rest over to the file and commits it.
   void finish();
 

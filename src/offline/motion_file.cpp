@@ -1,0 +1,90 @@
+#include "offline/motion_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "virtual_work_dynamics/error.h"
+#include "virtual_work_dynamics/motion_completion.h"
+#include "virtual_work_dynamics/number_text.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+// Times may be known this coarsely, in parts of their mean spacing, before estimates suffer.
+constexpr double kFineTimes = 1e-6;
+
+// "position.j", "velocity.j", "position.k" -> "j, k"
+std::string jointsOfColumns(const std::vector<std::string>& columns) {
+  std::vector<std::string> joints;
+  std::string text;
+  for (const std::string& column : columns) {
+    const std::string joint = column.substr(column.find('.') + 1);
+    if (std::find(joints.begin(), joints.end(), joint) != joints.end()) continue;
+    text += (joints.empty() ? "" : ", ") + joint;
+    joints.push_back(joint);
+  }
+  return text;
+}
+
+void checkTimes(const MotionFile& motion) {
+  const std::vector<double>& times = motion.table.times;
+  const std::size_t row = firstTimeThatDoesNotIncrease(times);
+  if (row < times.size()) {
+    throw FileError(motion.at(row) + ": time " + numberText(times[row]) + " is not later than " +
+                    numberText(times[row - 1]) +
+                    " in the row before, and derivatives have to be estimated");
+  }
+  const double latest = std::max(std::abs(times.front()), std::abs(times.back()));
+  const double spacing = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  const double resolution = latest * std::numeric_limits<double>::epsilon();
+  if (times.size() > 1 && resolution > kFineTimes * spacing) {
+    std::ostringstream text;
+    text << "warning: " << motion.path << ": times near " << latest << " s are known to "
+         << resolution << " s only, which spoils estimated derivatives; let them start near zero\n";
+    std::cerr << text.str();
+  }
+}
+
+}  // namespace
+
+MotionFile readMotion(const std::string& path, const Mechanism& mechanism) {
+  return readMotion(path, [&](const auto&) { return mechanism.coordinateNames(); });
+}
+
+MotionFile readMotion(const std::string& path, const JointChoice& choose) {
+  MotionFile motion;
+  motion.path = path;
+  std::vector<std::string> unused;
+  motion.table = readMotionCsv(path, choose, &unused, &motion.lines);
+  if (!unused.empty()) {
+    std::cerr << "note: " << path
+              << ": ignored, no coordinates of the robot: " << jointsOfColumns(unused) << "\n";
+  }
+  return motion;
+}
+
+void completeDerivatives(const Mechanism& mechanism, const Scene& scene, MotionFile& motion) {
+  MotionTable& table = motion.table;
+  if (scene.static_motion) {
+    table.velocities = Eigen::MatrixXd::Zero(table.positions.rows(), table.positions.cols());
+    table.accelerations = table.velocities;
+  }
+  std::string missing;
+  if (!table.hasVelocities()) missing = "velocities";
+  if (!table.hasAccelerations()) missing += missing.empty() ? "accelerations" : ", accelerations";
+  if (missing.empty() || table.joints.empty()) return;
+  checkTimes(motion);
+  try {
+    table = completeMotion(mechanism, std::move(table));
+  } catch (const MotionError& error) {
+    throw FileError(motion.path + ": " + error.what());
+  }
+  std::cerr << "note: " << motion.path << ": estimated from the rows around each row: " << missing
+            << "\n";
+}
+
+}  // namespace virtual_work_dynamics
