@@ -92,6 +92,11 @@ class ClosedLoopDynamics {
 
   /// Of each closure, of the motion computed last.
   const std::vector<ClosureResidual>& residuals() const;
+  /// The same without units, to be held against a tolerance: lengths over the size of the loops,
+  /// velocities also over the largest rate of the motion, accelerations over its largest
+  /// acceleration or the square of that rate. Rates below 1/s and accelerations below 1/s^2 count
+  /// as these.
+  const std::vector<ClosureResidual>& relativeResiduals() const;
 
  private:
   struct Impl;

@@ -11,6 +11,7 @@
 #include "core/loop_groups.h"
 #include "core/loop_kinematics.h"
 #include "core/loop_reactions.h"
+#include "core/loop_residuals.h"
 #include "core/loop_scene.h"
 #include "core/point_springs.h"
 #include "virtual_work_dynamics/error.h"
@@ -77,12 +78,6 @@ Request reactionRequest(const Request& wanted, const LoopReactions& child_axes,
   return request;
 }
 
-double violation(const LoopKinematics& kinematics, const Eigen::VectorXd& values,
-                 std::size_t closure) {
-  const LoopKinematics::Norms norms = kinematics.normsOf(closure, values);
-  return std::max(norms.lengths, norms.directions);
-}
-
 bool allFinite(const std::vector<Wrench>& wrenches) {
   return std::all_of(wrenches.begin(), wrenches.end(), [](const Wrench& wrench) {
     return wrench.force.allFinite() && wrench.torque.allFinite();
@@ -100,7 +95,6 @@ struct ClosedLoopDynamics::Impl {
   void react(const Motion& motion);
   void setFlags();
   void setDeterminacy();
-  void setResiduals(const Motion& motion);
 
   Request request;
   bool static_motion;
@@ -128,7 +122,7 @@ struct ClosedLoopDynamics::Impl {
   Determinacy determinacy;
   std::vector<bool> effort_determined;
   std::vector<double> effort_freedoms;  // sums of squares
-  std::vector<ClosureResidual> residuals;
+  std::unique_ptr<LoopResiduals> residuals;
   Motion rest;
 };
 
@@ -143,7 +137,6 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene,
       groups(loopGroups(mechanism, kinematics, scene.closures.size())),
       tree_reactions(mechanism.joints().size()),
       closures(scene.closures.size()),
-      residuals(scene.closures.size()),
       rest(static_cast<Eigen::Index>(mechanism.coordinates().size())) {
   close(mechanism, scene);
   child_axes.reset(
@@ -177,6 +170,7 @@ void ClosedLoopDynamics::Impl::close(const Mechanism& mechanism, const Scene& sc
   assembly = assemble(scene, loops, *completion, kinematics);
   const double length = loops.length.value_or(loopLength(groups, kinematics));
   completion.reset(new LoopCompletion(mechanism, groups, loops.rank_tolerance, length));
+  residuals.reset(new LoopResiduals(mechanism, scene.closures.size(), length));
   for (const LoopGroup& group : groups) {
     forces.emplace_back(mechanism, kinematics, loops, group, length);
   }
@@ -273,15 +267,6 @@ void ClosedLoopDynamics::Impl::setDeterminacy() {
   }
 }
 
-void ClosedLoopDynamics::Impl::setResiduals(const Motion& motion) {
-  kinematics.setMotion(static_motion ? rest : motion);
-  for (std::size_t c = 0; c < residuals.size(); ++c) {
-    residuals[c] = {violation(kinematics, kinematics.phi(), c),
-                    violation(kinematics, kinematics.rates(), c),
-                    violation(kinematics, kinematics.accelerations(), c)};
-  }
-}
-
 ClosedLoopDynamics::ClosedLoopDynamics(const Mechanism& mechanism, const Scene& scene,
                                        const Request& request)
     : impl_(new Impl(mechanism, scene, request)) {}
@@ -336,7 +321,7 @@ void ClosedLoopDynamics::setAppliedWrench(std::size_t index, const Eigen::Vector
 void ClosedLoopDynamics::compute(const Motion& motion) {
   requireLengths(motion, coordinates());
   impl_->push(motion);
-  impl_->setResiduals(motion);
+  impl_->residuals->set(impl_->kinematics, impl_->static_motion ? impl_->rest : motion);
   impl_->solve();
   impl_->react(motion);
   impl_->setFlags();
@@ -385,7 +370,11 @@ const std::vector<Determined>& ClosedLoopDynamics::rootAxesDetermined() const {
 }
 
 const std::vector<ClosureResidual>& ClosedLoopDynamics::residuals() const {
-  return impl_->residuals;
+  return impl_->residuals->values();
+}
+
+const std::vector<ClosureResidual>& ClosedLoopDynamics::relativeResiduals() const {
+  return impl_->residuals->relative();
 }
 
 }  // namespace virtual_work_dynamics
