@@ -24,7 +24,8 @@ Input
   --motion FILE         motion as CSV: a header with the columns time, position.<joint>,
                         velocity.<joint>, acceleration.<joint> in any order (s, rad or m); lines
                         that start with # are comments. Missing accelerations, or velocities, are
-                        estimated from the rows around each row.
+                        estimated from the rows around each row. Where the scene closes loops,
+                        all joints, or the actuated ones only: the others follow.
   --scene FILE          scene file (YAML); the options below override it
 
 What is computed
@@ -39,6 +40,8 @@ What is computed
   --certificates        adds the columns certificate.{power,ground_force,ground_moment}: what each
                         row misses of the balance of power, and ground's wrench of the rates of
                         change of momentum, relative to the sum of all terms' magnitudes
+  --loop-tolerance X    how far the motion may violate closed loops, relative to the loops' size
+                        and to the largest rate and acceleration (default: 1e-6)
   --threads N           divides the rows among N threads (default: 1)
 
 Output
@@ -52,6 +55,12 @@ Output
 The result has the columns time, effort.<joint> (N m or N) and, for each reaction,
 reaction.<name>.{fx,fy,fz,tx,ty,tz}: force (N) and moment about the joint's origin (N m) that the
 parent link exerts on the child link. An empty cell is a value that overflowed.
+
+Where the scene closes loops, closures have effort and reaction columns like joints. Behind them stand
+determined.effort.<joint>, determined.<name>.{fx,fy,fz,tx,ty,tz}: 1 where rigid-body mechanics
+determines the value, 0 where the scene's policy does; in singular positions such cells are empty.
+residual.{position,velocity,acceleration}.<closure>: by how much the motion violates it, in m or rad,
+m/s or rad/s, m/s^2 or rad/s^2.
 
 Exit status: 0 done, 1 something is wrong with the input or output, 2 wrong usage.
 
@@ -130,6 +139,14 @@ int parseThreads(const std::string& text) {
   return static_cast<int>(value);
 }
 
+double parseTolerance(const std::string& text) {
+  double value = 0;
+  if (!parseNumber(text, value) || value <= 0) {
+    throw UsageError("--loop-tolerance: '" + text + "' is no positive number");
+  }
+  return value;
+}
+
 using Setter = std::function<void(const std::string& value, Arguments& arguments)>;
 
 const std::map<std::string, Setter>& optionsWithValue() {
@@ -145,6 +162,10 @@ const std::map<std::string, Setter>& optionsWithValue() {
       {"--reactions", parseReactions},
       {"--method",
        [](const auto& value, auto& arguments) { arguments.method = parseMethod(value); }},
+      {"--loop-tolerance",
+       [](const auto& value, auto& arguments) {
+         arguments.loop_tolerance = parseTolerance(value);
+       }},
       {"--threads",
        [](const auto& value, auto& arguments) { arguments.threads = parseThreads(value); }},
   };

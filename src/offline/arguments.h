@@ -22,6 +22,9 @@ enum class Method {
   kLagrange  ///< in long double
 };
 
+/// How far a motion may violate the loops of a mechanism, relative, unless the command line says.
+constexpr double kLoopTolerance = 1e-6;
+
 /// What the command line of inverse_dynamics_offline says. Empty texts: not given.
 struct Arguments {
   std::string urdf;
@@ -36,6 +39,7 @@ struct Arguments {
   Method method = Method::kVirtualWork;
   bool certificates = false;
   int threads = 1;
+  std::optional<double> loop_tolerance;  ///< relative; not given: kLoopTolerance
   bool check = false;
   bool explain = false;
   bool help = false;  ///< nothing behind --help or --version is looked at

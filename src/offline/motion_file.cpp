@@ -52,14 +52,22 @@ void checkTimes(const MotionFile& motion) {
 }  // namespace
 
 MotionFile readMotion(const std::string& path, const Mechanism& mechanism) {
-  return readMotion(path, [&](const auto&) { return mechanism.coordinateNames(); });
+  return readMotion(path, mechanism, [&](const auto&) { return mechanism.coordinateNames(); });
 }
 
-MotionFile readMotion(const std::string& path, const JointChoice& choose) {
+MotionFile readMotion(const std::string& path, const Mechanism& mechanism,
+                      const JointChoice& choose) {
   MotionFile motion;
   motion.path = path;
   std::vector<std::string> unused;
   motion.table = readMotionCsv(path, choose, &unused, &motion.lines);
+  for (const std::string& column : unused) {
+    const std::string joint = column.substr(column.find('.') + 1);
+    const auto& known = mechanism.coordinateNames();
+    if (std::find(known.begin(), known.end(), joint) != known.end()) {
+      throw FileError(path + ": column '" + column + "' without 'position." + joint + "'");
+    }
+  }
   if (!unused.empty()) {
     std::cerr << "note: " << path
               << ": ignored, no coordinates of the robot: " << jointsOfColumns(unused) << "\n";

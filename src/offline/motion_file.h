@@ -25,8 +25,9 @@ struct MotionFile {
 /// @throws FileError
 MotionFile readMotion(const std::string& path, const Mechanism& mechanism);
 
-/// The same for the joints that `choose` takes of those that have a position.
-MotionFile readMotion(const std::string& path, const JointChoice& choose);
+/// The same of the coordinates that `choose` takes of the joints that have a position.
+MotionFile readMotion(const std::string& path, const Mechanism& mechanism,
+                      const JointChoice& choose);
 
 /// Gives the motion every derivative that it lacks, with a note on standard error: zero in static
 /// scenes, else estimated. @throws FileError when times do not allow that.

@@ -8,10 +8,14 @@
 
 #include "offline/certified_rows.h"
 #include "offline/check_report.h"
+#include "offline/loop_motion.h"
+#include "offline/loop_report.h"
+#include "offline/loop_rows.h"
 #include "offline/motion_file.h"
 #include "offline/output_file.h"
 #include "offline/result_writer.h"
 #include "offline/rows.h"
+#include "virtual_work_dynamics/closed_loop_dynamics.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/lagrange_dynamics.h"
 #include "virtual_work_dynamics/number_text.h"
@@ -21,6 +25,8 @@
 
 namespace virtual_work_dynamics {
 namespace {
+
+using Names = std::vector<std::string>;
 
 // Rows of a thread between two hand-overs.
 constexpr std::size_t kRowsAtOnce = 512;
@@ -49,14 +55,35 @@ Request computedFor(const Request& written, const Arguments& arguments) {
   return arguments.certificates ? Certifier::extended(written) : written;
 }
 
-Columns columnsOf(const Mechanism& mechanism, const Request& written, const Arguments& arguments) {
+// `with_efforts`: names of what has an effort.
+Columns columnsOf(const Names& with_efforts, const Request& written, const Arguments& arguments) {
   Columns columns;
-  if (written.efforts) columns.efforts = mechanism.coordinateNames();
+  if (written.efforts) columns.efforts = with_efforts;
   columns.reactions = arguments.child_axes ? written.child_axes : written.root_axes;
   if (arguments.certificates) {
     columns.more.assign(std::begin(kCertificateColumns), std::end(kCertificateColumns));
   }
   return columns;
+}
+
+// What the command line asks for and mechanisms with loops do not have, or the other way round.
+void refuseByLoops(const Arguments& arguments, bool loops) {
+  if (!loops) {
+    if (arguments.loop_tolerance) throw UsageError("--loop-tolerance: the scene has no closures");
+    return;
+  }
+  if (arguments.method == Method::kLagrange) {
+    throw UsageError(
+        "--method: lagrange is for scenes without closures, springs and passive joints");
+  }
+  if (arguments.certificates) {
+    throw UsageError(
+        "--certificates: there are none of scenes with closures, springs or passive joints");
+  }
+  if (arguments.threads != 1) {
+    throw UsageError("--threads: closed loops are solved in one thread, not in " +
+                     std::to_string(arguments.threads));
+  }
 }
 
 void refuseToOverwriteInput(const Arguments& arguments) {
@@ -92,41 +119,127 @@ void compute(LagrangeDynamics<long double>& dynamics, Rows& rows) {
   }
 }
 
+void compute(LoopMotion& motion, ClosedLoopDynamics& dynamics, Rows& rows) {
+  for (std::size_t i = 0; i < rows.count(); ++i) {
+    motion.compute(i, dynamics);
+    rows.write(i, dynamics);
+  }
+}
+
 void printReactions(const Request& request) {
   const bool child = !request.child_axes.empty();
   const auto& names = child ? request.child_axes : request.root_axes;
   printNames(std::cout, "reactions", names);
   if (names.empty()) return;
   printNames(std::cout, "axes", {child ? "of the child link" : "of the root link"});
+  std::cout << std::flush;  // before what is wrong ends up on the other stream
+}
+
+void printMotion(const MotionFile& motion) {
+  const std::vector<double>& times = motion.table.times;
+  const auto extremes = std::minmax_element(times.begin(), times.end());
+  const char* rows = times.size() == 1 ? " row from " : " rows from ";
+  printNames(std::cout, "motion",
+             {std::to_string(times.size()) + rows + numberText(*extremes.first) + " s to " +
+              numberText(*extremes.second) + " s"});
+}
+
+void checkTree(const Arguments& arguments, const Mechanism& mechanism, const Scene& scene) {
+  const InverseDynamics dynamics(mechanism, scene, requestOf(mechanism, scene, arguments));
+  printReactions(dynamics.request());
+  if (arguments.motion.empty()) return;
+  MotionFile motion = readMotion(arguments.motion, mechanism);
+  completeDerivatives(mechanism, scene, motion);
+  printMotion(motion);
+}
+
+void checkLoops(const Arguments& arguments, const Mechanism& mechanism, const Scene& scene) {
+  ClosedLoopDynamics dynamics(mechanism, scene, requestOf(mechanism, scene, arguments));
+  printLoops(std::cout, mechanism, scene, dynamics);
+  printReactions(dynamics.request());
+  if (arguments.motion.empty()) return;
+  LoopMotion motion(arguments.motion, mechanism, scene, dynamics,
+                    arguments.loop_tolerance.value_or(kLoopTolerance));
+  for (std::size_t i = 0; i < motion.file().lines.size(); ++i) motion.compute(i, dynamics);
+  printMotion(motion.file());
 }
 
 void check(const Arguments& arguments, const Mechanism& mechanism) {
   printMechanism(std::cout, mechanism);
   printDoubts(std::cout, mechanism);
-  std::cout << std::flush;  // before what is wrong ends up on the other stream
-  const Scene scene = loadScene(arguments);
-  const InverseDynamics dynamics(mechanism, scene, requestOf(mechanism, scene, arguments));
-  printReactions(dynamics.request());
   std::cout << std::flush;
-  if (!arguments.motion.empty()) {
-    MotionFile motion = readMotion(arguments.motion, mechanism);
-    completeDerivatives(mechanism, scene, motion);
-    const std::vector<double>& times = motion.table.times;
-    const auto extremes = std::minmax_element(times.begin(), times.end());
-    const char* rows = times.size() == 1 ? " row from " : " rows from ";
-    printNames(std::cout, "motion",
-               {std::to_string(times.size()) + rows + numberText(*extremes.first) + " s to " +
-                numberText(*extremes.second) + " s"});
-  }
+  const Scene scene = loadScene(arguments);
+  refuseByLoops(arguments, needsClosedLoops(scene));
+  (needsClosedLoops(scene) ? checkLoops : checkTree)(arguments, mechanism, scene);
   std::cout << "The robot can run.\n" << std::flush;
 }
 
 void explain(const Arguments& arguments, const Mechanism& mechanism) {
   const Scene scene = loadScene(arguments);
+  refuseByLoops(arguments, needsClosedLoops(scene));
   const Request written = requestOf(mechanism, scene, arguments);
-  const InverseDynamics dynamics(mechanism, scene, computedFor(written, arguments));
-  for (const std::string& line : dynamics.summary().lines()) std::cout << line << "\n";
+  if (needsClosedLoops(scene)) {
+    explainLoops(std::cout, mechanism, scene, ClosedLoopDynamics(mechanism, scene, written));
+  } else {
+    const InverseDynamics dynamics(mechanism, scene, computedFor(written, arguments));
+    for (const std::string& line : dynamics.summary().lines()) std::cout << line << "\n";
+  }
   std::cout << std::flush;
+}
+
+// Writes the rows that `compute` puts into them.
+template <typename Compute>
+void writeResult(const Arguments& arguments, const MotionFile& motion, const Columns& columns,
+                 CertifiedRows* certified, Compute compute) {
+  const std::string header = resultHeader(columns);
+  OutputFile file(arguments.output);
+  ResultWriter writer(file, header);
+  std::string warning;
+  {
+    Rows rows(motion, columns, arguments.child_axes, certified, writer);
+    compute(rows);
+    warning = rows.warning();
+  }
+  std::cerr << warning;
+  if (certified) {
+    std::cerr << "note: " << arguments.motion << ": " << certified->summary() << "\n";
+  }
+  writer.finish();
+}
+
+void computeTree(const Arguments& arguments, const Mechanism& mechanism, const Scene& scene) {
+  const Request written = requestOf(mechanism, scene, arguments);
+  const Request request = computedFor(written, arguments);
+  std::optional<CertifiedRows> certified;
+  if (arguments.certificates) certified.emplace(mechanism, scene, request);
+  std::optional<InverseDynamics> virtual_work;
+  std::optional<LagrangeDynamics<long double>> lagrange;
+  if (arguments.method == Method::kLagrange) {
+    lagrange.emplace(mechanism, scene, request);
+  } else {
+    virtual_work.emplace(mechanism, scene, request);
+  }
+  const Columns columns = columnsOf(mechanism.coordinateNames(), written, arguments);
+  MotionFile motion = readMotion(arguments.motion, mechanism);
+  completeDerivatives(mechanism, scene, motion);
+  writeResult(arguments, motion, columns, certified ? &*certified : nullptr, [&](Rows& rows) {
+    if (lagrange) {
+      compute(*lagrange, rows);
+    } else {
+      compute(*virtual_work, motion, arguments.threads, rows);
+    }
+  });
+}
+
+void computeLoops(const Arguments& arguments, const Mechanism& mechanism, const Scene& scene) {
+  const Request written = requestOf(mechanism, scene, arguments);
+  ClosedLoopDynamics dynamics(mechanism, scene, written);
+  Columns columns = columnsOf(namesOfEfforts(mechanism, dynamics), written, arguments);
+  columns.more = loopColumns(columns, scene.closures);
+  LoopMotion motion(arguments.motion, mechanism, scene, dynamics,
+                    arguments.loop_tolerance.value_or(kLoopTolerance));
+  writeResult(arguments, motion.file(), columns, nullptr,
+              [&](Rows& rows) { compute(motion, dynamics, rows); });
 }
 
 }  // namespace
@@ -139,38 +252,8 @@ void runOffline(const Arguments& arguments) {
   if (arguments.check || arguments.explain) return;
   printDoubts(std::cerr, mechanism);
   const Scene scene = loadScene(arguments);
-  const Request written = requestOf(mechanism, scene, arguments);
-  const Request request = computedFor(written, arguments);
-  std::optional<CertifiedRows> certified;
-  if (arguments.certificates) certified.emplace(mechanism, scene, request);
-  std::optional<InverseDynamics> virtual_work;
-  std::optional<LagrangeDynamics<long double>> lagrange;
-  if (arguments.method == Method::kLagrange) {
-    lagrange.emplace(mechanism, scene, request);
-  } else {
-    virtual_work.emplace(mechanism, scene, request);
-  }
-  const Columns columns = columnsOf(mechanism, written, arguments);
-  const std::string header = resultHeader(columns);
-  MotionFile motion = readMotion(arguments.motion, mechanism);
-  completeDerivatives(mechanism, scene, motion);
-  OutputFile file(arguments.output);
-  ResultWriter writer(file, header);
-  std::string warning;
-  {
-    Rows rows(motion, columns, arguments.child_axes, certified ? &*certified : nullptr, writer);
-    if (lagrange) {
-      compute(*lagrange, rows);
-    } else {
-      compute(*virtual_work, motion, arguments.threads, rows);
-    }
-    warning = rows.warning();
-  }
-  std::cerr << warning;
-  if (certified) {
-    std::cerr << "note: " << arguments.motion << ": " << certified->summary() << "\n";
-  }
-  writer.finish();
+  refuseByLoops(arguments, needsClosedLoops(scene));
+  (needsClosedLoops(scene) ? computeLoops : computeTree)(arguments, mechanism, scene);
 }
 
 }  // namespace virtual_work_dynamics

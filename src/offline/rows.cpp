@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "offline/loop_rows.h"
+
 namespace virtual_work_dynamics {
 
 Rows::Rows(const MotionFile& file, const Columns& columns, bool child_axes,
@@ -24,11 +26,32 @@ const Motion& Rows::motion(std::size_t row) {
   return motion_;
 }
 
+void Rows::write(std::size_t row, const ClosedLoopDynamics& results) {
+  take(row, results.effort(), child_axes_ ? results.childAxes() : results.rootAxes());
+  if (inSingularPosition(results)) {
+    if (++singular_ == 1) first_singular_line_ = file_.lines[row];
+    leaveOutUndetermined(results, child_axes_, effort_, reactions_);
+  }
+  more_.clear();
+  appendLoopCells(results, child_axes_, more_);
+  put(row);
+}
+
 std::string Rows::warning() const {
-  if (overflowed_ == 0) return "";
-  return "warning: " + file_.path + ": results of " + std::to_string(overflowed_) + " row" +
-         (overflowed_ == 1 ? "" : "s") + " overflow, first of line " + std::to_string(first_line_) +
-         "; their cells are empty\n";
+  const auto rows = [](std::size_t count) {
+    return std::to_string(count) + (count == 1 ? " row" : " rows");
+  };
+  std::string text;
+  if (overflowed_ > 0) {
+    text = "warning: " + file_.path + ": results of " + rows(overflowed_) +
+           " overflow, first of line " + std::to_string(first_line_) + "; their cells are empty\n";
+  }
+  if (singular_ > 0) {
+    text += "warning: " + file_.path + ": " + rows(singular_) +
+            " in singular positions, first in line " + std::to_string(first_singular_line_) +
+            "; cells of what is not determined there are empty\n";
+  }
+  return text;
 }
 
 void Rows::take(std::size_t row, const Eigen::VectorXd& effort,

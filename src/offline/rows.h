@@ -12,6 +12,7 @@
 #include "offline/motion_file.h"
 #include "offline/progress.h"
 #include "offline/result_writer.h"
+#include "virtual_work_dynamics/closed_loop_dynamics.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 
 namespace virtual_work_dynamics {
@@ -38,6 +39,9 @@ class Rows {
     put(row);
   }
 
+  /// Of a mechanism with closed loops.
+  void write(std::size_t row, const ClosedLoopDynamics& results);
+
   /// Lines on what is missing in the rows; may be none.
   std::string warning() const;
 
@@ -57,6 +61,8 @@ class Rows {
   Progress progress_{std::cerr, isatty(STDERR_FILENO) == 1};
   std::size_t overflowed_ = 0;
   std::size_t first_line_ = 0;
+  std::size_t singular_ = 0;
+  std::size_t first_singular_line_ = 0;
 };
 
 }  // namespace virtual_work_dynamics

@@ -127,5 +127,22 @@ TEST(Scene, RequestedReactionsAreInDepthFirstOrderGroundFirst) {
   EXPECT_THROW(requestedReactions(mechanism, read("reactions: [joint_1, joint_1]")), SceneError);
 }
 
+TEST(Scene, ReactionsOfClosuresStandBehindThoseOfJoints) {
+  const Mechanism mechanism = readUrdf(pendulumUrdf());
+  const auto reactions = [&](const std::string& wanted) {
+    return requestedReactions(mechanism,
+                              read("closures: [{name: z, type: fixed, parent: {link: a}, child: "
+                                   "{link: b}}, {name: c, type: fixed, parent: {link: a}, child: "
+                                   "{link: b}}]\nreactions: " +
+                                   wanted));
+  };
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(reactions("all"), (Names{"joint_1", "joint_2", "z", "c"}));
+  EXPECT_EQ(reactions("[c, joint_2, ground]"), (Names{"ground", "joint_2", "c"}));
+  EXPECT_EQ(reactions("none"), Names());
+  EXPECT_THROW(reactions("[c, d]"), SceneError);
+  EXPECT_THROW(reactions("[c, c]"), SceneError);
+}
+
 }  // namespace
 }  // namespace virtual_work_dynamics

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "offline/motion_file.h"
+#include "virtual_work_dynamics/closed_loop_dynamics.h"
+
+namespace virtual_work_dynamics {
+
+/// The recorded motion of a mechanism with closed loops. A file that gives all joints is taken as
+/// it is and held against the loops; one that gives the actuated joints only is completed.
+class LoopMotion {
+ public:
+  /// Reads the file. Derivatives that it lacks are estimated for actuated joints, and follow from
+  /// the closures for passive ones.
+  /// @param tolerance of the loops, relative
+  /// @throws FileError naming joints that are missing.
+  LoopMotion(const std::string& path, const Mechanism& mechanism, const Scene& scene,
+             const ClosedLoopDynamics& dynamics, double tolerance);
+
+  const MotionFile& file() const { return file_; }
+
+  /// Computes a row. Positions that it lacks are searched for from those of the row computed
+  /// before, of the first row from the assembly.
+  /// @throws FileError naming line, closure and amount when a loop is not closed.
+  void compute(std::size_t row, ClosedLoopDynamics& dynamics);
+
+ private:
+  void take(std::size_t row);
+  void completePassive(std::size_t row, ClosedLoopDynamics& dynamics);
+  Eigen::VectorXd nearestPositions() const;
+  bool follow(const Eigen::VectorXd& positions, int halvings, ClosedLoopDynamics& dynamics);
+  bool turnsFar(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
+  void checkLoops(std::size_t row, const ClosedLoopDynamics& dynamics) const;
+  [[noreturn]] void throwOpen(std::size_t row, ClosedLoopDynamics& dynamics) const;
+
+  std::vector<std::string> closures_;
+  double tolerance_;
+  MotionFile file_;
+  std::vector<Eigen::Index> coordinates_;  // of the file's columns
+  std::vector<Eigen::Index> turning_;
+  std::vector<bool> wraps_;  // of the file's columns: whole turns make no difference
+  // What of the passive joints follows from the closures.
+  bool positions_follow_ = false, velocities_follow_ = false, accelerations_follow_ = false;
+  Motion motion_;
+  Motion completed_;
+  Eigen::VectorXd closed_;  // the last position that was found
+};
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,72 @@
+#include "offline/loop_rows.h"
+
+#include <limits>
+
+namespace virtual_work_dynamics {
+namespace {
+
+const std::vector<Determined>& flagsOf(const ClosedLoopDynamics& dynamics, bool child_axes) {
+  return child_axes ? dynamics.childAxesDetermined() : dynamics.rootAxesDetermined();
+}
+
+}  // namespace
+
+std::vector<std::string> namesOfEfforts(const Mechanism& mechanism,
+                                        const ClosedLoopDynamics& dynamics) {
+  std::vector<std::string> names = mechanism.coordinateNames();
+  const std::vector<std::string>& closures = dynamics.actuatedClosures();
+  names.insert(names.end(), closures.begin(), closures.end());
+  return names;
+}
+
+std::vector<std::string> loopColumns(const Columns& results, const std::vector<Closure>& closures) {
+  std::vector<std::string> columns;
+  for (const std::string& name : results.efforts) columns.push_back("determined.effort." + name);
+  for (const std::string& name : results.reactions) {
+    for (const char* component : kWrenchComponents) {
+      columns.push_back("determined." + name + "." + component);
+    }
+  }
+  for (const char* level : {"position", "velocity", "acceleration"}) {
+    for (const Closure& closure : closures) {
+      columns.push_back(std::string("residual.") + level + "." + closure.name);
+    }
+  }
+  return columns;
+}
+
+void appendLoopCells(const ClosedLoopDynamics& dynamics, bool child_axes,
+                     std::vector<double>& cells) {
+  if (dynamics.request().efforts) {
+    for (const bool flag : dynamics.effortDetermined()) cells.push_back(flag ? 1 : 0);
+  }
+  for (const Determined& flags : flagsOf(dynamics, child_axes)) {
+    for (const bool flag : flags) cells.push_back(flag ? 1 : 0);
+  }
+  const std::vector<ClosureResidual>& residuals = dynamics.residuals();
+  for (const ClosureResidual& residual : residuals) cells.push_back(residual.position);
+  for (const ClosureResidual& residual : residuals) cells.push_back(residual.velocity);
+  for (const ClosureResidual& residual : residuals) cells.push_back(residual.acceleration);
+}
+
+bool inSingularPosition(const ClosedLoopDynamics& dynamics) {
+  return dynamics.determinacy().free_motions > 0;
+}
+
+void leaveOutUndetermined(const ClosedLoopDynamics& dynamics, bool child_axes,
+                          Eigen::VectorXd& effort, std::vector<Wrench>& reactions) {
+  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+  for (Eigen::Index i = 0; i < effort.size(); ++i) {
+    if (!dynamics.effortDetermined()[static_cast<std::size_t>(i)]) effort[i] = kNothing;
+  }
+  const std::vector<Determined>& flags = flagsOf(dynamics, child_axes);
+  for (std::size_t i = 0; i < reactions.size(); ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto j = static_cast<std::size_t>(axis);
+      if (!flags[i][j]) reactions[i].force[axis] = kNothing;
+      if (!flags[i][j + 3]) reactions[i].torque[axis] = kNothing;
+    }
+  }
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "offline/result_writer.h"
+#include "virtual_work_dynamics/closed_loop_dynamics.h"
+
+namespace virtual_work_dynamics {
+
+/// Of what has an effort: coordinates, then actuated closures.
+std::vector<std::string> namesOfEfforts(const Mechanism& mechanism,
+                                        const ClosedLoopDynamics& dynamics);
+
+/// Names of the columns that a mechanism with loops adds: what of efforts and reactions is
+/// determined, and how far each closure is violated.
+std::vector<std::string> loopColumns(const Columns& results, const std::vector<Closure>& closures);
+
+/// Their cells, of the sample computed last.
+void appendLoopCells(const ClosedLoopDynamics& dynamics, bool child_axes,
+                     std::vector<double>& cells);
+
+/// Whether the sample computed last is in a singular position: actuated joints and closures do not
+/// hold the mechanism there.
+bool inSingularPosition(const ClosedLoopDynamics& dynamics);
+
+/// Makes NaN of what is not determined.
+void leaveOutUndetermined(const ClosedLoopDynamics& dynamics, bool child_axes,
+                          Eigen::VectorXd& effort, std::vector<Wrench>& reactions);
+
+}  // namespace virtual_work_dynamics
