@@ -59,7 +59,7 @@ class ClosedLoopDynamics {
   /// Newton's method from those in `motion` (the previous sample's), velocities and accelerations
   /// by the conditions. False when the loops cannot be closed there, when the given velocities or
   /// accelerations contradict them, and where they do not determine the others, as in a singular
-  /// position; `motion` is then of no use. Does not allocate.
+  /// position; positions are then the best met, rates are of no use. Does not allocate.
   /// @throws MotionError when a vector of `motion` has the wrong length.
   bool complete(Motion& motion);
   /// The same with other coordinates given.

@@ -17,6 +17,11 @@ constexpr double kLongestStep = 0.5;
 // What of velocities and accelerations may contradict the conditions, of the largest term.
 constexpr double kConsistent = 1e-8;
 
+// A position found by Newton's method is good to the square root of rounding where the conditions
+// are singular, so that their Jacobian, singular in truth, shows a condition number of some 1e8
+// there.
+constexpr double kSharpest = 1e7;
+
 Eigen::Index conditionsOf(const LoopKinematics& kinematics, std::size_t closure) {
   return kinematics.firstOf(closure + 1) - kinematics.firstOf(closure);
 }
@@ -164,7 +169,7 @@ bool LoopCompletion::solveRates(const LoopKinematics& kinematics, const std::vec
                                 Eigen::VectorXd& unknown) {
   for (const LoopGroup& group : groups_) {
     factorize(kinematics, group, given);
-    if (factorization_.redundancy() > 0) return false;
+    if (factorization_.redundancy() > 0 || factorization_.condition() > kSharpest) return false;
     Eigen::Index row = 0;
     for (const std::size_t c : group.closures) {
       for (Eigen::Index i = 0; i < conditionsOf(kinematics, c); ++i) {
