@@ -60,6 +60,10 @@ class NewtonEulerOracle {
   const Vector3l& origin(int link) const { return links_[link].o; }
   const Vector3l& originVelocity(int link) const { return links_[link].v; }
   const Vector3l& angularVelocity(int link) const { return links_[link].w; }
+  const Vector3l& centreOfMass(int link) const { return links_[link].c; }
+
+  /// What all joints of a link together exert on it, moment about its centre of mass, root axes.
+  RootWrench demand(int link) const { return {links_[link].force, links_[link].moment_c}; }
 
  private:
   struct State {

@@ -1,0 +1,311 @@
+#pragma once
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "loop_geometry.h"
+#include "newton_euler_oracle.h"
+
+namespace virtual_work_dynamics {
+
+/// Reactions of a mechanism with closures by cutting every joint: all six components of the wrench
+/// in each joint, in each closure and on the root link are unknown; the equations are the balances
+/// of force and moment of every link, and that a free direction of a closure or a passive
+/// coordinate carries nothing but its joints' springs and friction. One linear system in long
+/// double by Gauss with full pivoting, its null space included. No tree recursion, no Jacobian of
+/// conditions, no multipliers.
+class MaximalCoordinatesOracle {
+ public:
+  using Vector6l = Eigen::Matrix<long double, 6, 1>;
+  using VectorXl = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+  using MatrixXl = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+
+  MaximalCoordinatesOracle(const Mechanism& mechanism, const Scene& scene, const Motion& motion)
+      : mechanism_(mechanism), scene_(scene), bodies_(mechanism, withoutLoops(scene), motion) {
+    for (std::size_t k = 0; k < mechanism.joints().size(); ++k) {
+      const int child = mechanism.joints()[k].child_link;
+      cuts_.push_back({mechanism.joints()[k].name, mechanism.joints()[k].parent_link, child,
+                       bodies_.origin(child), bodies_.orientation(child)});
+    }
+    cuts_.push_back({kGround, -1, 0, bodies_.origin(0), bodies_.orientation(0)});
+    for (const Closure& closure : scene.closures) {
+      const PlacedFrame frame(mechanism, bodies_, closure.child);
+      cuts_.push_back({closure.name, mechanism.linkIndex(closure.parent.link),
+                       mechanism.linkIndex(closure.child.link), frame.o, frame.R});
+    }
+    for (const Cut& cut : cuts_) length_ = std::max(length_, (cut.o - bodies_.origin(0)).norm());
+    addBalances();
+    for (std::size_t c = 0; c < scene.closures.size(); ++c) addFreeDirections(c);
+    addPassiveCoordinates(motion);
+    solve();
+  }
+
+  /// Unknowns less rank.
+  Eigen::Index redundancy() const { return N_.cols(); }
+  /// Equations less rank: motions that nothing holds.
+  Eigen::Index freeMotions() const { return G_.rows() - (G_.cols() - redundancy()); }
+  /// Largest violation of an equation by the solution, relative to the largest load or 1 N.
+  long double residual() const { return violation(x_); }
+
+  struct Reaction {
+    Vector6l wrench;  ///< force, moment; one of many where it is not determined
+    std::array<bool, 6> determined;
+  };
+  /// Of a joint, a closure or "ground".
+  Reaction rootAxes(const std::string& name) const { return reaction(name, Matrix3l::Identity()); }
+  /// In axes of the child link, of a closure's child frame.
+  Reaction childAxes(const std::string& name) const {
+    return reaction(name, cuts_[indexOf(name)].R.transpose());
+  }
+
+  /// Whether a component in root axes is determined by the criterion of M. Wojtyra, "Joint reaction
+  /// forces in multibody systems with redundant constraints", Multibody System Dynamics 14 (2005):
+  /// it is when the rank drops without it.
+  bool rankDropsWithout(const std::string& name, int i) const {
+    const Eigen::Index column = at(indexOf(name)) + i;
+    MatrixXl left = G_;
+    left.col(column) = left.rightCols<1>();
+    left.conservativeResize(Eigen::NoChange, left.cols() - 1);
+    return rankOf(left) < rankOf(G_);
+  }
+
+  struct Effort {
+    long double value;
+    bool determined;
+  };
+  /// Of a generalized coordinate, or of an actuated closure by its name.
+  Effort effort(int coordinate) const {
+    const VectorXl row = effortRow(coordinate);
+    return {row.dot(x_) + terms_[coordinate], freedom(row) <= kFree};
+  }
+  Effort closureEffort(const std::string& name) const {
+    const std::size_t cut = indexOf(name);
+    const Closure& closure = scene_.closures[cut - mechanism_.joints().size() - 1];
+    VectorXl row = VectorXl::Zero(G_.cols());
+    const bool slides = closure.type == ClosureType::kPrismatic;
+    row.segment<3>(at(cut) + (slides ? 0 : 3)) = cuts_[cut].R.col(2) * (slides ? 1 : length_);
+    return {row.dot(x_), freedom(row) <= kFree};
+  }
+
+  /// How much reactions, root axes, of every joint, "ground" and closure violate the equations,
+  /// relative to the largest load or 1 N: small for any solution, whatever is chosen where there
+  /// are many.
+  template <typename WrenchOf>
+  long double violationBy(const WrenchOf& wrench_of) const {
+    VectorXl x(G_.cols());
+    for (std::size_t cut = 0; cut < cuts_.size(); ++cut) {
+      const Wrench wrench = wrench_of(cuts_[cut].name);
+      x.segment<3>(at(cut)) = wrench.force.cast<long double>();
+      x.segment<3>(at(cut) + 3) = wrench.torque.cast<long double>() / length_;
+    }
+    return violation(x);
+  }
+
+ private:
+  // A component is determined when no null vector, orthonormal in newtons, changes it by more.
+  static constexpr long double kFree = 1e-8L;
+  // Of pivots against the largest; those of dependent equations are rounding errors, 1e-18.
+  static constexpr long double kPivot = 1e-13L;
+
+  struct Cut {
+    std::string name;
+    int parent, child;  // links; parent -1: ground
+    Vector3l o;         // point about which the moment is taken
+    Matrix3l R;         // child axes
+  };
+
+  static Scene withoutLoops(Scene scene) {
+    scene.closures.clear();
+    scene.springs.clear();
+    scene.actuated.reset();
+    scene.assembly.clear();
+    return scene;
+  }
+
+  static Eigen::Index at(std::size_t cut) { return 6 * static_cast<Eigen::Index>(cut); }
+
+  std::size_t indexOf(const std::string& name) const {
+    std::size_t cut = 0;
+    while (cuts_.at(cut).name != name) ++cut;
+    return cut;
+  }
+
+  static Matrix3l cross(const Vector3l& r) {
+    Matrix3l m;
+    m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
+    return m;
+  }
+
+  // Force, and moment about the centre of mass over the length, of every link.
+  void addBalances() {
+    const Eigen::Index links = static_cast<Eigen::Index>(mechanism_.links().size());
+    G_.setZero(6 * links, at(cuts_.size()));
+    b_.setZero(6 * links);
+    for (std::size_t cut = 0; cut < cuts_.size(); ++cut) {
+      for (const int sign : {1, -1}) {
+        const int link = sign > 0 ? cuts_[cut].child : cuts_[cut].parent;
+        if (link < 0) continue;
+        auto block = G_.block<6, 6>(6 * link, at(cut));
+        const Vector3l r = cuts_[cut].o - bodies_.centreOfMass(link);
+        block.topLeftCorner<3, 3>() = sign * Matrix3l::Identity();
+        block.bottomRightCorner<3, 3>() = sign * Matrix3l::Identity();
+        block.bottomLeftCorner<3, 3>() = sign * cross(r) / length_;
+      }
+    }
+    for (Eigen::Index link = 0; link < links; ++link) {
+      const auto demand = bodies_.demand(static_cast<int>(link));
+      load(static_cast<int>(link), bodies_.centreOfMass(static_cast<int>(link)), demand.force);
+      b_.segment<3>(6 * link + 3) += demand.torque / length_;
+    }
+    for (const PointSpring& spring : scene_.springs) {
+      const SpringForce pull(mechanism_, bodies_, spring);
+      load(mechanism_.linkIndex(spring.link_a), pull.a, -pull.force_on_a);
+      load(mechanism_.linkIndex(spring.link_b), pull.b, pull.force_on_a);
+    }
+  }
+
+  void load(int link, const Vector3l& point, const Vector3l& force) {
+    b_.segment<3>(6 * link) += force;
+    b_.segment<3>(6 * link + 3) += (point - bodies_.centreOfMass(link)).cross(force) / length_;
+  }
+
+  void addRow(const VectorXl& row, long double value) {
+    G_.conservativeResize(G_.rows() + 1, Eigen::NoChange);
+    G_.row(G_.rows() - 1) = row.transpose();
+    b_.conservativeResize(b_.size() + 1);
+    b_[b_.size() - 1] = value;
+  }
+
+  void addFree(std::size_t cut, bool moment, const Vector3l& direction) {
+    VectorXl row = VectorXl::Zero(G_.cols());
+    row.segment<3>(at(cut) + (moment ? 3 : 0)) = direction;
+    addRow(row, 0);
+  }
+
+  bool actuated(const std::string& name) const {
+    if (!scene_.actuated) return mechanism_.jointIndex(name) >= 0;
+    return std::count(scene_.actuated->begin(), scene_.actuated->end(), name) > 0;
+  }
+
+  void addFreeDirections(std::size_t c) {
+    using Type = ClosureType;
+    const Closure& closure = scene_.closures[c];
+    if (actuated(closure.name)) return;  // one free direction, which carries the effort
+    const std::size_t cut = mechanism_.joints().size() + 1 + c;
+    const PlacedFrame parent(mechanism_, bodies_, closure.parent);
+    const Matrix3l& R = cuts_[cut].R;
+    const auto slide = [&](const Vector3l& direction) { addFree(cut, false, direction); };
+    const auto turn = [&](const Vector3l& direction) { addFree(cut, true, direction); };
+    const Type type = closure.type;
+    if (type == Type::kRevolute || type == Type::kCylindrical || type == Type::kPlanar) {
+      turn(R.col(2));
+    }
+    if (type == Type::kPrismatic || type == Type::kCylindrical) slide(R.col(2));
+    if (type == Type::kPlanar) {
+      slide(R.col(0));
+      slide(R.col(1));
+    }
+    if (type == Type::kUniversal) {
+      turn(parent.R.col(2));
+      turn(R.col(0));
+    }
+    if (type == Type::kSpherical || type == Type::kDistance) {
+      for (int i = 0; i < 3; ++i) turn(Vector3l::Unit(i));
+    }
+    if (type == Type::kDistance) {
+      const Vector3l rod = (cuts_[cut].o - parent.o).normalized();
+      const Vector3l across = rod.unitOrthogonal();
+      slide(across);
+      slide(rod.cross(across));
+    }
+  }
+
+  // What the joints of a coordinate carry along their axes, as they mimic it.
+  VectorXl effortRow(int coordinate) const {
+    VectorXl row = VectorXl::Zero(G_.cols());
+    for (std::size_t k = 0; k < mechanism_.joints().size(); ++k) {
+      const Joint& joint = mechanism_.joints()[k];
+      if (joint.coordinate != coordinate) continue;
+      const Vector3l axis = cuts_[k].R * joint.axis_K;
+      const bool slides = joint.type == JointType::kPrismatic;
+      row.segment<3>(at(k) + (slides ? 0 : 3)) = joint.multiplier * axis * (slides ? 1 : length_);
+    }
+    return row;
+  }
+
+  // Springs, friction and rotors of the scene's terms; a passive coordinate has no other effort.
+  void addPassiveCoordinates(const Motion& motion) {
+    terms_.assign(mechanism_.coordinates().size(), 0);
+    for (const JointTerms& terms : scene_.joints) {
+      const Joint& joint = mechanism_.joints()[mechanism_.jointIndex(terms.joint)];
+      const long double m = joint.multiplier;
+      const long double q = m * motion.q[joint.coordinate] + joint.offset;
+      const long double rate = scene_.static_motion ? 0 : motion.qd[joint.coordinate];
+      const long double acceleration = scene_.static_motion ? 0 : motion.qdd[joint.coordinate];
+      const long double s = std::clamp(m * rate / terms.coulomb_velocity, -1.0L, 1.0L);
+      terms_[joint.coordinate] +=
+          m * (terms.stiffness * (q - terms.rest) + terms.damping.value_or(0) * m * rate +
+               terms.coulomb.value_or(0) * s * (3 - s * s) / 2 +
+               terms.rotor_inertia * m * acceleration);
+    }
+    for (std::size_t i = 0; i < terms_.size(); ++i) {
+      if (actuated(mechanism_.coordinateNames()[i])) continue;
+      const VectorXl row = effortRow(static_cast<int>(i));
+      addRow(row / length_, -terms_[i] / length_);
+    }
+  }
+
+  static Eigen::Index rankOf(const MatrixXl& matrix) {
+    Eigen::FullPivLU<MatrixXl> lu;
+    lu.setThreshold(kPivot);
+    return lu.compute(matrix).rank();
+  }
+
+  void solve() {
+    Eigen::FullPivLU<MatrixXl> lu;
+    lu.setThreshold(kPivot);
+    lu.compute(G_);
+    x_ = lu.solve(b_);
+    N_.resize(G_.cols(), 0);
+    if (lu.dimensionOfKernel() == 0) return;
+    const MatrixXl kernel = lu.kernel();
+    N_ = Eigen::HouseholderQR<MatrixXl>(kernel).householderQ() *
+         MatrixXl::Identity(kernel.rows(), kernel.cols());
+  }
+
+  long double violation(const VectorXl& x) const {
+    return (G_ * x - b_).cwiseAbs().maxCoeff() / std::max(1.0L, b_.cwiseAbs().maxCoeff());
+  }
+
+  long double freedom(const VectorXl& row) const {
+    return N_.cols() == 0 ? 0 : (row.transpose() * N_).norm();
+  }
+
+  Reaction reaction(const std::string& name, const Matrix3l& axes) const {
+    const Eigen::Index first = at(indexOf(name));
+    Reaction reaction;
+    for (int i = 0; i < 6; ++i) {
+      const bool moment = i >= 3;
+      VectorXl row = VectorXl::Zero(G_.cols());
+      row.segment<3>(first + (moment ? 3 : 0)) = axes.row(i % 3).transpose();
+      reaction.wrench[i] = row.dot(x_) * (moment ? length_ : 1);
+      reaction.determined[static_cast<std::size_t>(i)] = freedom(row) <= kFree;
+    }
+    return reaction;
+  }
+
+  const Mechanism& mechanism_;
+  const Scene& scene_;
+  NewtonEulerOracle bodies_;
+  std::vector<Cut> cuts_;  // joints, ground, closures
+  long double length_ = 0;
+  MatrixXl G_, N_;
+  VectorXl b_, x_;
+  std::vector<long double> terms_;  // of coordinates
+};
+
+}  // namespace virtual_work_dynamics
