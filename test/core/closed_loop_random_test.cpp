@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "loop_results.h"
+#include "maximal_coordinates_oracle.h"
+#include "random_loops.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+// Relative to the largest component of the sample. Loops at random positions amplify rounding
+// errors by their condition number, which the results report; a hundred eps for each.
+constexpr double kPerCondition = 100 * 2.2e-16;
+
+double scaleOf(const LoopResults& results) {
+  double scale = 1;
+  for (const std::string& name : results.names()) {
+    for (int i = 0; i < 6; ++i) {
+      scale = std::max(scale, std::abs(component(results.rootAxes(name), i)));
+    }
+  }
+  return std::max(scale, results.dynamics().effort().cwiseAbs().maxCoeff());
+}
+
+class RandomLoopsTest : public testing::Test {
+ protected:
+  void check(const Case& loops, const MaximalCoordinatesOracle& oracle) {
+    const LoopResults results(loops.mechanism, loops.scene, loops.motion);
+    const ClosedLoopDynamics& dynamics = results.dynamics();
+    const double tolerance =
+        kPerCondition * std::max(1.0, dynamics.determinacy().condition) * scaleOf(results);
+    EXPECT_EQ(dynamics.determinacy().redundancy, oracle.redundancy());
+    EXPECT_EQ(dynamics.determinacy().free_motions, 0);
+    for (const std::string& name : results.names()) {
+      expectSame(oracle.rootAxes(name), results.rootAxes(name), results.rootAxesDetermined(name),
+                 tolerance, name);
+      expectSame(oracle.childAxes(name), results.childAxes(name), results.childAxesDetermined(name),
+                 tolerance, name);
+    }
+    Eigen::Index i = 0;
+    for (; i < dynamics.coordinates(); ++i) {
+      expectSame(oracle.effort(static_cast<int>(i)), i, dynamics, tolerance);
+    }
+    for (const std::string& name : dynamics.actuatedClosures()) {
+      expectSame(oracle.closureEffort(name), i++, dynamics, tolerance);
+    }
+    EXPECT_LE(oracle.violationBy([&](const std::string& name) { return results.rootAxes(name); }),
+              tolerance);
+  }
+
+  void expectSame(const MaximalCoordinatesOracle::Reaction& expected, const Wrench& wrench,
+                  const Determined& determined, double tolerance, const std::string& name) {
+    EXPECT_EQ(determined, expected.determined) << name;
+    for (int i = 0; i < 6; ++i) {
+      EXPECT_TRUE(std::isfinite(component(wrench, i))) << name;
+      if (!expected.determined[static_cast<std::size_t>(i)]) continue;
+      ++compared_;
+      EXPECT_NEAR(component(wrench, i), static_cast<double>(expected.wrench[i]), tolerance)
+          << name << ", component " << i;
+    }
+  }
+
+  static void expectSame(const MaximalCoordinatesOracle::Effort& expected, Eigen::Index i,
+                         const ClosedLoopDynamics& dynamics, double tolerance) {
+    EXPECT_EQ(dynamics.effortDetermined()[static_cast<std::size_t>(i)], expected.determined)
+        << "effort " << i;
+    if (!expected.determined) return;
+    EXPECT_NEAR(dynamics.effort()[i], static_cast<double>(expected.value), tolerance)
+        << "effort " << i;
+  }
+
+  int compared_ = 0;
+};
+
+TEST_F(RandomLoopsTest, AgreeWithMaximalCoordinates) {
+  RandomLoops random(32);
+  int solved = 0, too_few = 0;
+  for (int i = 0; i < 400; ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    const Case loops = random.next();
+    const MaximalCoordinatesOracle oracle(loops.mechanism, loops.scene, loops.motion);
+    if (oracle.freeMotions() > 0) {
+      ++too_few;
+      EXPECT_THROW(LoopResults(loops.mechanism, loops.scene, loops.motion), SceneError);
+      continue;
+    }
+    ++solved;
+    check(loops, oracle);
+  }
+  EXPECT_GE(solved, 100);
+  EXPECT_GE(too_few, 20);
+  EXPECT_GE(compared_, 1000);
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics
