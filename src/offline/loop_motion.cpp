@@ -1,7 +1,6 @@
 #include "offline/loop_motion.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <sstream>
 
@@ -12,13 +11,6 @@ namespace virtual_work_dynamics {
 namespace {
 
 using Names = std::vector<std::string>;
-
-// A position that is searched for from another, with no joint turned farther than this, rad, is on
-// the same branch as that; shorter than any way from one branch to another but near singular ones.
-constexpr double kFar = 0.3;
-// How often a way is halved at most; whole turns between two rows come down to a tenth of kFar.
-constexpr int kHalvings = 8;
-constexpr double kTurn = 6.283185307179586476925286766559;
 
 bool contains(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -70,15 +62,6 @@ Names namesOf(const std::vector<Closure>& closures) {
   return names;
 }
 
-bool wraps(const Mechanism& mechanism, const std::string& name) {
-  const auto& joints = mechanism.joints();
-  const Joint& wanted = joints[static_cast<std::size_t>(mechanism.jointIndex(name))];
-  return wanted.type == JointType::kContinuous &&
-         std::none_of(joints.begin(), joints.end(), [&](const Joint& joint) {
-           return joint.mimics && joint.coordinate == wanted.coordinate;
-         });
-}
-
 struct Level {
   const char* name;
   const char* unit;
@@ -97,12 +80,12 @@ LoopMotion::LoopMotion(const std::string& path, const Mechanism& mechanism, cons
       tolerance_(tolerance),
       file_(readMotion(path, mechanism, Choice(path, mechanism, dynamics))),
       motion_(dynamics.coordinates()),
-      completed_(dynamics.coordinates()) {
+      completed_(dynamics.coordinates()),
+      follower_(mechanism, dynamics) {
   const Names& all = mechanism.coordinateNames();
   const Names& joints = file_.table.joints;
   for (const std::string& name : joints) {
     coordinates_.push_back(std::find(all.begin(), all.end(), name) - all.begin());
-    wraps_.push_back(wraps(mechanism, name));
   }
   positions_follow_ = joints.size() < all.size();
   if (dynamics.actuatedClosures().empty() && !closures_.empty() && !scene.static_motion) {
@@ -118,12 +101,6 @@ LoopMotion::LoopMotion(const std::string& path, const Mechanism& mechanism, cons
     std::cerr << "note: " << path << ": of passive joints, by the closures: " << joined(follow)
               << "\n";
   }
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto joint = static_cast<std::size_t>(mechanism.coordinates()[i]);
-    if (mechanism.joints()[joint].type == JointType::kPrismatic) continue;
-    turning_.push_back(static_cast<Eigen::Index>(i));
-  }
-  closed_ = dynamics.assembly();
 }
 
 void LoopMotion::compute(std::size_t row, ClosedLoopDynamics& dynamics) {
@@ -147,50 +124,13 @@ void LoopMotion::take(std::size_t row) {
 }
 
 void LoopMotion::completePassive(std::size_t row, ClosedLoopDynamics& dynamics) {
-  if (positions_follow_) {
-    if (!follow(nearestPositions(), kHalvings, dynamics)) throwOpen(row, dynamics);
-    const Eigen::VectorXd given = motion_.q;
-    motion_.q = closed_;
-    for (const Eigen::Index i : coordinates_) motion_.q[i] = given[i];
-  } else {
-    completed_ = motion_;
-    if (!dynamics.complete(completed_)) throwOpen(row, dynamics);
-  }
+  completed_ = motion_;
+  const bool closes =
+      positions_follow_ ? follower_.complete(completed_, dynamics) : dynamics.complete(completed_);
+  if (!closes) throwOpen(row, dynamics);
+  if (positions_follow_) motion_.q = completed_.q;
   if (velocities_follow_) motion_.qd = completed_.qd;
   if (accelerations_follow_) motion_.qdd = completed_.qdd;
-}
-
-// What the file gives, without the whole turns by which drivers wrap: the way back over a whole
-// turn may pass singular positions.
-Eigen::VectorXd LoopMotion::nearestPositions() const {
-  Eigen::VectorXd positions = motion_.q;
-  for (std::size_t i = 0; i < coordinates_.size(); ++i) {
-    if (!wraps_[i]) continue;
-    double& position = positions[coordinates_[i]];
-    position -= kTurn * std::round((position - closed_[coordinates_[i]]) / kTurn);
-  }
-  return positions;
-}
-
-// Brings what the file gives to those positions, and the passive joints along.
-bool LoopMotion::follow(const Eigen::VectorXd& positions, int halvings,
-                        ClosedLoopDynamics& dynamics) {
-  completed_ = motion_;
-  completed_.q = closed_;
-  for (const Eigen::Index i : coordinates_) completed_.q[i] = positions[i];
-  const bool closes = dynamics.complete(completed_);
-  if (halvings > 0 && (!closes || turnsFar(closed_, completed_.q))) {
-    const Eigen::VectorXd middle = (closed_ + positions) / 2;
-    follow(middle, halvings - 1, dynamics);  // a position in between may be singular
-    return follow(positions, halvings - 1, dynamics);
-  }
-  if (closes) closed_ = completed_.q;
-  return closes;
-}
-
-bool LoopMotion::turnsFar(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const {
-  return std::any_of(turning_.begin(), turning_.end(),
-                     [&](Eigen::Index i) { return std::abs(to[i] - from[i]) > kFar; });
 }
 
 void LoopMotion::checkLoops(std::size_t row, const ClosedLoopDynamics& dynamics) const {

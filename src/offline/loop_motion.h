@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/loop_follower.h"
 #include "offline/motion_file.h"
 #include "virtual_work_dynamics/closed_loop_dynamics.h"
 
@@ -31,9 +32,6 @@ class LoopMotion {
  private:
   void take(std::size_t row);
   void completePassive(std::size_t row, ClosedLoopDynamics& dynamics);
-  Eigen::VectorXd nearestPositions() const;
-  bool follow(const Eigen::VectorXd& positions, int halvings, ClosedLoopDynamics& dynamics);
-  bool turnsFar(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
   void checkLoops(std::size_t row, const ClosedLoopDynamics& dynamics) const;
   [[noreturn]] void throwOpen(std::size_t row, ClosedLoopDynamics& dynamics) const;
 
@@ -41,13 +39,11 @@ class LoopMotion {
   double tolerance_;
   MotionFile file_;
   std::vector<Eigen::Index> coordinates_;  // of the file's columns
-  std::vector<Eigen::Index> turning_;
-  std::vector<bool> wraps_;  // of the file's columns: whole turns make no difference
   // What of the passive joints follows from the closures.
   bool positions_follow_ = false, velocities_follow_ = false, accelerations_follow_ = false;
   Motion motion_;
   Motion completed_;
-  Eigen::VectorXd closed_;  // the last position that was found
+  LoopFollower follower_;
 };
 
 }  // namespace virtual_work_dynamics

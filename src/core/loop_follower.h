@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "virtual_work_dynamics/closed_loop_dynamics.h"
+
+namespace virtual_work_dynamics {
+
+/// Follows the passive joints of a mechanism with closed loops from one position to the next, on
+/// the branch that they are on. Does not allocate after construction.
+class LoopFollower {
+ public:
+  /// Starts at the assembly; actuated coordinates will be given.
+  LoopFollower(const Mechanism& mechanism, const ClosedLoopDynamics& dynamics);
+
+  /// Completes a motion that gives the actuated coordinates. False, at the position before, when
+  /// the loops cannot be closed or do not determine how the passive joints move; `motion` is then
+  /// the last that was tried.
+  bool complete(Motion& motion, ClosedLoopDynamics& dynamics);
+
+  /// The position that was found last.
+  const Eigen::VectorXd& position() const { return closed_; }
+  void moveTo(const Eigen::VectorXd& position) { closed_ = position; }
+
+ private:
+  static constexpr int kHalvings = 8;
+
+  void setNearest(const Motion& motion);
+  bool follow(const Motion& motion, int halvings, ClosedLoopDynamics& dynamics);
+  bool turnsFar(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
+
+  std::vector<Eigen::Index> given_;
+  std::vector<bool> wraps_;  // of the given ones: whole turns make no difference
+  std::vector<Eigen::Index> turning_;
+  Motion completed_;
+  Eigen::VectorXd before_, closed_;
+  std::array<Eigen::VectorXd, kHalvings + 1> targets_;  // by the halvings that are left
+};
+
+}  // namespace virtual_work_dynamics
