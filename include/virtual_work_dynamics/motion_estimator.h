@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
@@ -48,16 +49,21 @@ class MotionEstimator {
   /// backwards, meaningless.
   std::int64_t latestGap() const;
 
-  /// True once every coordinate has a full window, was refreshed since the last evaluate() or
-  /// skip(), and has samples as early as the common instant.
+  /// From now on only these coordinates, one entry for each, are waited for and evaluated; of the
+  /// others samples are kept. At first: all. @throws MotionError for another number of entries.
+  void waitFor(const std::vector<bool>& coordinates);
+
+  /// True once every coordinate waited for has a full window, was refreshed since the last
+  /// evaluate() or skip(), and has samples as early as the common instant.
   bool ready() const;
 
   /// The motion at the common instant: for each coordinate the stamp of its sample `lag` behind its
   /// newest, of these the earliest (but not before the last 512 samples of any coordinate). A
   /// coordinate that came more often than the others is fitted around that instant, not around its
   /// own newest samples. Every coordinate then has to be refreshed before ready() again.
-  /// @param motion one entry for each generalized coordinate; continuous joints are unwrapped, from
-  ///   the first sample after a restart on.
+  /// @param motion one entry for each generalized coordinate, left as it is where that is not
+  /// waited
+  ///   for; continuous joints are unwrapped, from the first sample after a restart on.
   /// @returns the instant, ns.
   /// @throws MotionError unless ready(), or for a motion of another size.
   std::int64_t evaluate(Motion& motion);

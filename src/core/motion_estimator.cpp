@@ -64,6 +64,7 @@ struct Coordinate {
   Coordinate(bool is_continuous, int capacity) : continuous(is_continuous), history(capacity) {}
 
   bool continuous;
+  bool needed = true;
   bool fresh = false;  // since the last evaluate() or skip()
   bool seen = false;   // ever
   double latest = 0;
@@ -191,10 +192,11 @@ void MotionEstimator::Impl::markStale() {
   for (Coordinate& coordinate : coordinates) coordinate.fresh = false;
 }
 
-/// True when every coordinate is fresh and has a window.
+/// True when every coordinate needed is fresh and has a window.
 bool MotionEstimator::Impl::full() const {
   for (const Coordinate& coordinate : coordinates)
-    if (!coordinate.fresh || coordinate.history.size() < window) return false;
+    if (coordinate.needed && (!coordinate.fresh || coordinate.history.size() < window))
+      return false;
   return !coordinates.empty();
 }
 
@@ -203,17 +205,19 @@ bool MotionEstimator::Impl::full() const {
 bool MotionEstimator::Impl::commonInstant(std::int64_t& instant) const {
   instant = std::numeric_limits<std::int64_t>::max();
   for (const Coordinate& coordinate : coordinates)
-    instant = std::min(instant, coordinate.history[lag].stamp);
+    if (coordinate.needed) instant = std::min(instant, coordinate.history[lag].stamp);
   if (!estimate) return true;
   // A polynomial is no good outside of its samples. Where the history held is too short, the
   // instant moves into it; where it still grows, waiting helps.
   const std::int64_t earliest = instant;
   for (const Coordinate& coordinate : coordinates) {
+    if (!coordinate.needed) continue;
     const History& history = coordinate.history;
     if (history[window - 1].stamp > earliest && history.full())
       instant = std::max(instant, history[history.size() - 1].stamp);
   }
   for (const Coordinate& coordinate : coordinates) {
+    if (!coordinate.needed) continue;
     const History& history = coordinate.history;
     if (history[window - 1].stamp > instant && history[history.size() - 1].stamp > instant)
       return false;
@@ -257,6 +261,7 @@ const PolynomialFit& MotionEstimator::Impl::weights(bool with_velocities) {
 void MotionEstimator::Impl::fitAt(std::int64_t instant, Motion& motion) {
   ++evaluation;
   for (std::size_t c = 0; c < coordinates.size(); ++c) {
+    if (!coordinates[c].needed) continue;
     const History& history = coordinates[c].history;
     const int newest = windowAge(history, instant);
     // Turns are counted from the first sample on too: however far a joint has turned, the
@@ -281,6 +286,7 @@ void MotionEstimator::Impl::fitAt(std::int64_t instant, Motion& motion) {
 
 void MotionEstimator::Impl::copyNewest(Motion& motion) const {
   for (std::size_t c = 0; c < coordinates.size(); ++c) {
+    if (!coordinates[c].needed) continue;
     const Sample& newest = coordinates[c].history[0];
     const auto out = static_cast<Eigen::Index>(c);
     motion.q[out] = newest.q;
@@ -313,6 +319,15 @@ MotionEstimator::Verdict MotionEstimator::push(std::int64_t stamp_ns, const int*
     coordinate.fresh = true;
   }
   return verdict;
+}
+
+void MotionEstimator::waitFor(const std::vector<bool>& coordinates) {
+  if (coordinates.size() != impl_->coordinates.size())
+    throw MotionError("motion estimator: told of " + std::to_string(coordinates.size()) +
+                      " coordinates whether to wait for them, the mechanism has " +
+                      std::to_string(impl_->coordinates.size()));
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    impl_->coordinates[i].needed = coordinates[i];
 }
 
 std::int64_t MotionEstimator::latestGap() const {
