@@ -54,6 +54,10 @@ class ClosedLoopDynamics {
   const std::vector<bool>& actuated() const;
   /// Names of actuated closures, whose efforts follow those of the coordinates.
   const std::vector<std::string>& actuatedClosures() const;
+  /// How far each of them has turned, within half a turn, or slid, and how fast, in the motion
+  /// computed last; rad or m.
+  const Eigen::VectorXd& actuatedClosurePositions() const;
+  const Eigen::VectorXd& actuatedClosureVelocities() const;
 
   /// Replaces the passive coordinates of `motion` by those that the closures demand: positions by
   /// Newton's method from those in `motion` (the previous sample's), velocities and accelerations

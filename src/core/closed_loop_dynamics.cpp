@@ -19,7 +19,6 @@
 namespace virtual_work_dynamics {
 
 namespace {
-
 // Efforts of actuators open by less than this, of unit changes, are determined.
 constexpr double kOpen = 1e-8;
 
@@ -83,7 +82,6 @@ bool allFinite(const std::vector<Wrench>& wrenches) {
     return wrench.force.allFinite() && wrench.torque.allFinite();
   });
 }
-
 }  // namespace
 
 struct ClosedLoopDynamics::Impl {
@@ -91,6 +89,7 @@ struct ClosedLoopDynamics::Impl {
 
   void close(const Mechanism& mechanism, const Scene& scene);
   void push(const Motion& motion);
+  void setFreeMotions();
   void solve();
   void react(const Motion& motion);
   void setFlags();
@@ -117,6 +116,7 @@ struct ClosedLoopDynamics::Impl {
 
   Eigen::VectorXd effort;
   std::vector<std::string> actuated_closures;
+  Eigen::VectorXd closure_positions, closure_velocities;  // of these
   std::vector<Pose> poses;
   std::vector<Twist> twists;
   Determinacy determinacy;
@@ -155,6 +155,8 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene,
   for (const std::size_t c : loops.actuated_closures) {
     actuated_closures.push_back(scene.closures[c].name);
   }
+  closure_positions.setZero(static_cast<Eigen::Index>(actuated_closures.size()));
+  closure_velocities = closure_positions;
   effort.setZero(loops.start.size() + static_cast<Eigen::Index>(actuated_closures.size()));
   effort_determined.resize(static_cast<std::size_t>(effort.size()));
   effort_freedoms.resize(effort_determined.size());
@@ -189,6 +191,14 @@ void ClosedLoopDynamics::Impl::push(const Motion& motion) {
   first_pass->compute(motion, *first);
   for (std::size_t i = 0; i < reaction_joints.size(); ++i) {
     tree_reactions[static_cast<std::size_t>(reaction_joints[i])] = first->rootAxes()[i];
+  }
+}
+
+void ClosedLoopDynamics::Impl::setFreeMotions() {
+  for (std::size_t i = 0; i < actuated_closures.size(); ++i) {
+    const auto place = static_cast<Eigen::Index>(i);
+    closure_positions[place] = kinematics.freePosition(loops.actuated_closures[i]);
+    closure_velocities[place] = kinematics.freeVelocity(loops.actuated_closures[i]);
   }
 }
 
@@ -295,6 +305,14 @@ const std::vector<std::string>& ClosedLoopDynamics::actuatedClosures() const {
   return impl_->actuated_closures;
 }
 
+const Eigen::VectorXd& ClosedLoopDynamics::actuatedClosurePositions() const {
+  return impl_->closure_positions;
+}
+
+const Eigen::VectorXd& ClosedLoopDynamics::actuatedClosureVelocities() const {
+  return impl_->closure_velocities;
+}
+
 bool ClosedLoopDynamics::complete(Motion& motion) {
   return complete(motion, impl_->loops.actuated);
 }
@@ -322,6 +340,7 @@ void ClosedLoopDynamics::compute(const Motion& motion) {
   requireLengths(motion, coordinates());
   impl_->push(motion);
   impl_->residuals->set(impl_->kinematics, impl_->static_motion ? impl_->rest : motion);
+  impl_->setFreeMotions();
   impl_->solve();
   impl_->react(motion);
   impl_->setFlags();

@@ -218,6 +218,23 @@ ClosureWrench LoopKinematics::unitEffort(std::size_t closure) const {
   return wrench;
 }
 
+double LoopKinematics::freePosition(std::size_t closure) const {
+  const Frames& frames = frames_[closure];
+  if (frames.type == ClosureType::kPrismatic) {
+    return freeAxis(closure).dot(childOrigin(closure) - parentOrigin(closure));
+  }
+  const Eigen::Vector3d x = axis(frames.child, 0);
+  return std::atan2(axis(frames.parent, 1).dot(x), axis(frames.parent, 0).dot(x));
+}
+
+double LoopKinematics::freeVelocity(std::size_t closure) const {
+  const Frames& frames = frames_[closure];
+  const PointState P = pointOf(frames.parent);
+  const PointState C = pointOf(frames.child);
+  if (frames.type != ClosureType::kPrismatic) return freeAxis(closure).dot(C.w - P.w);
+  return freeAxis(closure).dot(C.v - P.v - P.w.cross(C.o - P.o));
+}
+
 double LoopKinematics::workOf(const Step& step, std::size_t closure,
                               const ClosureWrench& wrench) const {
   const JointConstants& joint = joints_[static_cast<std::size_t>(step.joint)];

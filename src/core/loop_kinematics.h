@@ -58,6 +58,10 @@ class LoopKinematics {
   ClosureWrench unitEffort(std::size_t closure) const;
   /// Direction of that axis.
   Eigen::Vector3d freeAxis(std::size_t closure) const { return axis(frames_[closure].parent, 2); }
+  /// How far the child has turned about it, within half a turn, or slid along it, and how fast in
+  /// the motion set last.
+  double freePosition(std::size_t closure) const;
+  double freeVelocity(std::size_t closure) const;
   /// Adds the generalized force of such a wrench on the child and its opposite on the parent.
   template <typename Vector>
   void addGeneralizedForce(std::size_t closure, const ClosureWrench& wrench, Vector&& force) const {
