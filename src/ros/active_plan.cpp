@@ -1,5 +1,6 @@
 #include "ros/active_plan.h"
 
+#include <numeric>
 #include <utility>
 
 namespace virtual_work_dynamics {
@@ -17,6 +18,19 @@ Request computed(const Request& request, PlanChecks checks) {
   return checks.certificates && !isEmpty(request) ? Certifier::extended(request) : request;
 }
 
+// With determinacy, everything that the scene asks for.
+std::unique_ptr<LoopPlan> compileLoops(const Mechanism& mechanism, const Scene& scene,
+                                       Request request, const Audience& audience) {
+  std::vector<std::size_t> wrenches = audience.wrenches;
+  if (audience.determinacy) {
+    request.efforts = true;
+    request.root_axes = request.child_axes = requestedReactions(mechanism, scene);
+    wrenches.resize(request.child_axes.size());
+    std::iota(wrenches.begin(), wrenches.end(), 0);
+  }
+  return std::make_unique<LoopPlan>(mechanism, scene, request, wrenches);
+}
+
 }  // namespace
 
 Request requestFor(const Audience& audience, const std::vector<std::string>& joints, bool twist) {
@@ -31,33 +45,49 @@ Request requestFor(const Audience& audience, const std::vector<std::string>& joi
   return request;
 }
 
-std::string operationsOf(const InverseDynamics& dynamics) {
-  const PlanSummary summary = dynamics.summary();
+std::string operationsOf(const ActivePlan& plan) {
+  if (plan.loops) return "";
+  const PlanSummary summary = plan.chain->dynamics.summary();
   if (summary.multiplications + summary.additions == 0) return "";
   return std::to_string(summary.multiplications) + " multiplications, " +
          std::to_string(summary.additions) + " additions, " +
          std::to_string(summary.sines_and_cosines) + " sines and cosines";
 }
 
+ChainPlan::ChainPlan(const Mechanism& mechanism, const Scene& scene, const Request& request)
+    : dynamics(mechanism, scene, request),
+      results(dynamics.makeWorkspace()),
+      points(dynamics, kPointsAtOnce) {}
+
 ActivePlan::ActivePlan(const Mechanism& mechanism, const Scene& scene, const Request& request,
                        Audience who, const std::string& frame_prefix, PlanChecks checks)
-    : audience(std::move(who)),
-      dynamics(mechanism, scene, computed(request, checks)),
-      results(dynamics.makeWorkspace()),
-      points(dynamics, kPointsAtOnce),
-      messages(mechanism, request, frame_prefix) {
+    : audience(std::move(who)), messages(mechanism, scene, request, frame_prefix) {
+  if (needsClosedLoops(scene)) {
+    loops = compileLoops(mechanism, scene, request, audience);
+    messages.setComputed(loops->results().request());
+    return;
+  }
+  chain.emplace(mechanism, scene, computed(request, checks));
   if (isEmpty(request)) return;
   if (checks.cross_check) {
-    cross_check = std::make_shared<CrossCheckSlot>(mechanism, scene, dynamics.request());
+    cross_check = std::make_shared<CrossCheckSlot>(mechanism, scene, chain->dynamics.request());
   }
   if (checks.certificates) {
     certifier.emplace(mechanism, scene);
-    ground = Certifier::groundIndex(dynamics.request());
+    ground = Certifier::groundIndex(chain->dynamics.request());
   }
 }
 
+const Request& ActivePlan::request() const {
+  return loops ? loops->results().request() : chain->dynamics.request();
+}
+
+const Eigen::VectorXd& ActivePlan::effort() const {
+  return loops ? loops->results().effort() : chain->results.effort();
+}
+
 std::string describe(const ActivePlan& plan) {
-  const Request& request = plan.dynamics.request();
+  const Request& request = plan.request();
   std::string text;
   const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
   if (request.efforts) add("efforts");
@@ -70,6 +100,7 @@ std::string describe(const ActivePlan& plan) {
   if (request.poses) add("poses");
   if (request.twists) add("twists");
   if (plan.certifier) add("certificates");
+  if (plan.loops && !text.empty()) add("closed loops");
   return text.empty() ? "nothing" : text;
 }
 

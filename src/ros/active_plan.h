@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ros/cross_check.h"
+#include "ros/loop_plan.h"
 #include "ros/output_messages.h"
 #include "virtual_work_dynamics/certificates.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
@@ -19,27 +20,35 @@ struct Audience {
   bool effort = false;
   bool reactions = false;
   bool trajectory = false;
+  bool determinacy = false;
   std::vector<std::size_t> wrenches;  ///< indices of the ~reaction/<joint> topics, ascending
 
-  bool wantsSamples() const { return effort || reactions || !wrenches.empty(); }
+  bool wantsSamples() const { return effort || reactions || determinacy || !wrenches.empty(); }
   bool wantsPoints() const { return wantsSamples() || trajectory; }
   bool operator==(const Audience& other) const {
     return effort == other.effort && reactions == other.reactions &&
-           trajectory == other.trajectory && wrenches == other.wrenches;
+           trajectory == other.trajectory && determinacy == other.determinacy &&
+           wrenches == other.wrenches;
   }
 };
 
-/// What the audience makes necessary, and no more.
+/// What is published to the audience, and no more.
 /// @param joints whose reactions the scene asks for.
 Request requestFor(const Audience& audience, const std::vector<std::string>& joints, bool twist);
-
-/// One line for the user: what a sample costs. Empty when nothing is computed.
-std::string operationsOf(const InverseDynamics& dynamics);
 
 /// How the samples of a plan are checked.
 struct PlanChecks {
   bool cross_check = false;
   bool certificates = false;
+};
+
+/// An open chain compiled.
+struct ChainPlan {
+  ChainPlan(const Mechanism& mechanism, const Scene& scene, const Request& request);
+
+  InverseDynamics dynamics;
+  Workspace results;
+  SampleBlock points;  ///< of trajectories
 };
 
 /// An audience compiled: plan, memory and messages that belong together, so that whatever is
@@ -50,10 +59,13 @@ struct ActivePlan {
   ActivePlan(const Mechanism& mechanism, const Scene& scene, const Request& request, Audience who,
              const std::string& frame_prefix, PlanChecks checks);
 
+  /// What is computed, for outputs and checks.
+  const Request& request() const;
+  const Eigen::VectorXd& effort() const;
+
   Audience audience;
-  InverseDynamics dynamics;
-  Workspace results;
-  SampleBlock points;  ///< of trajectories
+  std::optional<ChainPlan> chain;   ///< of an open chain; none:
+  std::unique_ptr<LoopPlan> loops;  ///< of a mechanism with closed loops; null: an open chain
   OutputMessages messages;
   std::shared_ptr<CrossCheckSlot> cross_check;  ///< null: off
   std::optional<Certifier> certifier;           ///< none: off
@@ -62,5 +74,9 @@ struct ActivePlan {
 
 /// One line for the user: what is computed.
 std::string describe(const ActivePlan& plan);
+
+/// One line for the user: what a sample costs. Empty when nothing is computed, and with closed
+/// loops, whose operations depend on the position.
+std::string operationsOf(const ActivePlan& plan);
 
 }  // namespace virtual_work_dynamics

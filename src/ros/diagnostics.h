@@ -9,6 +9,7 @@
 
 #include "ros/counters.h"
 #include "ros/joint_watch.h"
+#include "ros/loop_report.h"
 #include "ros/self_check_report.h"
 
 namespace virtual_work_dynamics {
@@ -18,7 +19,8 @@ class Diagnostics {
  public:
   /// @param period s.
   Diagnostics(const Counters& counters_read, RunTimeHistogram& run_times, const JointWatch& joints,
-              const SelfCheckReport& self_check, const std::string& robot, double period);
+              const SelfCheckReport& self_check, const LoopReport& loops, const std::string& robot,
+              double period);
 
   /// What the node is at: the subscribed outputs and what they make it compute.
   void setPlan(const std::vector<std::string>& outputs, const std::string& plan,
@@ -52,6 +54,7 @@ class Diagnostics {
   RunTimeHistogram& run_times_;
   const JointWatch& joints_;
   SelfCheckReport self_check_;
+  LoopReport loops_;
   const std::chrono::nanoseconds period_;
   JointWatch::Clock::time_point next_;
   Before before_;

@@ -5,15 +5,12 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
 #include <memory>
 #include <utility>
 
 #include "ros/message_text.h"
-#include "ros/private_parameters.h"
-#include "ros/topic_names.h"
-#include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/number_text.h"
-#include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -21,43 +18,22 @@ namespace {
 // How soon the node's own thread sees that it is to stop, or that a report is due.
 constexpr double kManageWait = 0.05;  // s
 
-Mechanism readRobot(const InverseDynamicsParameters& parameters) {
-  try {
-    return readUrdf(parameters.robot_description);
-  } catch (const UrdfError& error) {
-    throw UrdfError("parameter " + parameters.robot_description_key + ": " + error.what());
+// Of the efforts, those that do not exist as NaN.
+void copyEfforts(const ActivePlan& plan, Eigen::MatrixXd::RowXpr row) {
+  row = plan.effort().head(row.size());
+  for (Eigen::Index i = 0; plan.loops && i < row.size(); ++i) {
+    const bool exists = plan.loops->effortExists()[static_cast<std::size_t>(i)];
+    if (!exists) row[i] = std::numeric_limits<double>::quiet_NaN();
   }
-}
-
-// The estimator names its setting itself; what is wrong must show before anything is advertised.
-EstimatorSettings checkedSettings(const Mechanism& mechanism, EstimatorSettings settings,
-                                  const Scene& scene) {
-  try {
-    const MotionEstimator check(mechanism, settings);
-  } catch (const MotionError& error) {
-    throw ParameterError(std::string("parameters ~estimator: ") + error.what());
-  }
-  settings.estimate = settings.estimate && !scene.static_motion;
-  return settings;
 }
 
 }  // namespace
 
-InverseDynamicsNode::Task::Task(const InverseDynamicsParameters& parameters)
-    : mechanism(readRobot(parameters)),
-      scene(parameters.scene),
-      reactions(requestedReactions(mechanism, scene)),
-      reaction_topics(legalTopicNames(reactions)),
-      estimator(checkedSettings(mechanism, parameters.estimator, scene)) {
-  if (mechanism.coordinates().empty()) {
-    throw UrdfError("parameter " + parameters.robot_description_key + ": robot '" +
-                    mechanism.name() + "' has no joint that moves");
-  }
-  plan_lines = InverseDynamics(mechanism, scene).summary().lines();
-}
+using Outcome = SampleComputation::Outcome;
 
 InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parameters)
     : task_(parameters),
+      loops_(task_.loops.get()),
       frame_prefix_(parameters.frame_prefix),
       twist_(parameters.twist),
       output_queue_(parameters.output_queue),
@@ -65,24 +41,35 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       late_threshold_(parameters.late_threshold),
       checks_{parameters.self_check.cross_check_rate > 0, parameters.self_check.certificates},
       joint_states_(task_.mechanism),
-      trajectories_(task_.mechanism, task_.scene.static_motion),
+      trajectories_(task_.mechanism, task_.scene.static_motion, task_.passive()),
       estimator_(task_.mechanism, task_.estimator),
       samples_(static_cast<Eigen::Index>(task_.mechanism.coordinates().size()),
-               task_.scene.static_motion, counters_, certificates_),
+               task_.scene.static_motion, counters_, certificates_, loops_),
       played_(parameters.trajectory_rate),
-      joint_watch_(task_.mechanism.coordinateNames()),
+      joint_watch_(task_.mechanism.coordinateNames(), task_.needed()),
       plans_(compile(Audience())),
       cross_check_(checks_.cross_check
                        ? std::make_unique<CrossCheck>(parameters.self_check.cross_check_rate)
                        : nullptr),
-      outputs_(ros::NodeHandle("~"), task_.reaction_topics, parameters.output_queue, manage_queue_,
-               [this] { audience_changed_ = true; }),
-      diagnostics_(counters_, counters_.run_times, joint_watch_,
-                   SelfCheckReport(parameters.self_check, cross_check_.get(), certificates_),
-                   task_.mechanism.name(), parameters.diagnostic_period),
+      outputs_(ros::NodeHandle("~"), task_.reaction_topics, loops_ != nullptr,
+               parameters.output_queue, manage_queue_, [this] { audience_changed_ = true; }),
+      diagnostics_(
+          counters_, counters_.run_times, joint_watch_,
+          SelfCheckReport(parameters.self_check, cross_check_.get(), certificates_),
+          LoopReport(task_.mechanism, task_.scene, task_.reactions,
+                     loops_ != nullptr ? &loops_->record : nullptr, parameters.loop_tolerance),
+          task_.mechanism.name(), parameters.diagnostic_period),
       sim_time_(ros::Time::isSimTime()) {
-  logSummary(parameters);
+  task_.log(parameters);
   ros::NodeHandle node;
+  if (loops_ != nullptr) {
+    estimator_.waitFor(loops_->completer.needed());
+    outputs_.publishDeterminacy(loops_->determinacy.message());
+  }
+  if (!task_.closure_frames.transforms.empty()) {
+    closure_frames_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+    closure_frames_.publish(task_.closure_frames);
+  }
   const auto queue = static_cast<std::uint32_t>(parameters.input_queue);
   const auto hints = ros::TransportHints().tcpNoDelay();
   joint_state_subscriber_ =
@@ -101,32 +88,6 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
 InverseDynamicsNode::~InverseDynamicsNode() {
   stopping_ = true;
   manager_.join();
-}
-
-void InverseDynamicsNode::logSummary(const InverseDynamicsParameters& parameters) const {
-  for (const Doubt& doubt : task_.mechanism.doubts()) ROS_WARN("%s", doubt.text.c_str());
-  const auto& names = task_.mechanism.coordinateNames();
-  const Eigen::Vector3d& g = task_.scene.gravity;
-  const EstimatorSettings& estimator = task_.estimator;
-  const std::string accelerations =
-      task_.scene.static_motion ? "static scene, no velocities nor accelerations"
-      : !estimator.estimate
-          ? "accelerations of joint states taken as zero"
-          : "accelerations of joint states estimated (window " + std::to_string(estimator.window) +
-                ", order " + std::to_string(estimator.order) + ", lag " +
-                std::to_string(estimator.lag) + ")";
-  ROS_INFO(
-      "Robot '%s' from %s: %zu coordinates (%s), %zu reactions (%s); gravity [%s, %s, %s] m/s^2; "
-      "%s; %s",
-      task_.mechanism.name().c_str(), parameters.robot_description_key.c_str(), names.size(),
-      shortList(names).c_str(), task_.reactions.size(),
-      task_.reactions.empty() ? "none" : shortList(task_.reactions).c_str(),
-      numberText(g.x()).c_str(), numberText(g.y()).c_str(), numberText(g.z()).c_str(),
-      accelerations.c_str(), parameters.scene_given ? "scene from ~scene" : "default scene");
-  std::string plan;
-  for (const std::string& line : task_.plan_lines) plan += (plan.empty() ? "" : "\n  ") + line;
-  ROS_INFO("With subscribers to everything (%s instructions): %s",
-           toString(chosenInstructionSet()).c_str(), plan.c_str());
 }
 
 // One message that cannot be dealt with, for want of memory say, does not end the node.
@@ -178,6 +139,11 @@ bool InverseDynamicsNode::push(const JointSample& sample) {
   if (verdict != Verdict::kAccepted) window_filled_ = false;
   counters_.accepted_joint_states.add();
   joint_watch_.saw(sample.coordinates, sample.count);
+  if (loops_ != nullptr && loops_->completer.saw(sample.coordinates, sample.count)) {
+    estimator_.waitFor(loops_->completer.needed());
+    joint_watch_.needAll();
+    loops_->record.setPassiveGiven(true);
+  }
   return true;
 }
 
@@ -204,14 +170,24 @@ void InverseDynamicsNode::evaluate(ros::Time receipt) {
     return;
   }
   const std::int64_t stamp_ns = estimator_.evaluate(samples_.motion());
-  if (!samples_.compute(plan, stamp_ns)) {
-    drop(joint_state_subscriber_.getTopic(), DropReason::kOverflow,
-         "not finite at stamp " + stampText(stamp_ns));
+  const Outcome outcome = samples_.compute(plan, stamp_ns);
+  if (outcome != Outcome::kDone) {
+    const bool open = outcome == Outcome::kOpenLoop;
+    drop(joint_state_subscriber_.getTopic(), open ? DropReason::kOpenLoop : DropReason::kOverflow,
+         (open ? loops_->completer.problem() + "," : std::string("not finite")) + " at stamp " +
+             stampText(stamp_ns));
     return;
   }
+  publishSample(plan, stamp_ns);
+  if (!sim_time_ && ros::Time::now() - receipt > late_threshold_) counters_.late.add();
+}
+
+void InverseDynamicsNode::publishSample(const ActivePlan& plan, std::int64_t stamp_ns) {
   outputs_.publishSample(plan);
   counters_.outputs.add();
-  if (!sim_time_ && ros::Time::now() - receipt > late_threshold_) counters_.late.add();
+  if (plan.audience.determinacy && loops_->determinacy.update(stamp_ns, plan.loops->results())) {
+    outputs_.publishDeterminacy(loops_->determinacy.message());
+  }
 }
 
 void InverseDynamicsNode::receiveTrajectory(
@@ -229,6 +205,7 @@ void InverseDynamicsNode::take(const trajectory_msgs::JointTrajectory& message, 
   }
   auto rejection = trajectories_.convert(message, static_cast<std::int64_t>(start.toNSec()),
                                          estimator_, trajectory_);
+  if (!rejection && loops_ != nullptr) rejection = loops_->completer.check(trajectory_);
   // One plan for the whole trajectory, so that ~joint_trajectory is complete.
   ActivePlan& plan = plans_.current();
   if (!rejection && !plan.audience.wantsPoints()) return;
@@ -242,6 +219,7 @@ void InverseDynamicsNode::take(const trajectory_msgs::JointTrajectory& message, 
     drop(topic, rejection->reason, rejection->text);
     return;
   }
+  if (loops_ != nullptr) loops_->completer.complete(trajectory_);
   const std::size_t points = message.points.size();
   if (!trajectory_.completion.empty() && completion_throttle_.open()) {
     ROS_INFO("%s: %zu points, %s", topic.c_str(), points, trajectory_.completion.c_str());
@@ -262,15 +240,14 @@ void InverseDynamicsNode::respond(ActivePlan& plan,
                             trajectory_.table.positions.cols());
     bool complete = true;
     for (std::size_t i = 0; i < points; ++i) {
-      if (!samples_.computeNext(plan, trajectory_, i)) {
-        dropPoint(i);
+      const Outcome outcome = samples_.computeNext(plan, trajectory_, i);
+      if (outcome != Outcome::kDone) {
+        dropPoint(outcome, trajectory_, i);
         complete = false;
         continue;
       }
-      if (fill) efforts.row(static_cast<Eigen::Index>(i)) = plan.results.effort();
-      if (!at_once_) continue;
-      outputs_.publishSample(plan);
-      counters_.outputs.add();
+      if (fill) copyEfforts(plan, efforts.row(static_cast<Eigen::Index>(i)));
+      if (at_once_) publishSample(plan, trajectory_.stamps_ns[i]);
     }
     if (fill && complete) outputs_.publishTrajectory(withEfforts(message, trajectory_, efforts));
   }
@@ -284,27 +261,31 @@ void InverseDynamicsNode::playDue() {
     ActivePlan& plan = plans_.current();
     played_.playDue(Clock::now(), [&](const TrajectoryMotion& trajectory, std::size_t point) {
       if (!plan.audience.wantsSamples()) return;
-      if (!samples_.compute(plan, trajectory, point)) {
-        dropPoint(point);
+      const Outcome outcome = samples_.compute(plan, trajectory, point);
+      if (outcome != Outcome::kDone) {
+        dropPoint(outcome, trajectory, point);
         return;
       }
-      outputs_.publishSample(plan);
-      counters_.outputs.add();
+      publishSample(plan, trajectory.stamps_ns[point]);
     });
   });
   if (played_.empty()) player_.stop();
 }
 
-void InverseDynamicsNode::dropPoint(std::size_t point) {
-  drop(trajectory_subscriber_.getTopic(), DropReason::kOverflow,
-       "not finite at point " + std::to_string(point + 1));
+void InverseDynamicsNode::dropPoint(Outcome outcome, const TrajectoryMotion& trajectory,
+                                    std::size_t point) {
+  const bool open = outcome == Outcome::kOpenLoop;
+  drop(trajectory_subscriber_.getTopic(), open ? DropReason::kOpenLoop : DropReason::kOverflow,
+       (open ? trajectory.problem + ", at" : std::string("not finite at")) + " point " +
+           std::to_string(point + 1));
 }
 
 void InverseDynamicsNode::drop(const std::string& topic, DropReason reason,
                                const std::string& text) {
   counters_.drop(reason, topic + ": " + text);
   if (!drop_throttles_[index(reason)].open()) return;
-  const char* what = reason == DropReason::kOverflow ? "result" : "message";
+  const bool result = reason == DropReason::kOverflow || reason == DropReason::kOpenLoop;
+  const char* what = result ? "result" : "message";
   ROS_WARN("%s: %s dropped (%s): %s", topic.c_str(), what, kDropReasonNames[index(reason)],
            text.c_str());
 }
@@ -333,7 +314,7 @@ void InverseDynamicsNode::adaptPlan() {
   if (audience == audience_) return;
   try {
     std::unique_ptr<ActivePlan> plan = compile(audience);
-    diagnostics_.setPlan(outputs_.names(audience), describe(*plan), operationsOf(plan->dynamics));
+    diagnostics_.setPlan(outputs_.names(audience), describe(*plan), operationsOf(*plan));
     if (cross_check_) cross_check_->watch(plan->cross_check);
     plans_.offer(std::move(plan));
     audience_ = audience;
@@ -348,6 +329,14 @@ void InverseDynamicsNode::watchJoints(Clock::time_point now) {
   if (first_joint_state_ == Clock::time_point()) first_joint_state_ = now;
   if (now - first_joint_state_ < JointWatch::kPatience) return;
   joints_reported_ = true;
+  const std::vector<std::string> in_vain = joint_watch_.notNeeded(true);
+  if (!in_vain.empty()) {
+    ROS_WARN(
+        "%s: passive joints %s have come, but not %s: they are ignored, and all of them follow "
+        "from the closures",
+        joint_state_subscriber_.getTopic().c_str(), shortList(in_vain).c_str(),
+        shortList(joint_watch_.notNeeded(false)).c_str());
+  }
   const std::vector<std::string> missing = joint_watch_.neverSeen();
   if (missing.empty()) return;
   ROS_WARN("%s: after 5 s still without joints %s; nothing is published until all have come",

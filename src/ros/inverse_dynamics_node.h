@@ -26,6 +26,7 @@
 #include "ros/joint_watch.h"
 #include "ros/output_topics.h"
 #include "ros/plan_switch.h"
+#include "ros/robot_task.h"
 #include "ros/sample_computation.h"
 #include "ros/throttle.h"
 #include "ros/trajectory_conversion.h"
@@ -51,17 +52,6 @@ class InverseDynamicsNode {
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// What the parameters make of the robot.
-  struct Task {
-    explicit Task(const InverseDynamicsParameters& parameters);
-    Mechanism mechanism;
-    Scene scene;
-    std::vector<std::string> reactions;        ///< joints whose reaction the scene asks for
-    std::vector<std::string> reaction_topics;  ///< their topics
-    std::vector<std::string> plan_lines;       ///< PlanSummary of everything the scene asks for
-    EstimatorSettings estimator;
-  };
-
   // Receiving thread.
   void receiveJointState(const ros::MessageEvent<const sensor_msgs::JointState>& event);
   void receiveTrajectory(const ros::MessageEvent<const trajectory_msgs::JointTrajectory>& event);
@@ -74,7 +64,9 @@ class InverseDynamicsNode {
   void take(const trajectory_msgs::JointTrajectory& message, ros::Time receipt);
   void respond(ActivePlan& plan, const trajectory_msgs::JointTrajectory& message);
   void playDue();
-  void dropPoint(std::size_t point);
+  void publishSample(const ActivePlan& plan, std::int64_t stamp_ns);
+  void dropPoint(SampleComputation::Outcome outcome, const TrajectoryMotion& trajectory,
+                 std::size_t point);
   void drop(const std::string& topic, DropReason reason, const std::string& text);
 
   // The node's own thread.
@@ -83,9 +75,8 @@ class InverseDynamicsNode {
   void watchJoints(Clock::time_point now);
   std::unique_ptr<ActivePlan> compile(const Audience& audience) const;
 
-  void logSummary(const InverseDynamicsParameters& parameters) const;
-
-  const Task task_;
+  const RobotTask task_;
+  LoopSamples* const loops_;  ///< null: an open chain
   const std::string frame_prefix_;
   const bool twist_;
   const int output_queue_;
@@ -118,6 +109,7 @@ class InverseDynamicsNode {
   bool audience_changed_ = true;
   Audience audience_;
   OutputTopics outputs_;
+  ros::Publisher closure_frames_;
   Diagnostics diagnostics_;
   Clock::time_point first_joint_state_{};
   bool joints_reported_ = false;

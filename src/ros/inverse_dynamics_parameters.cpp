@@ -91,6 +91,16 @@ SelfCheckSettings readSelfCheck(PrivateParameters& parameters) {
   return settings;
 }
 
+void refuseChecksOfLoops(const InverseDynamicsParameters& parameters) {
+  const SelfCheckSettings& checks = parameters.self_check;
+  if (!needsClosedLoops(parameters.scene)) return;
+  const char* loops = " is for open chains; the scene has closures, springs or passive joints";
+  if (checks.cross_check_rate > 0) {
+    throw parameterError("cross_check_rate", numberText(checks.cross_check_rate) + loops);
+  }
+  if (checks.certificates) throw parameterError("certificates", std::string("true") + loops);
+}
+
 }  // namespace
 
 InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& private_node) {
@@ -106,10 +116,15 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   result.diagnostic_period = readPeriod(parameters, "diagnostic_period", result.diagnostic_period);
   result.late_threshold = readPeriod(parameters, "late_threshold", result.late_threshold);
   result.self_check = readSelfCheck(parameters);
+  result.loop_tolerance = parameters.number("loop_tolerance", result.loop_tolerance);
+  if (!(result.loop_tolerance > 0)) {
+    throw parameterError("loop_tolerance", numberText(result.loop_tolerance) + " is not positive");
+  }
   result.scene_given = parameters.has("scene");
   const YAML::Node scene = xmlRpcToYaml(parameters.raw("scene"), "scene");
   parameters.refuseUnknown();
   result.scene = readScene(scene);
+  refuseChecksOfLoops(result);
   readRobotDescription(private_node, result);
   return result;
 }

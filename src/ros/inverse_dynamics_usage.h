@@ -17,8 +17,10 @@ publishes (each only while somebody subscribes)
   ~reactions         sensor_msgs/MultiDOFJointState   joint poses and wrenches, axes of the root link
   ~reaction/<joint>  geometry_msgs/WrenchStamped      the same wrench, frame of the child link
   ~joint_trajectory  trajectory_msgs/JointTrajectory  the input trajectory with efforts
+  ~determinacy       diagnostic_msgs/DiagnosticArray  closed loops: what mechanics determines; latched
   /diagnostics       diagnostic_msgs/DiagnosticArray  rates, run times, drops, checks
-A wrench is what the parent link exerts on the child link, moment about the joint's origin.
+A wrench is what the parent link exerts on the child link, moment about the joint's origin. With closed
+loops /tf_static has a frame for each closure, that of ~reaction/<closure>.
 
 parameters
   robot_description          URDF text; searched from the private namespace upwards
@@ -40,6 +42,7 @@ parameters
   ~certificates              check power balance and ground's wrench of every sample (false)
   ~residual_warn             what checks find, relative to sums of magnitudes: WARN from here (1e-10)
   ~residual_error            ERROR from here (1e-7)
+  ~loop_tolerance            closed loops: a motion that violates one by more, relative, is a WARN (1e-6)
 )";
 
 }  // namespace virtual_work_dynamics

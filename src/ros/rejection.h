@@ -18,16 +18,18 @@ enum class DropReason : std::size_t {
   kTimes,
   kNeverSeen,
   kOverflow,
+  kPassiveJoints,
+  kOpenLoop,
   kNoTime,
   kBacklog,
   kInternal
 };
 
 /// The reasons as diagnostics show them, in the order of DropReason.
-constexpr std::array<const char*, 13> kDropReasonNames = {
-    "array length", "not finite", "no known joint", "joint twice",      "zero stamp",
-    "equal stamp",  "no points",  "times",          "joint never seen", "overflow",
-    "no time yet",  "backlog",    "internal"};
+constexpr std::array<const char*, 15> kDropReasonNames = {
+    "array length",   "not finite", "no known joint", "joint twice",      "zero stamp",
+    "equal stamp",    "no points",  "times",          "joint never seen", "overflow",
+    "passive joints", "open loop",  "no time yet",    "backlog",          "internal"};
 
 constexpr std::size_t index(DropReason reason) {
   return static_cast<std::size_t>(reason);

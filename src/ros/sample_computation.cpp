@@ -5,34 +5,46 @@
 
 namespace virtual_work_dynamics {
 
-using Clock = std::chrono::steady_clock;
-
 SampleComputation::SampleComputation(Eigen::Index coordinates, bool static_motion,
-                                     Counters& counters, CertificateRecord& certificates)
+                                     Counters& counters, CertificateRecord& certificates,
+                                     LoopSamples* loops)
     : static_motion_(static_motion),
       counters_(counters),
       certificates_(certificates),
+      loops_(loops),
       motion_(coordinates) {}
 
-bool SampleComputation::compute(ActivePlan& plan, std::int64_t stamp_ns) {
+SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan, std::int64_t stamp_ns) {
   if (static_motion_) motion_.qd.setZero();
   counters_.samples.add();
-  return computeOne(plan, stamp_ns);
+  if (loops_ == nullptr) return computeOne(plan, stamp_ns);
+  const auto start = Clock::now();
+  if (!loops_->completer.complete(motion_)) return Outcome::kOpenLoop;
+  return computeLoops(plan, stamp_ns, start);
 }
 
-bool SampleComputation::compute(ActivePlan& plan, const TrajectoryMotion& trajectory,
-                                std::size_t point) {
+SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan,
+                                                      const TrajectoryMotion& trajectory,
+                                                      std::size_t point) {
   takePoint(trajectory, point);
+  if (loops_ != nullptr) {
+    if (trajectory.open[point]) return Outcome::kOpenLoop;
+    return computeLoops(plan, trajectory.stamps_ns[point], Clock::now());
+  }
   return computeOne(plan, trajectory.stamps_ns[point]);
 }
 
-bool SampleComputation::computeNext(ActivePlan& plan, const TrajectoryMotion& trajectory,
-                                    std::size_t point) {
-  const std::size_t place = point % plan.points.capacity();
+SampleComputation::Outcome SampleComputation::computeNext(ActivePlan& plan,
+                                                          const TrajectoryMotion& trajectory,
+                                                          std::size_t point) {
+  if (loops_ != nullptr) return compute(plan, trajectory, point);
+  ChainPlan& chain = *plan.chain;
+  const std::size_t place = point % chain.points.capacity();
   if (place == 0) computeBlock(plan, trajectory, point);
   takePoint(trajectory, point);
-  plan.points.read(place, plan.results);
-  return motion_.finite() && fillMessages(plan, trajectory.stamps_ns[point]);
+  chain.points.read(place, chain.results);
+  if (!motion_.finite()) return Outcome::kNotFinite;
+  return fillMessages(plan, trajectory.stamps_ns[point]);
 }
 
 void SampleComputation::takePoint(const TrajectoryMotion& trajectory, std::size_t point) {
@@ -47,32 +59,49 @@ void SampleComputation::takePoint(const TrajectoryMotion& trajectory, std::size_
 
 void SampleComputation::computeBlock(ActivePlan& plan, const TrajectoryMotion& trajectory,
                                      std::size_t first) {
-  const std::size_t count = std::min(plan.points.capacity(), trajectory.stamps_ns.size() - first);
+  SampleBlock& points = plan.chain->points;
+  const std::size_t count = std::min(points.capacity(), trajectory.stamps_ns.size() - first);
   const auto start = Clock::now();
-  plan.points.compute(trajectory.table, first, count);
+  points.compute(trajectory.table, first, count);
   const std::chrono::nanoseconds share = (Clock::now() - start) / count;
   for (std::size_t i = 0; i < count; ++i) counters_.run_times.record(share.count());
 }
 
-bool SampleComputation::computeOne(ActivePlan& plan, std::int64_t stamp_ns) {
-  if (!motion_.finite()) return false;
+SampleComputation::Outcome SampleComputation::computeOne(ActivePlan& plan, std::int64_t stamp_ns) {
+  if (!motion_.finite()) return Outcome::kNotFinite;
   const auto start = Clock::now();
-  plan.dynamics.compute(motion_, plan.results);
+  plan.chain->dynamics.compute(motion_, plan.chain->results);
   const auto end = Clock::now();
   counters_.run_times.record(
       std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count());
   return fillMessages(plan, stamp_ns);
 }
 
-bool SampleComputation::fillMessages(ActivePlan& plan, std::int64_t stamp_ns) {
-  if (!plan.results.finite()) return false;
-  plan.messages.fill(stamp_ns, motion_, plan.results);
+SampleComputation::Outcome SampleComputation::computeLoops(ActivePlan& plan, std::int64_t stamp_ns,
+                                                           Clock::time_point start) {
+  if (!motion_.finite()) return Outcome::kNotFinite;
+  LoopPlan& loops = *plan.loops;
+  loops.compute(motion_);
+  const auto end = Clock::now();
+  counters_.run_times.record(
+      std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count());
+  if (!loops.results().finite()) return Outcome::kNotFinite;
+  plan.messages.fill(stamp_ns, motion_, loops);
+  loops_->record.record(loops, loops_->tolerance);
+  return Outcome::kDone;
+}
+
+SampleComputation::Outcome SampleComputation::fillMessages(ActivePlan& plan,
+                                                           std::int64_t stamp_ns) {
+  const Workspace& results = plan.chain->results;
+  if (!results.finite()) return Outcome::kNotFinite;
+  plan.messages.fill(stamp_ns, motion_, results);
   check(plan);
-  return true;
+  return Outcome::kDone;
 }
 
 void SampleComputation::check(ActivePlan& plan) {
-  const Workspace& results = plan.results;
+  const Workspace& results = plan.chain->results;
   if (plan.cross_check) {
     plan.cross_check->offer(motion_, results.effort(), results.childAxes(), results.rootAxes());
   }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 
 #include "ros/active_plan.h"
 #include "ros/certificate_record.h"
 #include "ros/counters.h"
+#include "ros/loop_samples.h"
 #include "ros/trajectory_conversion.h"
 #include "virtual_work_dynamics/motion.h"
 
@@ -20,31 +22,37 @@ class SampleComputation {
   /// @param static_motion the scene takes velocities and accelerations as zero.
   /// @param counters of samples, points and run times; outlives this.
   /// @param certificates of all samples of plans that certify; outlives this.
+  /// @param loops completes motions of joint states, and records samples; null: an open chain.
   SampleComputation(Eigen::Index coordinates, bool static_motion, Counters& counters,
-                    CertificateRecord& certificates);
+                    CertificateRecord& certificates, LoopSamples* loops = nullptr);
 
   /// Where the motion of the sample to compute next is to be put.
   Motion& motion() { return motion_; }
 
-  // Each of these is false, with the messages as they were, when results are not finite.
+  /// What became of a sample; messages stay as they were unless it is done.
+  enum class Outcome { kDone, kNotFinite, kOpenLoop };
 
   /// The sample whose motion is motion().
-  bool compute(ActivePlan& plan, std::int64_t stamp_ns);
+  Outcome compute(ActivePlan& plan, std::int64_t stamp_ns);
   /// One point of a trajectory, by itself.
-  bool compute(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t point);
+  Outcome compute(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t point);
   /// The next point of a trajectory from the first on, as many at once as the plan takes.
-  bool computeNext(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t point);
+  Outcome computeNext(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t point);
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void takePoint(const TrajectoryMotion& trajectory, std::size_t point);
   void computeBlock(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t first);
-  bool computeOne(ActivePlan& plan, std::int64_t stamp_ns);
-  bool fillMessages(ActivePlan& plan, std::int64_t stamp_ns);
+  Outcome computeOne(ActivePlan& plan, std::int64_t stamp_ns);
+  Outcome computeLoops(ActivePlan& plan, std::int64_t stamp_ns, Clock::time_point start);
+  Outcome fillMessages(ActivePlan& plan, std::int64_t stamp_ns);
   void check(ActivePlan& plan);
 
   const bool static_motion_;
   Counters& counters_;
   CertificateRecord& certificates_;
+  LoopSamples* const loops_;
   Motion motion_;
 };
 

@@ -113,9 +113,11 @@ void select(const std::vector<int>& columns, const std::vector<double>& values,
 
 }  // namespace
 
-TrajectoryConversion::TrajectoryConversion(const Mechanism& mechanism, bool static_motion)
+TrajectoryConversion::TrajectoryConversion(const Mechanism& mechanism, bool static_motion,
+                                           std::vector<bool> passive)
     : mechanism_(mechanism),
       static_motion_(static_motion),
+      passive_(std::move(passive)),
       coordinate_of_(coordinatesByName(mechanism)) {}
 
 std::optional<Rejection> TrajectoryConversion::convert(const JointTrajectory& message,
@@ -176,7 +178,7 @@ std::optional<Rejection> TrajectoryConversion::holdOthers(const MotionEstimator&
   std::vector<char> given(coordinate_of_.size(), 0);
   for (const int coordinate : motion.coordinates) given[static_cast<std::size_t>(coordinate)] = 1;
   for (std::size_t i = 0; i < given.size(); ++i) {
-    if (given[i]) continue;
+    if (given[i] || (!passive_.empty() && passive_[i])) continue;
     double position = 0;
     if (!joint_states.latestPosition(static_cast<int>(i), position)) {
       return Rejection{DropReason::kNeverSeen, "it leaves out '" + mechanism_.coordinateNames()[i] +
@@ -190,7 +192,10 @@ std::optional<Rejection> TrajectoryConversion::holdOthers(const MotionEstimator&
 std::optional<Rejection> TrajectoryConversion::complete(const JointTrajectory& message,
                                                         TrajectoryMotion& motion) const {
   motion.completion.clear();
+  motion.open.clear();
+  motion.problem.clear();
   const bool velocities = allHave(message, &JointTrajectoryPoint::velocities);
+  motion.has_velocities = velocities;
   if (static_motion_ || (velocities && allHave(message, &JointTrajectoryPoint::accelerations))) {
     return std::nullopt;
   }
@@ -230,6 +235,8 @@ JointTrajectory withEfforts(const JointTrajectory& message, const TrajectoryMoti
     for (const int coordinate : motion.coordinates) {
       to.effort.push_back(efforts(static_cast<Eigen::Index>(i), coordinate));
     }
+    const auto exists = [](double effort) { return std::isfinite(effort); };
+    if (!std::all_of(to.effort.begin(), to.effort.end(), exists)) to.effort.clear();
   }
   return result;
 }

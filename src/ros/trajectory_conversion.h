@@ -22,6 +22,9 @@ struct TrajectoryMotion {
   std::vector<int> columns;             ///< of the message that are generalized coordinates
   std::vector<int> coordinates;         ///< in the order of `columns`
   std::string completion;               ///< what had to be filled in, and how; empty: nothing
+  bool has_velocities = false;          ///< the message, at every point
+  std::vector<bool> open;               ///< points whose loops cannot be closed; none: all can
+  std::string problem;                  ///< of the first of these
 };
 
 /// Trajectories by joint name to motions by generalized coordinate.
@@ -29,11 +32,14 @@ class TrajectoryConversion {
  public:
   /// @param static_motion velocities and accelerations have no part in the scene: none are
   /// completed.
-  TrajectoryConversion(const Mechanism& mechanism, bool static_motion);
+  /// @param passive by coordinate: may be left out all the same, as closed loops complete them;
+  /// empty: none.
+  TrajectoryConversion(const Mechanism& mechanism, bool static_motion, std::vector<bool> passive);
 
   /// Checks and converts. Joints that the robot does not have and mimic joints are ignored;
-  /// coordinates that the message leaves out rest where the joint states saw them last. Velocities
-  /// and accelerations that the message lacks are still zero: complete() has them.
+  /// coordinates that the message leaves out rest where the joint states saw them last, passive
+  /// ones at zero. Velocities and accelerations that the message lacks are still zero: complete()
+  /// has them.
   /// @param start_ns instant that `time_from_start` counts from, ns.
   /// @returns why the message is to be dropped, or nothing.
   std::optional<Rejection> convert(const trajectory_msgs::JointTrajectory& message,
@@ -55,11 +61,13 @@ class TrajectoryConversion {
 
   const Mechanism& mechanism_;
   bool static_motion_;
+  std::vector<bool> passive_;
   std::unordered_map<std::string, int> coordinate_of_;
 };
 
 /// The message with an effort at every point: its columns of generalized coordinates, in its order.
-/// @param efforts a row for each point, a column for each generalized coordinate.
+/// @param efforts a row for each point, a column for each generalized coordinate. A point with one
+/// that is not finite, as it does not exist, has no efforts.
 trajectory_msgs::JointTrajectory withEfforts(const trajectory_msgs::JointTrajectory& message,
                                              const TrajectoryMotion& motion,
                                              const Eigen::MatrixXd& efforts);

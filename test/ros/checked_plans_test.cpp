@@ -41,7 +41,7 @@ class CheckedPlans : public testing::Test {
 
   void compute(ActivePlan& plan) {
     samples.motion() = robot.motion(mechanism);
-    ASSERT_TRUE(samples.compute(plan, 1));
+    ASSERT_EQ(samples.compute(plan, 1), SampleComputation::Outcome::kDone);
   }
 
   void expectSound(ActivePlan& plan) {
@@ -85,14 +85,14 @@ TEST_F(CheckedPlans, CheckNothingThatNobodyListensTo) {
   const auto plan = compile(Audience());
   EXPECT_FALSE(plan->cross_check);
   EXPECT_FALSE(plan->certifier);
-  EXPECT_FALSE(plan->dynamics.request().efforts);
+  EXPECT_FALSE(plan->request().efforts);
   EXPECT_EQ(describe(*plan), "nothing");
 }
 
 TEST_F(CheckedPlans, PublishNothingOfWhatCertificatesNeed) {
   const auto plan = compile(wrenchesOnly());
-  EXPECT_TRUE(plan->dynamics.request().efforts);
-  EXPECT_EQ(plan->dynamics.request().child_axes.size(), 3u);
+  EXPECT_TRUE(plan->request().efforts);
+  EXPECT_EQ(plan->request().child_axes.size(), 3u);
   compute(*plan);
   EXPECT_TRUE(plan->messages.effort().effort.empty());
   EXPECT_EQ(plan->messages.wrenches().size(), 2u);
@@ -102,8 +102,8 @@ TEST_F(CheckedPlans, AreAsEverWithChecksOff) {
   const auto plan = compile(wrenchesOnly(), false);
   EXPECT_FALSE(plan->cross_check);
   EXPECT_FALSE(plan->certifier);
-  EXPECT_FALSE(plan->dynamics.request().efforts);
-  EXPECT_EQ(plan->dynamics.request().child_axes.size(), 2u);
+  EXPECT_FALSE(plan->request().efforts);
+  EXPECT_EQ(plan->request().child_axes.size(), 2u);
   compute(*plan);
   EXPECT_FALSE(certificates.take());
 }
@@ -172,9 +172,9 @@ TEST_F(CheckedPlans, ComputeAndCheckWithoutAllocation) {
   const auto plan = compile(effortOnly());
   samples.motion() = robot.motion(mechanism);
   const AllocationGuard guard;
-  const bool finite = samples.compute(*plan, 1);
+  const SampleComputation::Outcome outcome = samples.compute(*plan, 1);
   const std::size_t allocations = guard.allocations();
-  EXPECT_TRUE(finite);
+  EXPECT_EQ(outcome, SampleComputation::Outcome::kDone);
   EXPECT_EQ(allocations, 0u);
   EXPECT_TRUE(plan->cross_check->full());
 }

@@ -1,0 +1,48 @@
+#include "ros/closure_frames.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+geometry_msgs::Transform transformOf(const LinkFrame& frame) {
+  const Eigen::Quaterniond rotation = Eigen::AngleAxisd(frame.rpy.z(), Eigen::Vector3d::UnitZ()) *
+                                      Eigen::AngleAxisd(frame.rpy.y(), Eigen::Vector3d::UnitY()) *
+                                      Eigen::AngleAxisd(frame.rpy.x(), Eigen::Vector3d::UnitX());
+  geometry_msgs::Transform transform;
+  transform.translation.x = frame.xyz.x();
+  transform.translation.y = frame.xyz.y();
+  transform.translation.z = frame.xyz.z();
+  transform.rotation.x = rotation.x();
+  transform.rotation.y = rotation.y();
+  transform.rotation.z = rotation.z();
+  transform.rotation.w = rotation.w();
+  return transform;
+}
+
+}  // namespace
+
+tf2_msgs::TFMessage closureFrames(const Mechanism& mechanism, const Scene& scene,
+                                  const std::vector<std::string>& reactions,
+                                  const std::string& frame_prefix) {
+  tf2_msgs::TFMessage message;
+  const auto& links = mechanism.links();
+  for (const Closure& closure : scene.closures) {
+    if (std::find(reactions.begin(), reactions.end(), closure.name) == reactions.end()) continue;
+    if (std::any_of(links.begin(), links.end(),
+                    [&](const Link& link) { return link.name == closure.name; })) {
+      throw SceneError("closures: '" + closure.name +
+                       "' is the name of a link, too; its frame in tf needs a name of its own");
+    }
+    message.transforms.emplace_back();
+    message.transforms.back().header.frame_id = frame_prefix + closure.child.link;
+    message.transforms.back().child_frame_id = frame_prefix + closure.name;
+    message.transforms.back().transform = transformOf(closure.child);
+  }
+  return message;
+}
+
+}  // namespace virtual_work_dynamics

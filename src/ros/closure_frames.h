@@ -1,0 +1,21 @@
+#pragma once
+
+#include <tf2_msgs/TFMessage.h>
+
+#include <string>
+#include <vector>
+
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/scene.h"
+
+namespace virtual_work_dynamics {
+
+/// The child frames of closures in their links, for /tf_static: what ~reaction/<closure> refers to.
+/// @param reactions names of those wanted, among others.
+/// @param frame_prefix put before every frame_id.
+/// @throws SceneError when a closure is named like a link, so that there would be two such frames.
+tf2_msgs::TFMessage closureFrames(const Mechanism& mechanism, const Scene& scene,
+                                  const std::vector<std::string>& reactions,
+                                  const std::string& frame_prefix);
+
+}  // namespace virtual_work_dynamics

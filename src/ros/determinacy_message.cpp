@@ -1,0 +1,93 @@
+#include "ros/determinacy_message.h"
+
+#include <ros/time.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "virtual_work_dynamics/number_text.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr const char* kComponents[] = {"fx", "fy", "fz", "tx", "ty", "tz"};
+
+void add(DiagnosticStatus& status, const std::string& key, const std::string& value) {
+  status.values.emplace_back();
+  status.values.back().key = key;
+  status.values.back().value = value;
+}
+
+const char* flag(bool determined) {
+  return determined ? "1" : "0";
+}
+
+void summarize(DiagnosticStatus& status, std::size_t open, bool singular) {
+  status.level = singular ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
+  status.message =
+      (open == 0 ? std::string("all determined") : std::to_string(open) + " not determined") +
+      (singular ? ", in a singular position" : "");
+}
+
+}  // namespace
+
+DeterminacyMessage::DeterminacyMessage(const std::string& robot, std::vector<std::string> efforts,
+                                       std::vector<std::string> reactions)
+    : efforts_(std::move(efforts)), reactions_(std::move(reactions)) {
+  determinacy_.rank = -1;  // like no other
+  message_.status.resize(3);
+  message_.status[0].name = "determinacy of efforts";
+  message_.status[1].name = "determinacy of reactions, root axes";
+  message_.status[2].name = "determinacy of reactions, child axes";
+  for (DiagnosticStatus& status : message_.status) status.hardware_id = robot;
+}
+
+bool DeterminacyMessage::changed(const ClosedLoopDynamics& results) const {
+  const Determinacy& now = results.determinacy();
+  return now.rank != determinacy_.rank || now.redundancy != determinacy_.redundancy ||
+         now.redundant_constraints != determinacy_.redundant_constraints ||
+         now.free_motions != determinacy_.free_motions || results.effortDetermined() != effort_ ||
+         results.rootAxesDetermined() != root_axes_ || results.childAxesDetermined() != child_axes_;
+}
+
+bool DeterminacyMessage::update(std::int64_t stamp_ns, const ClosedLoopDynamics& results) {
+  if (!changed(results)) return false;
+  determinacy_ = results.determinacy();
+  effort_ = results.effortDetermined();
+  root_axes_ = results.rootAxesDetermined();
+  child_axes_ = results.childAxesDetermined();
+  message_.header.stamp.fromNSec(static_cast<std::uint64_t>(stamp_ns));
+  write();
+  return true;
+}
+
+void DeterminacyMessage::write() {
+  for (DiagnosticStatus& status : message_.status) status.values.clear();
+  const bool singular = determinacy_.free_motions > 0;
+  DiagnosticStatus& efforts = message_.status[0];
+  add(efforts, "rank", std::to_string(determinacy_.rank));
+  add(efforts, "redundant constraints", std::to_string(determinacy_.redundant_constraints));
+  add(efforts, "redundancy", std::to_string(determinacy_.redundancy));
+  add(efforts, "free motions", std::to_string(determinacy_.free_motions));
+  add(efforts, "rank gap", numberText(determinacy_.gap));
+  add(efforts, "condition", numberText(determinacy_.condition));
+  for (std::size_t i = 0; i < efforts_.size(); ++i) add(efforts, efforts_[i], flag(effort_[i]));
+  const auto open = static_cast<std::size_t>(std::count(effort_.begin(), effort_.end(), false));
+  summarize(efforts, open, singular);
+  for (const auto axes : {1, 2}) {
+    const std::vector<Determined>& reactions = axes == 1 ? root_axes_ : child_axes_;
+    DiagnosticStatus& status = message_.status[static_cast<std::size_t>(axes)];
+    std::size_t components = 0;
+    for (std::size_t i = 0; i < reactions.size(); ++i) {
+      for (std::size_t j = 0; j < reactions[i].size(); ++j) {
+        add(status, reactions_[i] + "." + kComponents[j], flag(reactions[i][j]));
+        if (!reactions[i][j]) ++components;
+      }
+    }
+    summarize(status, components, singular);
+  }
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,97 @@
+#include "ros/loop_record.h"
+
+#include <algorithm>
+
+namespace virtual_work_dynamics {
+namespace {
+
+constexpr double ClosureResidual::*kLevel[] = {
+    &ClosureResidual::position, &ClosureResidual::velocity, &ClosureResidual::acceleration};
+
+void raise(std::atomic<double>& largest, double value) {
+  // Taken between the two lines, the larger value belongs to the next report.
+  if (value > largest.load(std::memory_order_relaxed)) {
+    largest.store(value, std::memory_order_relaxed);
+  }
+}
+
+std::vector<std::size_t> takeMarks(std::vector<std::atomic<bool>>& marks) {
+  std::vector<std::size_t> marked;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    if (marks[i].exchange(false, std::memory_order_relaxed)) marked.push_back(i);
+  }
+  return marked;
+}
+
+}  // namespace
+
+constexpr std::size_t LoopRecord::kLevels;
+
+LoopRecord::LoopRecord(std::size_t closures, std::size_t efforts, std::size_t reactions)
+    : residuals_(closures), efforts_(efforts), reactions_(reactions) {}
+
+void LoopRecord::record(const LoopPlan& plan, double tolerance) {
+  const ClosedLoopDynamics& results = plan.results();
+  bool violated = false;
+  for (std::size_t c = 0; c < residuals_.size(); ++c) {
+    for (std::size_t i = 0; i < kLevels; ++i) {
+      const double relative = results.relativeResiduals()[c].*kLevel[i];
+      raise(residuals_[c].largest[i], results.residuals()[c].*kLevel[i]);
+      raise(residuals_[c].relative[i], relative);
+      violated = violated || !(relative <= tolerance);
+    }
+  }
+  if (violated) violations_.add();
+  const Determinacy& found = results.determinacy();
+  rank_.store(found.rank, std::memory_order_relaxed);
+  redundant_constraints_.store(found.redundant_constraints, std::memory_order_relaxed);
+  redundancy_.store(found.redundancy, std::memory_order_relaxed);
+  free_motions_.store(found.free_motions, std::memory_order_relaxed);
+  gap_.store(found.gap, std::memory_order_relaxed);
+  condition_.store(found.condition, std::memory_order_relaxed);
+  if (plan.singular()) {
+    singular_.add();
+    const auto mark = [](std::atomic<bool>& left_out, bool exists) {
+      if (!exists) left_out.store(true, std::memory_order_relaxed);
+    };
+    for (std::size_t i = 0; results.request().efforts && i < efforts_.size(); ++i) {
+      mark(efforts_[i], plan.effortExists()[i]);
+    }
+    for (std::size_t i = 0; i < plan.rootAxesExist().size(); ++i) {
+      mark(reactions_[i], plan.rootAxesExist()[i]);
+    }
+    for (std::size_t i = 0; i < plan.childAxesExist().size(); ++i) {
+      mark(reactions_[plan.reactionOf(i)], plan.childAxesExist()[i]);
+    }
+  }
+  samples_.add();
+}
+
+LoopRecord::Report LoopRecord::take() {
+  Report report;
+  const std::uint64_t samples = samples_.value();
+  report.news = samples > reported_;
+  reported_ = samples;
+  for (Residual& residual : residuals_) {
+    report.residuals.emplace_back();
+    report.relative.emplace_back();
+    for (std::size_t i = 0; i < kLevels; ++i) {
+      report.residuals.back()[i] = residual.largest[i].exchange(0, std::memory_order_relaxed);
+      report.relative.back()[i] = residual.relative[i].exchange(0, std::memory_order_relaxed);
+    }
+  }
+  report.efforts = takeMarks(efforts_);
+  report.reactions = takeMarks(reactions_);
+  report.singular = singular_.value();
+  report.violations = violations_.value();
+  report.determinacy.rank = rank_;
+  report.determinacy.redundant_constraints = redundant_constraints_;
+  report.determinacy.redundancy = redundancy_;
+  report.determinacy.free_motions = free_motions_;
+  report.determinacy.gap = gap_;
+  report.determinacy.condition = condition_;
+  report.passive_given = passive_given_;
+  return report;
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "ros/counters.h"
+#include "ros/loop_plan.h"
+
+namespace virtual_work_dynamics {
+
+/// What the samples of a mechanism with closed loops were like since they were last asked for. One
+/// thread records, another one takes; neither waits for the other nor allocates to record.
+class LoopRecord {
+ public:
+  static constexpr std::size_t kLevels = 3;  // positions, velocities, accelerations
+  /// By level.
+  using Levels = std::array<double, kLevels>;
+
+  LoopRecord(std::size_t closures, std::size_t efforts, std::size_t reactions);
+
+  /// @param tolerance of the loops, relative.
+  void record(const LoopPlan& plan, double tolerance);
+  /// Whether the positions of passive joints come with the joint states.
+  void setPassiveGiven(bool given) { passive_given_ = given; }
+
+  struct Report {
+    bool news = false;              ///< samples were computed since the report before
+    std::vector<Levels> residuals;  ///< largest of each closure, m or rad, per s, per s^2
+    std::vector<Levels> relative;   ///< the same without units
+    std::vector<std::size_t> efforts, reactions;  ///< left out
+    std::uint64_t singular = 0;                   ///< samples, ever
+    std::uint64_t violations = 0;                 ///< samples, ever
+    Determinacy determinacy;                      ///< of the latest sample
+    bool passive_given = false;
+  };
+  Report take();
+
+ private:
+  struct Residual {
+    std::array<std::atomic<double>, kLevels> largest{}, relative{};
+  };
+
+  std::vector<Residual> residuals_;           // by closure
+  std::vector<std::atomic<bool>> efforts_;    // left out
+  std::vector<std::atomic<bool>> reactions_;  // left out
+  std::atomic<int> rank_{0}, redundant_constraints_{0}, redundancy_{0}, free_motions_{0};
+  std::atomic<double> gap_{0}, condition_{0};
+  std::atomic<bool> passive_given_{false};
+  Counter samples_, singular_, violations_;
+  std::uint64_t reported_ = 0;  // samples, the taking thread's
+};
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,135 @@
+#include "ros/loop_report.h"
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+
+#include <cstdio>
+#include <utility>
+
+#include "ros/message_text.h"
+#include "ros/output_messages.h"
+#include "virtual_work_dynamics/number_text.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using diagnostic_updater::DiagnosticStatusWrapper;
+using Names = std::vector<std::string>;
+
+struct Level {
+  const char* name;
+  const char* many;
+  const char* unit;
+};
+
+constexpr Level kLevels[LoopRecord::kLevels] = {
+    {"position", "positions", "m or rad"},
+    {"velocity", "velocities", "m/s or rad/s"},
+    {"acceleration", "accelerations", "m/s^2 or rad/s^2"}};
+
+std::string shortNumber(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string listOf(const Names& names) {
+  return names.empty() ? "none" : shortList(names);
+}
+
+std::string count(std::size_t number, const char* one, const char* many) {
+  return std::to_string(number) + " " + (number == 1 ? one : many);
+}
+
+}  // namespace
+
+Names loopLines(const Mechanism& mechanism, const Scene& scene, const LoopSamples& loops) {
+  Names actuated, passive;
+  for (std::size_t i = 0; i < mechanism.coordinateNames().size(); ++i) {
+    (loops.completer.actuated()[i] ? actuated : passive).push_back(mechanism.coordinateNames()[i]);
+  }
+  const Names efforts = namesOfEfforts(mechanism, scene);
+  actuated.insert(actuated.end(), efforts.begin() + mechanism.coordinateNames().size(),
+                  efforts.end());
+  const diagnostic_msgs::DiagnosticArray& found = loops.determinacy.message();
+  std::string numbers;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const diagnostic_msgs::KeyValue& entry = found.status[0].values[i];
+    numbers += (i == 0 ? "" : ", ") + entry.key + " " + entry.value;
+  }
+  return {"closed loops: " + count(scene.closures.size(), "closure", "closures") + ", " +
+              count(scene.springs.size(), "spring", "springs") + "; actuated: " + listOf(actuated) +
+              "; passive: " + listOf(passive),
+          "as assembled: " + numbers + "; efforts: " + found.status[0].message +
+              "; components of reactions: " + found.status[2].message};
+}
+
+LoopReport::LoopReport(const Mechanism& mechanism, const Scene& scene, Names reactions,
+                       LoopRecord* record, double tolerance)
+    : efforts_(namesOfEfforts(mechanism, scene)),
+      reactions_(std::move(reactions)),
+      record_(record),
+      tolerance_(tolerance) {
+  for (const Closure& closure : scene.closures) closures_.push_back(closure.name);
+}
+
+void LoopReport::add(DiagnosticStatusWrapper& status) {
+  if (record_ == nullptr) return;
+  const LoopRecord::Report report = record_->take();
+  status.add("passive joints", report.passive_given ? "given" : "by the closures");
+  if (report.news) latest_ = report;
+  status.add("samples that violate a loop", report.violations);
+  status.add("samples in singular positions", report.singular);
+  if (latest_.news) addResiduals(status, latest_);
+  if (report.violations > violations_) addViolations(status, report);
+  if (report.singular > singular_) addSingular(status, report);
+  violations_ = report.violations;
+  singular_ = report.singular;
+}
+
+void LoopReport::addResiduals(DiagnosticStatusWrapper& status,
+                              const LoopRecord::Report& report) const {
+  const Determinacy& found = report.determinacy;
+  status.add("rank", found.rank);
+  status.add("redundant constraints", found.redundant_constraints);
+  status.add("redundancy", found.redundancy);
+  status.add("free motions", found.free_motions);
+  status.add("rank gap", shortNumber(found.gap));
+  status.add("condition", shortNumber(found.condition));
+  double largest = 0;
+  for (std::size_t c = 0; c < closures_.size(); ++c) {
+    for (std::size_t i = 0; i < LoopRecord::kLevels; ++i) {
+      largest = std::max(largest, report.relative[c][i]);
+      status.add(std::string("residual.") + kLevels[i].name + "." + closures_[c],
+                 shortNumber(report.residuals[c][i]));
+    }
+  }
+  status.add("residual, largest (relative)", shortNumber(largest));
+}
+
+void LoopReport::addViolations(DiagnosticStatusWrapper& status,
+                               const LoopRecord::Report& report) const {
+  for (std::size_t c = 0; c < closures_.size(); ++c) {
+    for (std::size_t i = 0; i < LoopRecord::kLevels; ++i) {
+      if (report.relative[c][i] <= tolerance_) continue;
+      status.mergeSummary(DiagnosticStatus::WARN,
+                          std::string(kLevels[i].many) + " violate closure '" + closures_[c] +
+                              "' by " + shortNumber(report.residuals[c][i]) + " " +
+                              kLevels[i].unit + ", " + shortNumber(report.relative[c][i]) +
+                              " relative; ~loop_tolerance is " + numberText(tolerance_));
+    }
+  }
+}
+
+void LoopReport::addSingular(DiagnosticStatusWrapper& status,
+                             const LoopRecord::Report& report) const {
+  Names left_out;
+  for (const std::size_t i : report.efforts) left_out.push_back("effort of " + efforts_[i]);
+  for (const std::size_t i : report.reactions) left_out.push_back("reaction of " + reactions_[i]);
+  status.mergeSummary(
+      DiagnosticStatus::WARN,
+      count(report.singular - singular_, "sample", "samples") +
+          " in singular positions; not determined there, and left out: " + listOf(left_out));
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "ros/determinacy_message.h"
+#include "ros/loop_completer.h"
+#include "ros/loop_record.h"
+
+namespace virtual_work_dynamics {
+
+/// What the samples of a mechanism with closed loops need beside their plans. The receiving
+/// thread's, but for the record.
+struct LoopSamples {
+  /// @param reactions that the scene asks for. @param tol of the loops, relative.
+  /// @throws SceneError as ClosedLoopDynamics does.
+  LoopSamples(const Mechanism& mechanism, const Scene& scene,
+              const std::vector<std::string>& reactions, double tol);
+
+  const double tolerance;
+  LoopCompleter completer;
+  LoopRecord record;
+  DeterminacyMessage determinacy;
+};
+
+}  // namespace virtual_work_dynamics
