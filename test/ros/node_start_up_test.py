@@ -94,6 +94,16 @@ DOUBTFUL = {
         '</robot>', '<link name="hand"/></robot>'), ["link 'hand'"], '0 kg'),
 }
 
+
+
+def loop(actuated=None, **changes):
+    """A scene that joins the ends of the good robot once more."""
+    closure = dict({'name': 'pin', 'type': 'revolute', 'parent': {'link': 'base'},
+                    'child': {'link': 'hand'}}, **changes)
+    scene = {'closures': [closure]}
+    return {'scene': dict(scene, actuated=actuated) if actuated else scene}
+
+
 # Parameters of a good robot, and parts of the FATAL line.
 BAD_PARAMETERS = {
     'unknown_joint_in_reactions': ({'scene': {'reactions': ['hinge', 'knee']}}, ["'knee'"]),
@@ -150,6 +160,18 @@ BAD_PARAMETERS = {
     'queue_of_nothing': ({'queue_size': {'output': 0}}, ['~queue_size/output', '0']),
     'endless_queue_by_a_negative_size': ({'queue_size': {'input': -1}},
                                          ['~queue_size/input', '-1']),
+    'loop_tolerance_of_nothing': ({'loop_tolerance': 0}, ['~loop_tolerance: 0 is not positive']),
+    'closure_on_an_unknown_link': (loop(child={'link': 'paw'}), ["'pin'", "'paw'"]),
+    'closure_named_like_a_joint': (loop(name='hinge'), ["'hinge'"]),
+    'closure_named_like_a_link': (loop(name='arm'), ["closures: 'arm' is the name of a link"]),
+    'closure_that_cannot_be_assembled': (loop(parent={'link': 'base', 'xyz': [1, 0, 0]}),
+                                         ["'pin' cannot be assembled", 'open by 1 m']),
+    'actuated_joints_too_few': ({'scene': {'actuated': ['hinge']}}, ["'wrist'"]),
+    'actuated_joint_that_is_unknown': (loop(actuated=['knee']), ["'knee'"]),
+    'cross_check_of_closed_loops': (dict(loop(), cross_check_rate=10),
+                                    ['~cross_check_rate: 10 is for open chains']),
+    'certificates_of_closed_loops': (dict(loop(), certificates=True),
+                                     ['~certificates: true is for open chains']),
     'period_zero': ({'diagnostic_period': 0}, ['~diagnostic_period', '0 s']),
     'negative_threshold': ({'late_threshold': -1.0}, ['~late_threshold', '-1 s']),
 }
