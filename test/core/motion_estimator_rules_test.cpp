@@ -198,4 +198,29 @@ TEST(MotionEstimator, IsNeverReadyWithoutCoordinates) {
   EXPECT_FALSE(stream.estimator.ready());
 }
 
+TEST(MotionEstimator, WaitsOnlyForTheCoordinatesItIsToldTo) {
+  for (const bool estimate : {true, false}) {
+    EstimatorSettings settings = settingsOf(4, 3, 0);
+    settings.estimate = estimate;
+    Stream stream({kR, kR, kR}, settings);
+    stream.estimator.waitFor({true, false, true});
+    stream.motion.q.setConstant(7);
+    stream.motion.qd.setConstant(8);
+    stream.motion.qdd.setConstant(9);
+    // Coordinate 1 comes once, and late: no window, and an instant of its own.
+    stream.push(100 * kMillisecond, {1}, {3});
+    for (int i = 0; i < 4; ++i) stream.push(i * kMillisecond, {0, 2}, {0.5, 1.0 * i});
+    ASSERT_TRUE(stream.estimator.ready());
+    EXPECT_EQ(stream.evaluate(), 3 * kMillisecond);
+    EXPECT_NEAR(stream.motion.q[2], 3, 1e-12);
+    EXPECT_EQ(stream.motion.q[1], 7);
+    EXPECT_EQ(stream.motion.qd[1], 8);
+    EXPECT_EQ(stream.motion.qdd[1], 9);
+    stream.estimator.waitFor({true, true, true});
+    stream.push(4 * kMillisecond, {0, 2}, {0.5, 4});
+    EXPECT_FALSE(stream.estimator.ready());
+    EXPECT_THROW(stream.estimator.waitFor({true, true}), MotionError);
+  }
+}
+
 }  // namespace virtual_work_dynamics

@@ -1,0 +1,119 @@
+#include "core/loop_follower.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "slider_crank.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+// Newton's method ends at rounding errors of lengths of a metre.
+constexpr double kClosed = 1e-12;
+constexpr double kTurn = 6.283185307179586;
+
+/// A slider-crank that is followed from its assembly at 0.7 rad.
+class FollowedSliderCrank : public testing::Test {
+ protected:
+  FollowedSliderCrank()
+      : mechanism_(slider_crank_.mechanism()),
+        dynamics_(mechanism_, slider_crank_.scene("joint_1"), Request{false, {}, {}, false, false}),
+        follower_(mechanism_, dynamics_) {}
+
+  void expectFollowed(double angle, double rate, double acceleration) {
+    const Motion expected = SliderCrank::motion(angle, rate, acceleration);
+    Motion motion(3);
+    motion.q[0] = expected.q[0];
+    motion.qd[0] = expected.qd[0];
+    motion.qdd[0] = expected.qdd[0];
+    ASSERT_TRUE(follower_.complete(motion, dynamics_)) << angle;
+    EXPECT_EQ(motion.q[0], angle);
+    EXPECT_NEAR(std::remainder(motion.q[1] - expected.q[1], kTurn), 0, kClosed) << angle;
+    EXPECT_NEAR(motion.q[2], expected.q[2], kClosed) << angle;
+    EXPECT_LE((motion.qd - expected.qd).norm(), kClosed) << angle;
+    EXPECT_LE((motion.qdd - expected.qdd).norm(), kClosed) << angle;
+  }
+
+  SliderCrank slider_crank_;
+  Mechanism mechanism_;
+  ClosedLoopDynamics dynamics_;
+  LoopFollower follower_;
+};
+
+TEST_F(FollowedSliderCrank, KeepsItsBranchOverGapsAndTurns) {
+  for (const double angle : {0.7, 2.5, -2.5, 0.1, 3.1, -0.1, 1.0 + 3 * kTurn, 1.1}) {
+    expectFollowed(angle, 1.5, -0.7);
+  }
+}
+
+TEST_F(FollowedSliderCrank, IsWhereItWasAfterAFailure) {
+  ClosedLoopDynamics by_slider(mechanism_, slider_crank_.scene("joint_3"),
+                               Request{false, {}, {}, false, false});
+  LoopFollower follower(mechanism_, by_slider);
+  const Eigen::VectorXd before = follower.position();
+  Motion motion(3);
+  motion.q[2] = 1.01 * (SliderCrank::kCrank + SliderCrank::kRod);
+  EXPECT_FALSE(follower.complete(motion, by_slider));
+  EXPECT_EQ(follower.position(), before);
+}
+
+TEST_F(FollowedSliderCrank, GoesOnFromWhereItIsMovedTo) {
+  // The other branch of a slider that is given: the crank below its way.
+  ClosedLoopDynamics by_slider(mechanism_, slider_crank_.scene("joint_3"),
+                               Request{false, {}, {}, false, false});
+  LoopFollower follower(mechanism_, by_slider);
+  follower.moveTo(SliderCrank::motion(-1.2, 0, 0).q);
+  const Motion expected = SliderCrank::motion(-1.1, 0, 0);
+  Motion motion(3);
+  motion.q[2] = expected.q[2];
+  ASSERT_TRUE(follower.complete(motion, by_slider));
+  EXPECT_NEAR(motion.q[0], -1.1, kClosed);
+}
+
+TEST(ActuatedClosures, SayHowFarTheyHaveTurned) {
+  const SliderCrank slider_crank;
+  const Mechanism mechanism = slider_crank.mechanism();
+  ClosedLoopDynamics dynamics(mechanism, slider_crank.scene("pin"), Request());
+  const Motion motion = SliderCrank::motion(2.0, 1.5, 0);
+  dynamics.compute(motion);
+  // The slider, its child, does not turn; the rod does.
+  EXPECT_NEAR(dynamics.actuatedClosurePositions()[0], -(motion.q[0] + motion.q[1]), kClosed);
+  EXPECT_NEAR(dynamics.actuatedClosureVelocities()[0], -(motion.qd[0] + motion.qd[1]), kClosed);
+}
+
+TEST(ActuatedClosures, SayHowFarTheyHaveSlid) {
+  // The same with a pin for the third joint and the slide for the closure, on a table that turns.
+  RobotBuilder builder(1);
+  const Matrix3l R = Matrix3l::Identity();
+  const Vector3l z = Vector3l::UnitZ();
+  builder.add(JointType::kContinuous, 0, z, R, Vector3l::Zero());
+  builder.add(JointType::kContinuous, 1, z, R, Vector3l::Zero());
+  builder.add(JointType::kContinuous, 2, z, R, Vector3l(SliderCrank::kCrank, 0, 0));
+  builder.add(JointType::kContinuous, 3, z, R, Vector3l(SliderCrank::kRod, 0, 0));
+  const Mechanism mechanism = builder.build();
+  Scene scene;
+  Closure slide;
+  slide.name = "slide";
+  slide.type = ClosureType::kPrismatic;
+  slide.parent.link = "link_1";
+  slide.child.link = "link_4";
+  slide.parent.rpy << 0, kTurn / 4, 0;
+  slide.child.rpy = slide.parent.rpy;
+  scene.closures = {slide};
+  scene.actuated = std::vector<std::string>{"joint_1", "slide"};
+  const Motion crank = SliderCrank::motion(2.0, 1.5, 0);
+  Motion motion(4);
+  motion.q << 0.3, crank.q[0], crank.q[1], -(crank.q[0] + crank.q[1]);
+  motion.qd << 0.9, crank.qd[0], crank.qd[1], -(crank.qd[0] + crank.qd[1]);
+  for (int i = 0; i < 4; ++i) {
+    scene.assembly.push_back({"joint_" + std::to_string(i + 1), motion.q[i]});
+  }
+  ClosedLoopDynamics dynamics(mechanism, scene, Request());
+  dynamics.compute(motion);
+  EXPECT_NEAR(dynamics.actuatedClosurePositions()[0], crank.q[2], kClosed);
+  EXPECT_NEAR(dynamics.actuatedClosureVelocities()[0], crank.qd[2], kClosed);
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics
