@@ -9,23 +9,22 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-void requireAtLeastZero(const JointTerms& terms, const char* key, double value) {
+void requireAtLeastZero(const std::string& where, const char* key, double value) {
   if (value >= 0 && std::isfinite(value)) return;
-  throw SceneError("joints: '" + terms.joint + "': " + key + " = " + numberText(value) +
+  throw SceneError(where + ": " + key + " = " + numberText(value) +
                    " is not a number that is at least zero");
 }
 
 void check(const JointTerms& terms) {
-  requireAtLeastZero(terms, "stiffness", terms.stiffness);
-  requireAtLeastZero(terms, "damping", terms.damping.value_or(0));
-  requireAtLeastZero(terms, "coulomb", terms.coulomb.value_or(0));
-  requireAtLeastZero(terms, "rotor_inertia", terms.rotor_inertia);
-  if (!std::isfinite(terms.rest)) {
-    throw SceneError("joints: '" + terms.joint + "': rest is not finite");
-  }
+  const std::string where = "joints: '" + terms.joint + "'";
+  requireAtLeastZero(where, "stiffness", terms.stiffness);
+  requireAtLeastZero(where, "damping", terms.damping.value_or(0));
+  requireAtLeastZero(where, "coulomb", terms.coulomb.value_or(0));
+  requireAtLeastZero(where, "rotor_inertia", terms.rotor_inertia);
+  if (!std::isfinite(terms.rest)) throw SceneError(where + ": rest is not finite");
   if (!(terms.coulomb_velocity >= 1e-12) || !std::isfinite(terms.coulomb_velocity)) {
-    throw SceneError("joints: '" + terms.joint + "': coulomb_velocity = " +
-                     numberText(terms.coulomb_velocity) + " is less than 1e-12");
+    throw SceneError(where + ": coulomb_velocity = " + numberText(terms.coulomb_velocity) +
+                     " is not a finite number from 1e-12 on");
   }
 }
 
@@ -58,9 +57,11 @@ std::vector<ResolvedJointTerms> resolveJointTerms(const Mechanism& mechanism, co
     terms.joint = joint.name;
     if (given[k] >= 0) terms = scene.joints[given[k]];
     if (scene.use_urdf_dynamics) {
-      if (!terms.damping) terms.damping = joint.damping;
-      if (!terms.coulomb) terms.coulomb = joint.friction;
-      check(terms);
+      const std::string where = "use_urdf_dynamics: joint '" + joint.name + "' of the description";
+      if (!terms.damping) requireAtLeastZero(where, "damping", joint.damping);
+      if (!terms.coulomb) requireAtLeastZero(where, "friction", joint.friction);
+      terms.damping = terms.damping.value_or(joint.damping);
+      terms.coulomb = terms.coulomb.value_or(joint.friction);
     }
     const double damping = terms.damping.value_or(0), coulomb = terms.coulomb.value_or(0);
     if (terms.stiffness == 0 && damping == 0 && coulomb == 0 && terms.rotor_inertia == 0) continue;
