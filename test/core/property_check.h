@@ -22,7 +22,7 @@ namespace virtual_work_dynamics {
 #if defined(__SANITIZE_ADDRESS__)
 constexpr unsigned kCasesPerProperty = 500;
 #else
-constexpr unsigned kCasesPerProperty = 10000;
+constexpr unsigned kCasesPerProperty = 4000;
 #endif
 
 // What results may be off, in roundings of double: 4 for every joint on the way, which is the
