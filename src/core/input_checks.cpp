@@ -1,5 +1,6 @@
 #include "core/input_checks.h"
 
+#include <set>
 #include <string>
 
 #include "virtual_work_dynamics/error.h"
@@ -34,6 +35,29 @@ const Scene& openChain(const Scene& scene) {
     throw SceneError("actuated: every joint of an open chain carries effort");
   }
   return scene;
+}
+
+void requireSoundInertias(const Mechanism& mechanism, const Scene& scene) {
+  if (!scene.strict_inertia) return;
+  for (const Doubt& doubt : mechanism.doubts()) {
+    if (doubt.about_inertia) throw SceneError("strict_inertia: " + doubt.text);
+  }
+}
+
+std::vector<int> linksOf(const Mechanism& mechanism, const std::vector<std::string>& reactions) {
+  std::vector<int> links;
+  std::set<std::string> seen;
+  for (const std::string& name : reactions) {
+    if (!seen.insert(name).second) {
+      throw SceneError("reactions: '" + name + "' is requested twice");
+    }
+    const int joint = name == kGround ? -1 : mechanism.jointIndex(name);
+    if (joint < 0 && name != kGround) {
+      throw SceneError("reactions: the robot has no joint '" + name + "'");
+    }
+    links.push_back(joint + 1);
+  }
+  return links;
 }
 
 int linkOf(const Mechanism& mechanism, const AppliedWrench& wrench) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
+#include <vector>
 
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
@@ -13,6 +15,13 @@ void requireLengths(const Motion& motion, Eigen::Index coordinates);
 
 /// The scene. @throws SceneError when it needs ClosedLoopDynamics, naming why.
 const Scene& openChain(const Scene& scene);
+
+/// @throws SceneError when the scene is strict about inertias and the mechanism has doubtful ones.
+void requireSoundInertias(const Mechanism& mechanism, const Scene& scene);
+
+/// Child links of the joints whose reactions are named, in the same order; that of "ground" is the
+/// root link. @throws SceneError when one is no joint, or is named twice.
+std::vector<int> linksOf(const Mechanism& mechanism, const std::vector<std::string>& reactions);
 
 /// Index of the link that an applied wrench acts on. @throws SceneError when there is none.
 int linkOf(const Mechanism& mechanism, const AppliedWrench& wrench);

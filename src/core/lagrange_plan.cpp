@@ -1,8 +1,6 @@
 #include "core/lagrange_plan.h"
 
 #include <algorithm>
-#include <set>
-#include <string>
 
 #include "core/input_checks.h"
 #include "virtual_work_dynamics/error.h"
@@ -51,33 +49,6 @@ typename LagrangePlan<Real>::LinkData linkData(const Link& link) {
   data.has_inertia = !link.inertia_Cm_K.isZero(0);
   data.inertia_Cm_K = matrix<Real>(link.inertia_Cm_K);
   return data;
-}
-
-// Child link of a requested reaction's joint; 0: ground.
-int linkOf(const Mechanism& mechanism, const std::string& name) {
-  if (name == kGround) return 0;
-  const int joint = mechanism.jointIndex(name);
-  if (joint < 0) throw SceneError("reactions: the robot has no joint '" + name + "'");
-  return joint + 1;
-}
-
-std::vector<int> linksOf(const Mechanism& mechanism, const std::vector<std::string>& names) {
-  std::vector<int> links;
-  std::set<std::string> seen;
-  for (const std::string& name : names) {
-    if (!seen.insert(name).second) {
-      throw SceneError("reactions: '" + name + "' is requested twice");
-    }
-    links.push_back(linkOf(mechanism, name));
-  }
-  return links;
-}
-
-void checkInertias(const Mechanism& mechanism, const Scene& scene) {
-  if (!scene.strict_inertia) return;
-  for (const Doubt& doubt : mechanism.doubts()) {
-    if (doubt.about_inertia) throw SceneError("strict_inertia: " + doubt.text);
-  }
 }
 
 template <typename Real>
@@ -149,7 +120,7 @@ LagrangePlan<Real>::LagrangePlan(const Mechanism& mechanism, const Scene& scene,
       static_motion(scene.static_motion),
       coordinate_count(static_cast<int>(mechanism.coordinates().size())) {
   openChain(scene);
-  checkInertias(mechanism, scene);
+  requireSoundInertias(mechanism, scene);
   for (const Joint& joint : mechanism.joints()) joints.push_back(jointData<Real>(joint));
   for (const Link& link : mechanism.links()) links.push_back(linkData<Real>(link));
   addApplied(mechanism, scene, *this);

@@ -1,7 +1,6 @@
 #include "core/plan.h"
 
 #include <algorithm>
-#include <set>
 
 #include "core/exact_products.h"
 #include "core/input_checks.h"
@@ -98,7 +97,7 @@ class Compiler {
 
   Plan<Real> compile() {
     openChain(scene_);
-    checkInertias();
+    requireSoundInertias(mechanism_, scene_);
     resolveReactions();
     plan_.coordinates = static_cast<int>(mechanism_.coordinates().size());
     plan_.efforts = request_.efforts;
@@ -115,31 +114,12 @@ class Compiler {
   }
 
  private:
-  void checkInertias() const {
-    if (!scene_.strict_inertia) return;
-    for (const Doubt& doubt : mechanism_.doubts()) {
-      if (doubt.about_inertia) throw SceneError("strict_inertia: " + doubt.text);
-    }
-  }
-
-  // Joint index of a requested reaction; -1 is ground.
-  int jointOf(const std::string& name) const {
-    if (name == kGround) return -1;
-    const int joint = mechanism_.jointIndex(name);
-    if (joint < 0) throw SceneError("reactions: the robot has no joint '" + name + "'");
-    return joint;
-  }
-
   void resolveReactions() {
-    reported_.assign(mechanism_.links().size(), false);  // by child link; ground: the root link
-    for (const auto* names : {&request_.child_axes, &request_.root_axes}) {
-      std::set<std::string> seen;
-      for (const std::string& name : *names) {
-        if (!seen.insert(name).second) {
-          throw SceneError("reactions: '" + name + "' is requested twice");
-        }
-        reported_[jointOf(name) + 1] = true;
-      }
+    child_axes_links_ = linksOf(mechanism_, request_.child_axes);
+    root_axes_links_ = linksOf(mechanism_, request_.root_axes);
+    reported_.assign(mechanism_.links().size(), false);
+    for (const auto* links : {&child_axes_links_, &root_axes_links_}) {
+      for (const int link : *links) reported_[link] = true;
     }
   }
 
@@ -226,15 +206,14 @@ class Compiler {
     }
   }
 
-  ReactionOutput<Real> output(const std::string& name) const {
-    const int joint = jointOf(name);
+  ReactionOutput<Real> output(int link) const {
     ReactionOutput<Real> output;
-    output.body = places_[joint + 1].body;
-    output.R_KZ = plain(Matrix3l(places_[joint + 1].R_ZL.transpose()));
-    output.drop_active = !scene_.include_active && joint >= 0;
+    output.body = places_[link].body;
+    output.R_KZ = plain(Matrix3l(places_[link].R_ZL.transpose()));
+    output.drop_active = !scene_.include_active && link > 0;
     output.permutes = true;
     for (int i = 0; i < 3; ++i) {
-      const Vector3l column = places_[joint + 1].R_ZL.row(i);  // of R_KZ
+      const Vector3l column = places_[link].R_ZL.row(i);  // of R_KZ
       output.row[i] = onlyEntry(column);
       if (output.row[i] < 0) {
         output.permutes = false;
@@ -247,8 +226,8 @@ class Compiler {
   }
 
   void addOutputs() {
-    for (const std::string& name : request_.child_axes) plan_.child_axes.push_back(output(name));
-    for (const std::string& name : request_.root_axes) plan_.root_axes.push_back(output(name));
+    for (const int link : child_axes_links_) plan_.child_axes.push_back(output(link));
+    for (const int link : root_axes_links_) plan_.root_axes.push_back(output(link));
   }
 
   void addApplied() {
@@ -280,7 +259,8 @@ class Compiler {
   const Mechanism& mechanism_;
   const Scene& scene_;
   const Request& request_;
-  std::vector<bool> reported_;
+  std::vector<int> child_axes_links_, root_axes_links_;  // of the requested reactions
+  std::vector<bool> reported_;                           // by child link; ground: the root link
   std::vector<Placement> places_;
   std::vector<std::string> names_;  // joint of each body
   Plan<Real> plan_;
