@@ -19,9 +19,6 @@
 namespace virtual_work_dynamics {
 
 namespace {
-// Efforts of actuators open by less than this, of unit changes, are determined.
-constexpr double kOpen = 1e-8;
-
 // The tree with what springs exert on it: each has two applied wrenches behind the scene's own.
 Scene treeScene(const Scene& scene, const PointSprings& springs) {
   Scene tree = withoutLoops(scene);
@@ -168,10 +165,11 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene,
 void ClosedLoopDynamics::Impl::close(const Mechanism& mechanism, const Scene& scene) {
   kinematics.setPosition(loops.start);
   const double start_length = loops.length.value_or(loopLength(groups, kinematics));
-  completion.reset(new LoopCompletion(mechanism, groups, loops.rank_tolerance, start_length));
+  completion.reset(
+      new LoopCompletion(mechanism, kinematics, groups, loops.rank_tolerance, start_length));
   assembly = assemble(scene, loops, *completion, kinematics);
   const double length = loops.length.value_or(loopLength(groups, kinematics));
-  completion.reset(new LoopCompletion(mechanism, groups, loops.rank_tolerance, length));
+  completion.reset(new LoopCompletion(mechanism, kinematics, groups, loops.rank_tolerance, length));
   residuals.reset(new LoopResiduals(mechanism, scene.closures.size(), length));
   for (const LoopGroup& group : groups) {
     forces.emplace_back(mechanism, kinematics, loops, group, length);
@@ -211,10 +209,9 @@ void ClosedLoopDynamics::Impl::solve() {
     group.setPosition();
     group.solve(first->effort(), tree_reactions);
     const LoopForces::State& solution = group.solution();
-    for (std::size_t j = 0; j < group.efforts().size(); ++j) {
-      const LoopForces::Effort& actuator = group.efforts()[j];
+    for (const LoopUnknowns::Effort& actuator : group.efforts()) {
       effort[static_cast<Eigen::Index>(actuator.index)] =
-          actuator.unit * solution.x[static_cast<Eigen::Index>(j)];
+          actuator.unit * solution.x[actuator.unknown];
     }
     for (std::size_t c = 0; c < solution.closures.size(); ++c) {
       closures[group.group().closures[c]] = solution.closures[c];
@@ -248,16 +245,16 @@ void ClosedLoopDynamics::Impl::setFlags() {
       const LoopForces::State& change = group.direction(i);
       child_axes->addChange(kinematics, g, group, change);
       root_axes->addChange(kinematics, g, group, change);
-      for (std::size_t j = 0; j < group.efforts().size(); ++j) {
-        const double open = change.x[static_cast<Eigen::Index>(j)];
-        effort_freedoms[group.efforts()[j].index] += open * open;
+      for (const std::size_t j : change.touched_efforts) {
+        const LoopUnknowns::Effort& actuator = group.efforts()[j];
+        effort_freedoms[actuator.index] += change.x[actuator.unknown] * change.x[actuator.unknown];
       }
     }
   }
   child_axes->setFlags();
   root_axes->setFlags();
   for (std::size_t i = 0; i < effort_freedoms.size(); ++i) {
-    effort_determined[i] = effort_freedoms[i] <= kOpen * kOpen;
+    effort_determined[i] = isDetermined(effort_freedoms[i]);
   }
 }
 

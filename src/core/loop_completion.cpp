@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace virtual_work_dynamics {
 
@@ -10,8 +11,10 @@ namespace {
 constexpr int kMostSteps = 200;
 constexpr int kMostHalvings = 30;
 // Misfits over the length below which a loop counts as closed, as it does below the tolerance of
-// the rank; Newton's method goes on until rounding stops it, usually at 1e-16.
+// the rank; Newton's method goes on until rounding stops it, or nothing but rounding is left of each
+// condition.
 constexpr double kClosed = 1e-12;
+constexpr double kExact = std::numeric_limits<double>::epsilon();
 // A step turns nothing further than this, so that an almost singular position throws nothing away.
 constexpr double kLongestStep = 0.5;
 // What of velocities and accelerations may contradict the conditions, of the largest term.
@@ -39,24 +42,40 @@ Eigen::Index mostConditions(const std::vector<LoopGroup>& groups) {
   return static_cast<Eigen::Index>(6 * most);
 }
 
+std::vector<RowBlock> conditionBlocks(const LoopGroup& group, const LoopKinematics& kinematics) {
+  std::vector<RowBlock> blocks;
+  for (std::size_t local = 0; local < group.closures.size(); ++local) {
+    blocks.push_back({conditionsOf(kinematics, group.closures[local]), group.moved[local]});
+  }
+  return blocks;
+}
+
 }  // namespace
 
-LoopCompletion::LoopCompletion(const Mechanism& mechanism, const std::vector<LoopGroup>& groups,
-                               double rank_tolerance, double length)
-    : groups_(groups),
-      rank_tolerance_(rank_tolerance),
+LoopCompletion::System::System(const LoopGroup& own, const LoopKinematics& kinematics)
+    : group(own),
+      qr(conditionBlocks(own, kinematics), static_cast<int>(own.coordinates.size())),
+      wanted(own.coordinates.size()) {}
+
+LoopCompletion::LoopCompletion(const Mechanism& mechanism, const LoopKinematics& kinematics,
+                               const std::vector<LoopGroup>& groups, double rank_tolerance,
+                               double length)
+    : rank_tolerance_(rank_tolerance),
       length_(length),
-      factorization_(mostConditions(groups), mostCoordinates(groups)),
       A_(mostConditions(groups), mostCoordinates(groups)),
-      right_(mostConditions(groups)),
-      found_(mostCoordinates(groups)),
-      columns_(static_cast<std::size_t>(mostCoordinates(groups))) {
+      factorization_(A_.rows(), A_.cols()),
+      columns_(static_cast<std::size_t>(A_.cols())),
+      right_(A_.rows()),
+      packed_(A_.cols()),
+      found_(A_.cols()),
+      misses_(A_.rows()) {
   for (const int k : mechanism.coordinates()) {
     slides_.push_back(mechanism.joints()[static_cast<std::size_t>(k)].type ==
                       JointType::kPrismatic);
   }
   in_loop_.resize(slides_.size());
   for (const LoopGroup& group : groups) {
+    systems_.emplace_back(group, kinematics);
     for (const int i : group.coordinates) in_loop_[static_cast<std::size_t>(i)] = true;
   }
   step_.setZero(static_cast<Eigen::Index>(slides_.size()));
@@ -71,35 +90,107 @@ double LoopCompletion::columnScale(int coordinate) const {
   return slides_[static_cast<std::size_t>(coordinate)] ? length_ : 1;
 }
 
-void LoopCompletion::factorize(const LoopKinematics& kinematics, const LoopGroup& group,
-                               const std::vector<bool>& given) {
-  column_count_ = 0;
-  for (const int coordinate : group.coordinates) {
-    if (!given[static_cast<std::size_t>(coordinate)]) columns_[column_count_++] = coordinate;
-  }
-  row_count_ = 0;
-  for (const std::size_t c : group.closures) {
-    for (Eigen::Index i = 0; i < conditionsOf(kinematics, c); ++i, ++row_count_) {
-      const Eigen::Index condition = kinematics.firstOf(c) + i;
-      for (std::size_t j = 0; j < column_count_; ++j) {
-        A_(row_count_, static_cast<Eigen::Index>(j)) =
-            rowScale(kinematics, condition) * kinematics.jacobian()(condition, columns_[j]) *
-            columnScale(columns_[j]);
+void LoopCompletion::factorize(const LoopKinematics& kinematics, const std::vector<bool>& given) {
+  for (System& system : systems_) {
+    const LoopGroup& group = system.group;
+    for (std::size_t i = 0; i < group.coordinates.size(); ++i) {
+      system.wanted[i] = !given[static_cast<std::size_t>(group.coordinates[i])];
+    }
+    for (std::size_t local = 0; local < group.closures.size(); ++local) {
+      const std::size_t c = group.closures[local];
+      Eigen::MatrixXd& entries = system.qr.entriesOf(local);
+      for (std::size_t k = 0; k < group.moved[local].size(); ++k) {
+        const int coordinate = group.coordinates[static_cast<std::size_t>(group.moved[local][k])];
+        for (Eigen::Index i = 0; i < entries.rows(); ++i) {
+          const Eigen::Index condition = kinematics.firstOf(c) + i;
+          entries(i, static_cast<Eigen::Index>(k)) = rowScale(kinematics, condition) *
+                                                     kinematics.jacobian()(condition, coordinate) *
+                                                     columnScale(coordinate);
+        }
       }
     }
+    system.qr.setPresent(system.wanted);
+    system.sound = system.qr.factorize(MultifrontalQr::sureCondition(rank_tolerance_));
   }
-  factorization_.factorize(A_.topLeftCorner(row_count_, static_cast<Eigen::Index>(column_count_)),
-                           rank_tolerance_);
+}
+
+void LoopCompletion::factorizeWhole(const System& system) {
+  const MultifrontalQr& qr = system.qr;
+  column_count_ = 0;
+  for (std::size_t i = 0; i < system.wanted.size(); ++i) {
+    columns_[i] = system.wanted[i] ? static_cast<int>(column_count_++) : -1;
+  }
+  auto A = A_.topLeftCorner(qr.rows(), column_count_);
+  A.setZero();
+  for (std::size_t b = 0; b < qr.blocks(); ++b) {
+    const Eigen::MatrixXd& entries = qr.entriesOf(b);
+    for (Eigen::Index k = 0; k < entries.cols(); ++k) {
+      const int column = columns_[static_cast<std::size_t>(qr.columnsOf(b)[std::size_t(k)])];
+      if (column >= 0) A.col(column).segment(qr.firstOf(b), entries.rows()) = entries.col(k);
+    }
+  }
+  factorization_.factorize(A, rank_tolerance_);
 }
 
 Eigen::Index LoopCompletion::rank(const LoopKinematics& kinematics,
                                   const std::vector<bool>& given) {
   Eigen::Index sum = 0;
-  for (const LoopGroup& group : groups_) {
-    factorize(kinematics, group, given);
-    sum += factorization_.rank();
+  factorize(kinematics, given);
+  for (const System& system : systems_) {
+    if (system.sound) {
+      sum += std::count(system.wanted.begin(), system.wanted.end(), true);
+    } else {
+      factorizeWhole(system);
+      sum += factorization_.rank();
+    }
   }
   return sum;
+}
+
+void LoopCompletion::setRight(const LoopKinematics& kinematics, const System& system,
+                              const Eigen::VectorXd& conditions) {
+  for (std::size_t local = 0; local < system.group.closures.size(); ++local) {
+    const std::size_t c = system.group.closures[local];
+    for (Eigen::Index i = 0; i < conditionsOf(kinematics, c); ++i) {
+      const Eigen::Index condition = kinematics.firstOf(c) + i;
+      right_[system.qr.firstOf(local) + i] =
+          -rowScale(kinematics, condition) * conditions[condition];
+    }
+  }
+}
+
+// Sets the coordinates found, by those of the group; zero for given ones. False when the conditions
+// do not determine them well.
+bool LoopCompletion::solve(System& system) {
+  auto found = found_.head(system.qr.columns());
+  const auto right = right_.head(system.qr.rows());
+  if (system.sound) {
+    system.qr.leastSquares(right, found);
+    return true;
+  }
+  factorizeWhole(system);
+  auto packed = packed_.head(column_count_);
+  factorization_.solve(right, packed);
+  for (Eigen::Index i = 0; i < found.size(); ++i) {
+    const int column = columns_[static_cast<std::size_t>(i)];
+    found[i] = column >= 0 ? packed[column] : 0;
+  }
+  return factorization_.redundancy() == 0 && factorization_.condition() <= kSharpest;
+}
+
+// The largest violation of a condition by what solve() found.
+double LoopCompletion::misses(const System& system) {
+  const MultifrontalQr& qr = system.qr;
+  auto misses = misses_.head(qr.rows());
+  misses = -right_.head(qr.rows());
+  for (std::size_t b = 0; b < qr.blocks(); ++b) {
+    const Eigen::MatrixXd& entries = qr.entriesOf(b);
+    for (Eigen::Index k = 0; k < entries.cols(); ++k) {
+      misses.segment(qr.firstOf(b), entries.rows()) +=
+          found_[qr.columnsOf(b)[std::size_t(k)]] * entries.col(k);
+    }
+  }
+  return misses.cwiseAbs().maxCoeff();
 }
 
 double LoopCompletion::misfit(const LoopKinematics& kinematics) const {
@@ -122,21 +213,16 @@ double LoopCompletion::largest(const Eigen::VectorXd& rates) const {
 
 void LoopCompletion::newtonStep(const LoopKinematics& kinematics, const std::vector<bool>& given) {
   step_.setZero();
-  for (const LoopGroup& group : groups_) {
-    factorize(kinematics, group, given);
-    Eigen::Index row = 0;
-    for (const std::size_t c : group.closures) {
-      for (Eigen::Index i = 0; i < conditionsOf(kinematics, c); ++i) {
-        const Eigen::Index condition = kinematics.firstOf(c) + i;
-        right_[row++] = -rowScale(kinematics, condition) * kinematics.phi()[condition];
-      }
-    }
-    auto found = found_.head(static_cast<Eigen::Index>(column_count_));
-    factorization_.solve(right_.head(row_count_), found);
-    const double longest = column_count_ > 0 ? found.cwiseAbs().maxCoeff() : 0;
+  factorize(kinematics, given);
+  for (System& system : systems_) {
+    setRight(kinematics, system, kinematics.phi());
+    solve(system);
+    const auto found = found_.head(system.qr.columns());
+    const double longest = found.cwiseAbs().maxCoeff();
     const double damping = longest > kLongestStep ? kLongestStep / longest : 1;
-    for (std::size_t j = 0; j < column_count_; ++j) {
-      step_[columns_[j]] = damping * columnScale(columns_[j]) * found[static_cast<Eigen::Index>(j)];
+    for (std::size_t i = 0; i < system.group.coordinates.size(); ++i) {
+      const int coordinate = system.group.coordinates[i];
+      step_[coordinate] = damping * columnScale(coordinate) * found[static_cast<Eigen::Index>(i)];
     }
   }
 }
@@ -146,7 +232,8 @@ bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
   kinematics.setPosition(q);
   double now = misfit(kinematics);
   const double closed = std::max(kClosed, rank_tolerance_);
-  for (steps_ = 0; steps_ < kMostSteps && now > 0 && std::isfinite(now); ++steps_) {
+  const double exact = kExact * std::sqrt(static_cast<double>(kinematics.conditions()));
+  for (steps_ = 0; steps_ < kMostSteps && now > exact && std::isfinite(now); ++steps_) {
     newtonStep(kinematics, given);
     double factor = 1, then = now;
     for (int halving = 0; halving < kMostHalvings; ++halving, factor /= 2) {
@@ -155,38 +242,26 @@ bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
       then = misfit(kinematics);
       if (then < now || now <= closed) break;
     }
-    if (!(then < now)) break;
+    if (!(then < now)) {
+      kinematics.setPosition(q);
+      break;
+    }
     q = tried_;
     now = then;
   }
-  kinematics.setPosition(q);
   return now <= closed;
 }
 
 // Solves A_p u = -rates for the entries of `unknown` that are not given.
-bool LoopCompletion::solveRates(const LoopKinematics& kinematics, const std::vector<bool>& given,
-                                const Eigen::VectorXd& rates, double size,
-                                Eigen::VectorXd& unknown) {
-  for (const LoopGroup& group : groups_) {
-    factorize(kinematics, group, given);
-    if (factorization_.redundancy() > 0 || factorization_.condition() > kSharpest) return false;
-    Eigen::Index row = 0;
-    for (const std::size_t c : group.closures) {
-      for (Eigen::Index i = 0; i < conditionsOf(kinematics, c); ++i) {
-        const Eigen::Index condition = kinematics.firstOf(c) + i;
-        right_[row++] = -rowScale(kinematics, condition) * rates[condition];
-      }
-    }
-    const Eigen::Index columns = static_cast<Eigen::Index>(column_count_);
-    auto found = found_.head(columns);
-    const auto right = right_.head(row_count_);
-    factorization_.solve(right, found);
-    for (Eigen::Index i = 0; i < row_count_; ++i) {
-      const double misses = A_.row(i).head(columns).dot(found.transpose()) - right[i];
-      if (!(std::abs(misses) <= kConsistent * size)) return false;
-    }
-    for (std::size_t j = 0; j < column_count_; ++j) {
-      unknown[columns_[j]] = columnScale(columns_[j]) * found[static_cast<Eigen::Index>(j)];
+bool LoopCompletion::solveRates(const LoopKinematics& kinematics, const Eigen::VectorXd& rates,
+                                double size, Eigen::VectorXd& unknown) {
+  for (System& system : systems_) {
+    setRight(kinematics, system, rates);
+    if (!solve(system) || !(misses(system) <= kConsistent * size)) return false;
+    for (std::size_t i = 0; i < system.group.coordinates.size(); ++i) {
+      if (!system.wanted[i]) continue;
+      const int coordinate = system.group.coordinates[i];
+      unknown[coordinate] = columnScale(coordinate) * found_[static_cast<Eigen::Index>(i)];
     }
   }
   return true;
@@ -201,13 +276,14 @@ bool LoopCompletion::complete(LoopKinematics& kinematics, Motion& motion,
     motion.qd[static_cast<Eigen::Index>(i)] = 0;
     motion.qdd[static_cast<Eigen::Index>(i)] = 0;
   }
+  factorize(kinematics, given);
   kinematics.setMotion(motion);
   const double given_rate = largest(motion.qd);
-  if (!solveRates(kinematics, given, kinematics.rates(), given_rate, motion.qd)) return false;
+  if (!solveRates(kinematics, kinematics.rates(), given_rate, motion.qd)) return false;
   kinematics.setMotion(motion);
   const double rate = largest(motion.qd);
   const double size = std::max(largest(motion.qdd), rate * rate);
-  return solveRates(kinematics, given, kinematics.accelerations(), size, motion.qdd);
+  return solveRates(kinematics, kinematics.accelerations(), size, motion.qdd);
 }
 
 }  // namespace virtual_work_dynamics

@@ -5,6 +5,7 @@
 
 #include "core/loop_groups.h"
 #include "core/loop_kinematics.h"
+#include "core/multifrontal_qr.h"
 #include "core/rank_factorization.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
@@ -13,12 +14,14 @@ namespace virtual_work_dynamics {
 
 /// Finds the coordinates that a motion does not give from the conditions of the loops: positions by
 /// Newton's method, velocities by A_p qd_p = -A_g qd_g, accelerations by A_p qdd_p = -(A_g qdd_g +
-/// Ad qd), p: to be found, g: given. Nothing after construction allocates.
+/// Ad qd), p: to be found, g: given. Far from singular positions the cost grows with the number of
+/// loops; elsewhere with the cube of those that share coordinates. Nothing after construction
+/// allocates.
 class LoopCompletion {
  public:
   /// `length` compares lengths with angles.
-  LoopCompletion(const Mechanism& mechanism, const std::vector<LoopGroup>& groups,
-                 double rank_tolerance, double length);
+  LoopCompletion(const Mechanism& mechanism, const LoopKinematics& kinematics,
+                 const std::vector<LoopGroup>& groups, double rank_tolerance, double length);
 
   /// Closes the loops by moving the coordinates that are not given, from where they are; leaves
   /// `kinematics` there. False when that fails, with `q` at the best position met.
@@ -36,28 +39,39 @@ class LoopCompletion {
   Eigen::Index rank(const LoopKinematics& kinematics, const std::vector<bool>& given);
 
  private:
-  void factorize(const LoopKinematics& kinematics, const LoopGroup& group,
-                 const std::vector<bool>& given);
+  // The conditions' Jacobian of one group of loops, lengths over the length.
+  struct System {
+    System(const LoopGroup& group, const LoopKinematics& kinematics);
+    LoopGroup group;
+    MultifrontalQr qr;  // of the columns to be found
+    std::vector<bool> wanted;
+    bool sound = false;  // whether qr is a factorization
+  };
+  void factorize(const LoopKinematics& kinematics, const std::vector<bool>& given);
+  void factorizeWhole(const System& system);
+  void setRight(const LoopKinematics& kinematics, const System& system,
+                const Eigen::VectorXd& conditions);
+  bool solve(System& system);
+  double misses(const System& system);
   double misfit(const LoopKinematics& kinematics) const;
   double largest(const Eigen::VectorXd& rates) const;  // lengths over the length
   void newtonStep(const LoopKinematics& kinematics, const std::vector<bool>& given);
-  bool solveRates(const LoopKinematics& kinematics, const std::vector<bool>& given,
-                  const Eigen::VectorXd& rates, double size, Eigen::VectorXd& unknown);
+  bool solveRates(const LoopKinematics& kinematics, const Eigen::VectorXd& rates, double size,
+                  Eigen::VectorXd& unknown);
   double rowScale(const LoopKinematics& kinematics, Eigen::Index condition) const;
   double columnScale(int coordinate) const;
 
-  std::vector<LoopGroup> groups_;
+  std::vector<System> systems_;
   std::vector<bool> slides_, in_loop_;  // by coordinate
   double rank_tolerance_;
   double length_;
   int steps_ = 0;
-  RankFactorization factorization_;
   // Of the group in work; its conditions and the coordinates to be found come first.
-  Eigen::MatrixXd A_;
-  Eigen::VectorXd right_, found_;
+  Eigen::MatrixXd A_;  // where the columns are not surely independent
+  RankFactorization factorization_;
   std::vector<int> columns_;
-  std::size_t column_count_ = 0;
-  Eigen::Index row_count_ = 0;
+  Eigen::Index column_count_ = 0;
+  Eigen::VectorXd right_, packed_, found_, misses_;
   Eigen::VectorXd step_, tried_;  // by coordinate
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace virtual_work_dynamics {
 
@@ -11,20 +13,11 @@ namespace {
 constexpr double kBorne = 1e-9;
 // Entries of a free motion, a unit vector, below which a coordinate does not take part in it.
 constexpr double kTakesPart = 1e-6;
+// Efforts in a change, a unit vector, that are rounding.
+constexpr double kNoEffort = 1e-10;
 
 Eigen::Index index(std::size_t i) {
   return static_cast<Eigen::Index>(i);
-}
-
-Eigen::Index unknownsOf(const LoopKinematics& kinematics, const LoopScene& scene,
-                        const LoopGroup& group) {
-  Eigen::Index count = 0;
-  for (const int i : group.coordinates) count += scene.actuated[static_cast<std::size_t>(i)];
-  for (const std::size_t c : group.closures) {
-    count += kinematics.firstOf(c + 1) - kinematics.firstOf(c);
-    count += std::count(scene.actuated_closures.begin(), scene.actuated_closures.end(), c);
-  }
-  return count;
 }
 
 // Costs are of all unknowns, or of whole reactions.
@@ -38,9 +31,12 @@ LoopForces::LoopForces(const Mechanism& mechanism, const LoopKinematics& kinemat
                        const LoopScene& scene, const LoopGroup& group, double length)
     : kinematics_(kinematics),
       group_(group),
+      unknowns_(mechanism, kinematics, scene, group, length),
       rank_tolerance_(scene.rank_tolerance),
       length_(length),
-      G_(index(group.coordinates.size()), unknownsOf(kinematics, scene, group)),
+      unit_wrenches_(static_cast<std::size_t>(unknowns_.count)),
+      qr_(unknowns_.rowBlocks(), static_cast<int>(group.coordinates.size())),
+      G_(qr_.columns(), qr_.rows()),
       G_transposed_(G_.cols(), G_.rows()),
       factorization_(G_.rows(), G_.cols()),
       transposed_(G_.cols(), G_.rows()),
@@ -48,41 +44,16 @@ LoopForces::LoopForces(const Mechanism& mechanism, const LoopKinematics& kinemat
       load_(G_.rows()),
       gathered_(scene.start.size()),
       directions_(G_.cols(), G_.cols() + G_.rows()) {
-  addColumns(mechanism, scene);
   addCosts(scene);
+  for (std::size_t j = 0; j < unknowns_.effort_rows.size(); ++j) {
+    const std::size_t row = static_cast<std::size_t>(unknowns_.effort_rows[j]);
+    qr_.entriesOf(j)(0, 0) = unknowns_.efforts[j].unit / unknowns_.row_units[row];
+  }
   for (State* state : {&solution_, &change_}) {
     state->x.setZero(G_.cols());
     state->closures.resize(group_.closures.size());
+    touchAll(*state);
   }
-}
-
-void LoopForces::addColumns(const Mechanism& mechanism, const LoopScene& scene) {
-  for (std::size_t row = 0; row < group_.coordinates.size(); ++row) {
-    const std::size_t i = static_cast<std::size_t>(group_.coordinates[row]);
-    const int joint = mechanism.coordinates()[i];
-    const bool slides =
-        mechanism.joints()[static_cast<std::size_t>(joint)].type == JointType::kPrismatic;
-    row_units_.push_back(slides ? 1 : length_);
-    if (!scene.actuated[i]) continue;
-    effort_rows_.push_back(index(row));
-    efforts_.push_back({i, row_units_.back() / std::sqrt(scene.coordinate_weights[i])});
-  }
-  for (std::size_t n = 0; n < scene.actuated_closures.size(); ++n) {
-    const std::size_t c = scene.actuated_closures[n];
-    const auto found = std::find(group_.closures.begin(), group_.closures.end(), c);
-    if (found == group_.closures.end()) continue;
-    const bool slides = kinematics_.unitEffort(c).force.squaredNorm() > 0;
-    const double unit = (slides ? 1 : length_) / std::sqrt(scene.closure_weights[c]);
-    efforts_.push_back({scene.actuated.size() + n, unit});
-    columns_.push_back({static_cast<std::size_t>(found - group_.closures.begin()), -1, unit});
-  }
-  for (std::size_t local = 0; local < group_.closures.size(); ++local) {
-    const std::size_t c = group_.closures[local];
-    for (Eigen::Index i = kinematics_.firstOf(c); i < kinematics_.firstOf(c + 1); ++i) {
-      columns_.push_back({local, i, kinematics_.turns(i) ? length_ : 1});
-    }
-  }
-  unit_wrenches_.resize(columns_.size());
 }
 
 void LoopForces::addCosts(const LoopScene& scene) {
@@ -109,30 +80,50 @@ void LoopForces::addCosts(const LoopScene& scene) {
   for (double& factor : joint_costs_) factor /= largest > 0 ? largest : 1;
 }
 
-void LoopForces::setPosition() {
-  G_.setZero();
-  for (std::size_t j = 0; j < effort_rows_.size(); ++j) {
-    G_(effort_rows_[j], index(j)) = efforts_[j].unit / row_units_[std::size_t(effort_rows_[j])];
+void LoopForces::setEntries() {
+  for (std::size_t local = 0; local < unknowns_.of_closures.size(); ++local) {
+    const LoopUnknowns::OfClosure& own = unknowns_.of_closures[local];
+    Eigen::MatrixXd& entries = qr_.entriesOf(unknowns_.effort_rows.size() + local);
+    for (std::size_t j = 0; j < own.columns.size(); ++j) {
+      const LoopUnknowns::Column& column = own.columns[j];
+      ClosureWrench& wrench = unit_wrenches_[static_cast<std::size_t>(own.first) + j];
+      wrench = column.condition < 0 ? kinematics_.unitEffort(own.closure)
+                                    : kinematics_.unitWrench(column.condition);
+      wrench.force *= column.unit;
+      wrench.moment *= column.unit;
+      for (const int row : own.coordinates) gathered_[group_.coordinates[std::size_t(row)]] = 0;
+      kinematics_.addGeneralizedForce(own.closure, wrench, gathered_);
+      for (std::size_t k = 0; k < own.coordinates.size(); ++k) {
+        const std::size_t row = static_cast<std::size_t>(own.coordinates[k]);
+        entries(index(j), index(k)) = gathered_[group_.coordinates[row]] / unknowns_.row_units[row];
+      }
+    }
   }
-  for (std::size_t j = 0; j < columns_.size(); ++j) {
-    const Column& column = columns_[j];
-    const std::size_t c = group_.closures[column.closure];
-    ClosureWrench& wrench = unit_wrenches_[j];
-    wrench =
-        column.condition < 0 ? kinematics_.unitEffort(c) : kinematics_.unitWrench(column.condition);
-    wrench.force *= column.unit;
-    wrench.moment *= column.unit;
-    for (const int i : group_.coordinates) gathered_[i] = 0;
-    kinematics_.addGeneralizedForce(c, wrench, gathered_);
-    for (Eigen::Index row = 0; row < G_.rows(); ++row) {
-      G_(row, index(effort_rows_.size() + j)) =
-          gathered_[group_.coordinates[std::size_t(row)]] / row_units_[std::size_t(row)];
+}
+
+void LoopForces::setPosition() {
+  setEntries();
+  sound_ = qr_.factorize(MultifrontalQr::sureCondition(rank_tolerance_));
+  if (!sound_) factorizeWhole();
+}
+
+void LoopForces::factorizeWhole() {
+  G_.setZero();
+  for (std::size_t b = 0; b < qr_.blocks(); ++b) {
+    const Eigen::MatrixXd& entries = qr_.entriesOf(b);
+    for (Eigen::Index k = 0; k < entries.cols(); ++k) {
+      G_.row(qr_.columnsOf(b)[std::size_t(k)]).segment(qr_.firstOf(b), entries.rows()) =
+          entries.col(k).transpose();
     }
   }
   factorization_.factorize(G_, rank_tolerance_);
   if (rank() == coordinates()) return;
   G_transposed_ = G_.transpose();
   transposed_.factorize(G_transposed_, rank_tolerance_);
+}
+
+double LoopForces::gap() const {
+  return sound_ ? std::numeric_limits<double>::infinity() : factorization_.gap();
 }
 
 bool LoopForces::isFree(Eigen::Index local) const {
@@ -142,12 +133,18 @@ bool LoopForces::isFree(Eigen::Index local) const {
 void LoopForces::solve(const Eigen::VectorXd& tree_effort,
                        const std::vector<Wrench>& tree_reactions) {
   for (Eigen::Index row = 0; row < G_.rows(); ++row) {
-    load_[row] = tree_effort[group_.coordinates[std::size_t(row)]] / row_units_[std::size_t(row)];
+    load_[row] =
+        tree_effort[group_.coordinates[std::size_t(row)]] / unknowns_.row_units[std::size_t(row)];
   }
   bearLoad();
-  factorization_.solve(load_, solution_.x);
-  direction_count_ = factorization_.redundancy();
-  directions_.leftCols(direction_count_) = factorization_.nullSpace();
+  if (sound_) {
+    qr_.leastNorm(load_, solution_.x);
+    direction_count_ = index(qr_.nullity());
+  } else {
+    factorization_.solve(load_, solution_.x);
+    direction_count_ = factorization_.redundancy();
+    directions_.leftCols(direction_count_) = factorization_.nullSpace();
+  }
   choose(tree_reactions);
   setClosures(solution_);
   if (!bears_) addOpenLoads();
@@ -169,6 +166,7 @@ void LoopForces::bearLoad() {
 // What a unit load on a coordinate that takes part in a free motion changes; loads of coordinates
 // that depend on others follow and add nothing new.
 void LoopForces::addOpenLoads() {
+  touchAll(change_);
   for (Eigen::Index row = 0; row < coordinates(); ++row) {
     if (!isFree(row)) continue;
     load_.setZero();
@@ -180,16 +178,20 @@ void LoopForces::addOpenLoads() {
 }
 
 void LoopForces::choose(const std::vector<Wrench>& tree_reactions) {
-  norms_.start(factorization_.nullSpace());
-  redundant_constraints_ = norms_.open();
+  redundant_constraints_ = direction_count_;
+  startNorms();
   if (norms_.open() == 0) return;
-  const Eigen::Index efforts = index(efforts_.size());
-  norms_.costs(efforts) = norms_.space().topRows(efforts);
-  norms_.costOfSolution(efforts) = solution_.x.head(efforts);
+  const Eigen::Index efforts = index(unknowns_.efforts.size());
+  for (Eigen::Index j = 0; j < efforts; ++j) {
+    const Eigen::Index unknown = unknowns_.efforts[std::size_t(j)].unknown;
+    norms_.costs(efforts).row(j) = norms_.space().row(unknown);
+    norms_.costOfSolution(efforts)[j] = solution_.x[unknown];
+  }
   redundant_constraints_ -= norms_.reduce(efforts, solution_.x);
   if (norms_.open() > 0 && cost_rows_ > 0) {
     setClosures(solution_);
     putCosts(solution_, &tree_reactions, norms_.costOfSolution(cost_rows_));
+    touchAll(change_);
     for (Eigen::Index j = 0; j < norms_.open(); ++j) {
       change_.x = norms_.space().col(j);
       setClosures(change_);
@@ -198,6 +200,23 @@ void LoopForces::choose(const std::vector<Wrench>& tree_reactions) {
     norms_.reduce(cost_rows_, solution_.x);
   }
   norms_.finish(solution_.x);
+}
+
+// Of the changes that are open, all that the wishes of choose() concern.
+void LoopForces::startNorms() {
+  if (!sound_) return norms_.start(factorization_.nullSpace());
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < direction_count_; ++i) {
+    const State& change = direction(i);
+    const auto moves = [&](std::size_t effort) {
+      return std::abs(change.x[unknowns_.efforts[effort].unknown]) > kNoEffort;
+    };
+    if (cost_rows_ > 0 ||
+        std::any_of(change.touched_efforts.begin(), change.touched_efforts.end(), moves)) {
+      directions_.col(count++) = change.x;
+    }
+  }
+  norms_.start(directions_.leftCols(count));
 }
 
 void LoopForces::putCosts(const State& state, const std::vector<Wrench>* tree_reactions,
@@ -224,18 +243,53 @@ void LoopForces::putCosts(const State& state, const std::vector<Wrench>* tree_re
 }
 
 const LoopForces::State& LoopForces::direction(Eigen::Index i) {
-  change_.x = directions_.col(i);
+  if (!sound_) {
+    change_.x = directions_.col(i);
+    touchAll(change_);
+    setClosures(change_);
+    return change_;
+  }
+  for (const std::size_t effort : change_.touched_efforts) {
+    change_.x[unknowns_.efforts[effort].unknown] = 0;
+  }
+  for (const std::size_t local : change_.touched_closures) {
+    const LoopUnknowns::OfClosure& own = unknowns_.of_closures[local];
+    change_.x.segment(own.first, index(own.columns.size())).setZero();
+    change_.closures[local] = {};
+  }
+  qr_.nullVector(static_cast<std::size_t>(i), change_.x);
+  change_.touched_efforts.clear();
+  change_.touched_closures.clear();
+  for (const std::size_t block : qr_.touched()) {
+    if (block < unknowns_.effort_rows.size()) {
+      change_.touched_efforts.push_back(block);
+      continue;
+    }
+    const std::size_t local = block - unknowns_.effort_rows.size();
+    const int effort = unknowns_.of_closures[local].effort;
+    change_.touched_closures.push_back(local);
+    if (effort >= 0) change_.touched_efforts.push_back(static_cast<std::size_t>(effort));
+  }
   setClosures(change_);
   return change_;
 }
 
+void LoopForces::touchAll(State& state) const {
+  state.touched_efforts.resize(efforts().size());
+  std::iota(state.touched_efforts.begin(), state.touched_efforts.end(), 0);
+  state.touched_closures.resize(group_.closures.size());
+  std::iota(state.touched_closures.begin(), state.touched_closures.end(), 0);
+}
+
 void LoopForces::setClosures(State& state) const {
-  for (ClosureWrench& wrench : state.closures) wrench = {};
-  for (std::size_t j = 0; j < columns_.size(); ++j) {
-    ClosureWrench& wrench = state.closures[columns_[j].closure];
-    const double amount = state.x[index(effort_rows_.size() + j)];
-    wrench.force += amount * unit_wrenches_[j].force;
-    wrench.moment += amount * unit_wrenches_[j].moment;
+  for (const std::size_t local : state.touched_closures) {
+    const LoopUnknowns::OfClosure& own = unknowns_.of_closures[local];
+    ClosureWrench sum;
+    for (Eigen::Index j = own.first; j < own.first + index(own.columns.size()); ++j) {
+      sum.force += state.x[j] * unit_wrenches_[std::size_t(j)].force;
+      sum.moment += state.x[j] * unit_wrenches_[std::size_t(j)].moment;
+    }
+    state.closures[local] = sum;
   }
 }
 

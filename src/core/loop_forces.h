@@ -7,15 +7,26 @@
 #include "core/loop_groups.h"
 #include "core/loop_kinematics.h"
 #include "core/loop_scene.h"
+#include "core/loop_unknowns.h"
+#include "core/multifrontal_qr.h"
 #include "core/rank_factorization.h"
 #include "virtual_work_dynamics/mechanism.h"
 
 namespace virtual_work_dynamics {
 
+/// Whether an effort, or a component of a reaction with moments over the length, is determined, by
+/// the sum of the squares of what it changes by in the directions of LoopForces.
+inline bool isDetermined(double squares) {
+  constexpr double kOpen = 1e-8;
+  return squares <= kOpen * kOpen;
+}
+
 /// Efforts and closures' wrenches of one group of loops, (3.1)-(3.4): S^T tau + A^T lambda =
 /// tau_tree, G x = b, with x the efforts of actuated coordinates, those of actuated closures, and
 /// the multipliers. Everything is made a force by a length, so that rank and least norms do not
-/// depend on units. Nothing after construction allocates.
+/// depend on units. Far from singular positions G is factorised loop by loop, at a cost that grows
+/// with their number; where the condition number leaves a doubt about the rank, as a whole. Nothing
+/// after construction allocates.
 class LoopForces {
  public:
   /// All must outlive it.
@@ -33,9 +44,9 @@ class LoopForces {
   const LoopGroup& group() const { return group_; }
   Eigen::Index coordinates() const { return G_.rows(); }
   Eigen::Index unknowns() const { return G_.cols(); }
-  Eigen::Index rank() const { return factorization_.rank(); }
-  double gap() const { return factorization_.gap(); }
-  double condition() const { return factorization_.condition(); }
+  Eigen::Index rank() const { return sound_ ? coordinates() : factorization_.rank(); }
+  double gap() const;
+  double condition() const { return sound_ ? qr_.condition() : factorization_.condition(); }
   /// Dimension of the multipliers that load no coordinate. Known after solve().
   Eigen::Index redundantConstraints() const { return redundant_constraints_; }
   /// Whether a coordinate of the group takes part in a motion that nothing holds.
@@ -45,52 +56,47 @@ class LoopForces {
   struct State {
     Eigen::VectorXd x;
     std::vector<ClosureWrench> closures;
+    /// Which of the group's closures and of efforts() it can change; the others are zero.
+    std::vector<std::size_t> touched_closures, touched_efforts;
   };
   const State& solution() const { return solution_; }
   /// Unit vectors that span the changes, all moments over the length. In a singular position that
   /// cannot bear the load, these include all that shifting the load between the coordinates that
   /// move freely would change.
   Eigen::Index directions() const { return direction_count_; }
+  /// Valid until it is called again.
   const State& direction(Eigen::Index i);
   double length() const { return length_; }
 
-  /// Efforts of a state: actuated coordinates of the group, then its actuated closures.
-  struct Effort {
-    std::size_t index;  ///< into ClosedLoopDynamics::effort()
-    double unit;        ///< N m or N for an entry of x of one
-  };
-  const std::vector<Effort>& efforts() const { return efforts_; }
+  const std::vector<LoopUnknowns::Effort>& efforts() const { return unknowns_.efforts; }
 
   /// What a state adds to the wrench of a crossed joint, about the joint's origin. Root axes.
   ClosureWrench jointWrench(const LoopGroup::CrossedJoint& joint, const State& state) const;
 
  private:
-  struct Column {
-    std::size_t closure;     // index into the group's
-    Eigen::Index condition;  // -1: the effort along its free axis
-    double unit;
-  };
-  void addColumns(const Mechanism& mechanism, const LoopScene& scene);
   void addCosts(const LoopScene& scene);
+  void setEntries();
+  void factorizeWhole();
   void bearLoad();
   void choose(const std::vector<Wrench>& tree_reactions);
+  void startNorms();
   void addOpenLoads();
   void putCosts(const State& state, const std::vector<Wrench>* tree_reactions,
                 Eigen::Ref<Eigen::VectorXd> costs) const;
+  void touchAll(State& state) const;
   void setClosures(State& state) const;
 
   const LoopKinematics& kinematics_;
   LoopGroup group_;
+  LoopUnknowns unknowns_;
   double rank_tolerance_, length_;
-  std::vector<double> row_units_;
-  std::vector<Effort> efforts_;
-  std::vector<Eigen::Index> effort_rows_;  // of actuated coordinates
-  std::vector<Column> columns_;            // behind those of actuated coordinates
-  std::vector<ClosureWrench> unit_wrenches_;
+  std::vector<ClosureWrench> unit_wrenches_;  // by unknown
   // Factors of reactions whose squares the policy keeps small; zero where it does not care.
   std::vector<double> closure_costs_, joint_costs_;
   Eigen::Index cost_rows_ = 0;
 
+  MultifrontalQr qr_;  // of the transpose of G
+  bool sound_ = true;  // whether that is a factorization; if not, the next two are
   Eigen::MatrixXd G_, G_transposed_;
   RankFactorization factorization_, transposed_;
   LeastNorms norms_;

@@ -20,6 +20,22 @@ LoopGroup::CrossedJoint& crossing(LoopGroup& group, int joint, bool moves) {
   return group.joints.back();
 }
 
+void addMoved(const Mechanism& mechanism, const LoopKinematics& kinematics, LoopGroup& group) {
+  for (const std::size_t c : group.closures) {
+    std::vector<int> moved;
+    for (const LoopKinematics::Step& step : kinematics.path(c)) {
+      const int coordinate = mechanism.joints()[static_cast<std::size_t>(step.joint)].coordinate;
+      if (coordinate < 0) continue;
+      const auto& all = group.coordinates;
+      const auto place = std::find(all.begin(), all.end(), coordinate) - all.begin();
+      moved.push_back(static_cast<int>(place));
+    }
+    std::sort(moved.begin(), moved.end());
+    moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+    group.moved.push_back(moved);
+  }
+}
+
 }  // namespace
 
 std::vector<LoopGroup> loopGroups(const Mechanism& mechanism, const LoopKinematics& kinematics,
@@ -59,6 +75,7 @@ std::vector<LoopGroup> loopGroups(const Mechanism& mechanism, const LoopKinemati
     const int group = group_of[static_cast<std::size_t>(rootOf(leaders, static_cast<int>(i)))];
     if (group >= 0) groups[static_cast<std::size_t>(group)].coordinates.push_back(int(i));
   }
+  for (LoopGroup& group : groups) addMoved(mechanism, kinematics, group);
   return groups;
 }
 

@@ -11,6 +11,7 @@ namespace virtual_work_dynamics {
 struct LoopGroup {
   std::vector<int> coordinates;
   std::vector<std::size_t> closures;
+  std::vector<std::vector<int>> moved;  ///< by closure: which of `coordinates` its wrench moves
   /// Joints between the links of its closures, and how each closure's wrench passes through.
   struct Passage {
     std::size_t closure;  ///< index into `closures`

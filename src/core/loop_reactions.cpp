@@ -8,8 +8,13 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// A component is determined when no open change, a unit vector, changes it by more than this.
-constexpr double kOpen = 1e-8;
+void addSquares(const ClosureWrench& wrench, double length, std::array<double, 6>& sums) {
+  for (int i = 0; i < 3; ++i) {
+    const double moment = wrench.moment[i] / length;
+    sums[static_cast<std::size_t>(i)] += wrench.force[i] * wrench.force[i];
+    sums[static_cast<std::size_t>(i) + 3] += moment * moment;
+  }
+}
 
 }  // namespace
 
@@ -57,16 +62,22 @@ void LoopReactions::addItem(const Mechanism& mechanism, const Scene& scene, cons
 
 void LoopReactions::addChanges(const std::vector<LoopForces>& forces) {
   changes_.resize(forces.size());
+  changes_of_.resize(forces.size());
   for (std::size_t g = 0; g < forces.size(); ++g) {
     const LoopGroup& group = forces[g].group();
+    changes_of_[g].resize(group.closures.size());
     for (std::size_t i = 0; i < items_.size(); ++i) {
       for (const LoopGroup::CrossedJoint& crossed : group.joints) {
-        if (crossed.joint == items_[i].joint) changes_[g].push_back({i, &crossed, 0});
+        if (crossed.joint != items_[i].joint) continue;
+        for (const LoopGroup::Passage& passage : crossed.passages) {
+          changes_of_[g][passage.closure].push_back(changes_[g].size());
+        }
+        changes_[g].push_back({i, &crossed, 0});
       }
       for (std::size_t c = 0; c < group.closures.size(); ++c) {
-        if (static_cast<int>(group.closures[c]) == items_[i].closure) {
-          changes_[g].push_back({i, nullptr, c});
-        }
+        if (static_cast<int>(group.closures[c]) != items_[i].closure) continue;
+        changes_of_[g][c].push_back(changes_[g].size());
+        changes_[g].push_back({i, nullptr, c});
       }
     }
   }
@@ -130,21 +141,23 @@ void LoopReactions::reset() {
 
 void LoopReactions::addChange(const LoopKinematics& kinematics, std::size_t group,
                               const LoopForces& forces, const LoopForces::State& change) {
-  for (const Change& item : changes_[group]) {
-    const ClosureWrench wrench = reported(
-        kinematics, items_[item.item],
-        item.crossed ? forces.jointWrench(*item.crossed, change) : change.closures[item.closure]);
-    for (int i = 0; i < 3; ++i) {
-      const double moment = wrench.moment[i] / forces.length();
-      freedoms_[item.item][static_cast<std::size_t>(i)] += wrench.force[i] * wrench.force[i];
-      freedoms_[item.item][static_cast<std::size_t>(i) + 3] += moment * moment;
+  ++calls_;
+  for (const std::size_t closure : change.touched_closures) {
+    for (const std::size_t i : changes_of_[group][closure]) {
+      Change& item = changes_[group][i];
+      if (item.counted == calls_) continue;
+      item.counted = calls_;
+      const ClosureWrench wrench = reported(
+          kinematics, items_[item.item],
+          item.crossed ? forces.jointWrench(*item.crossed, change) : change.closures[item.closure]);
+      addSquares(wrench, forces.length(), freedoms_[item.item]);
     }
   }
 }
 
 void LoopReactions::setFlags() {
   for (std::size_t i = 0; i < items_.size(); ++i) {
-    for (std::size_t j = 0; j < 6; ++j) determined_[i][j] = freedoms_[i][j] <= kOpen * kOpen;
+    for (std::size_t j = 0; j < 6; ++j) determined_[i][j] = isDetermined(freedoms_[i][j]);
   }
 }
 

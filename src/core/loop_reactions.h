@@ -55,6 +55,7 @@ class LoopReactions {
     std::size_t item;
     const LoopGroup::CrossedJoint* crossed;  ///< null: a closure
     std::size_t closure;                     ///< index into the group's
+    std::size_t counted = 0;                 ///< the addChange() that took it in last
   };
   void addItem(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
                const std::string& name);
@@ -66,6 +67,9 @@ class LoopReactions {
   std::vector<Item> items_;
   std::vector<std::string> tree_names_;
   std::vector<std::vector<Change>> changes_;  // by group
+  // By group and by its closures: those of these that the closure's wrench is part of.
+  std::vector<std::vector<std::vector<std::size_t>>> changes_of_;
+  std::size_t calls_ = 0;  // of addChange()
   std::vector<Wrench> values_;
   std::vector<std::array<double, 6>> freedoms_;  // sums of squares
   std::vector<Determined> determined_;
