@@ -11,8 +11,8 @@ namespace {
 constexpr int kMostSteps = 200;
 constexpr int kMostHalvings = 30;
 // Misfits over the length below which a loop counts as closed, as it does below the tolerance of
-// the rank; Newton's method goes on until rounding stops it, or nothing but rounding is left of each
-// condition.
+// the rank; Newton's method goes on until rounding stops it, or nothing but rounding is left of
+// each condition.
 constexpr double kClosed = 1e-12;
 constexpr double kExact = std::numeric_limits<double>::epsilon();
 // A step turns nothing further than this, so that an almost singular position throws nothing away.
