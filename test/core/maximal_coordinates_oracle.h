@@ -15,16 +15,18 @@ namespace virtual_work_dynamics {
 /// Reactions of a mechanism with closures by cutting every joint: all six components of the wrench
 /// in each joint, in each closure and on the root link are unknown; the equations are the balances
 /// of force and moment of every link, and that a free direction of a closure or a passive
-/// coordinate carries nothing but its joints' springs and friction. One linear system in long
-/// double by Gauss with full pivoting, its null space included. No tree recursion, no Jacobian of
-/// conditions, no multipliers.
-class MaximalCoordinatesOracle {
+/// coordinate carries nothing but its joints' springs and friction. One linear system in numbers of
+/// type Real by Gauss with full pivoting, its null space included; motion and loads of the links
+/// are in long double. No tree recursion, no Jacobian of conditions, no multipliers.
+template <typename Real>
+class MaximalCoordinates {
  public:
-  using Vector6l = Eigen::Matrix<long double, 6, 1>;
-  using VectorXl = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-  using MatrixXl = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  using Vector6 = Eigen::Matrix<Real, 6, 1>;
+  using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+  using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+  using Matrix3 = Eigen::Matrix<Real, 3, 3>;
 
-  MaximalCoordinatesOracle(const Mechanism& mechanism, const Scene& scene, const Motion& motion)
+  MaximalCoordinates(const Mechanism& mechanism, const Scene& scene, const Motion& motion)
       : mechanism_(mechanism), scene_(scene), bodies_(mechanism, withoutLoops(scene), motion) {
     for (std::size_t k = 0; k < mechanism.joints().size(); ++k) {
       const int child = mechanism.joints()[k].child_link;
@@ -49,10 +51,10 @@ class MaximalCoordinatesOracle {
   /// Equations less rank: motions that nothing holds.
   Eigen::Index freeMotions() const { return G_.rows() - (G_.cols() - redundancy()); }
   /// Largest violation of an equation by the solution, relative to the largest load or 1 N.
-  long double residual() const { return violation(x_); }
+  Real residual() const { return violation(x_); }
 
   struct Reaction {
-    Vector6l wrench;  ///< force, moment; one of many where it is not determined
+    Vector6 wrench;  ///< force, moment; one of many where it is not determined
     std::array<bool, 6> determined;
   };
   /// Of a joint, a closure or "ground".
@@ -67,27 +69,28 @@ class MaximalCoordinatesOracle {
   /// it is when the rank drops without it.
   bool rankDropsWithout(const std::string& name, int i) const {
     const Eigen::Index column = at(indexOf(name)) + i;
-    MatrixXl left = G_;
-    left.col(column) = left.rightCols<1>();
+    Matrix left = G_;
+    left.col(column) = left.template rightCols<1>();
     left.conservativeResize(Eigen::NoChange, left.cols() - 1);
     return rankOf(left) < rankOf(G_);
   }
 
   struct Effort {
-    long double value;
+    Real value;
     bool determined;
   };
   /// Of a generalized coordinate, or of an actuated closure by its name.
   Effort effort(int coordinate) const {
-    const VectorXl row = effortRow(coordinate);
-    return {row.dot(x_) + terms_[coordinate], freedom(row) <= kFree};
+    const Vector row = effortRow(coordinate);
+    return {row.dot(x_) + static_cast<Real>(terms_[coordinate]), freedom(row) <= kFree};
   }
   Effort closureEffort(const std::string& name) const {
     const std::size_t cut = indexOf(name);
     const Closure& closure = scene_.closures[cut - mechanism_.joints().size() - 1];
-    VectorXl row = VectorXl::Zero(G_.cols());
+    Vector row = Vector::Zero(G_.cols());
     const bool slides = closure.type == ClosureType::kPrismatic;
-    row.segment<3>(at(cut) + (slides ? 0 : 3)) = cuts_[cut].R.col(2) * (slides ? 1 : length_);
+    row.template segment<3>(at(cut) + (slides ? 0 : 3)) =
+        (cuts_[cut].R.col(2) * (slides ? 1 : length_)).template cast<Real>();
     return {row.dot(x_), freedom(row) <= kFree};
   }
 
@@ -95,21 +98,23 @@ class MaximalCoordinatesOracle {
   /// relative to the largest load or 1 N: small for any solution, whatever is chosen where there
   /// are many.
   template <typename WrenchOf>
-  long double violationBy(const WrenchOf& wrench_of) const {
-    VectorXl x(G_.cols());
+  Real violationBy(const WrenchOf& wrench_of) const {
+    Vector x(G_.cols());
     for (std::size_t cut = 0; cut < cuts_.size(); ++cut) {
       const Wrench wrench = wrench_of(cuts_[cut].name);
-      x.segment<3>(at(cut)) = wrench.force.cast<long double>();
-      x.segment<3>(at(cut) + 3) = wrench.torque.cast<long double>() / length_;
+      x.template segment<3>(at(cut)) = wrench.force.cast<Real>();
+      x.template segment<3>(at(cut) + 3) =
+          (wrench.torque.cast<long double>() / length_).template cast<Real>();
     }
     return violation(x);
   }
 
  private:
   // A component is determined when no null vector, orthonormal in newtons, changes it by more.
-  static constexpr long double kFree = 1e-8L;
-  // Of pivots against the largest; those of dependent equations are rounding errors, 1e-18.
-  static constexpr long double kPivot = 1e-13L;
+  static constexpr Real kFree = Real(1e-8L);
+  // Of pivots against the largest; those of dependent equations are rounding errors, 1e-18 in long
+  // double and 1e-15 in double.
+  static constexpr Real kPivot = sizeof(Real) > sizeof(double) ? Real(1e-13L) : Real(1e-11L);
 
   struct Cut {
     std::string name;
@@ -143,23 +148,26 @@ class MaximalCoordinatesOracle {
   // Force, and moment about the centre of mass over the length, of every link.
   void addBalances() {
     const Eigen::Index links = static_cast<Eigen::Index>(mechanism_.links().size());
-    G_.setZero(6 * links, at(cuts_.size()));
-    b_.setZero(6 * links);
+    rows_ = 6 * links;
+    const Eigen::Index most = rows_ + at(scene_.closures.size()) +
+                              static_cast<Eigen::Index>(mechanism_.coordinates().size());
+    G_.setZero(most, at(cuts_.size()));
+    b_.setZero(most);
     for (std::size_t cut = 0; cut < cuts_.size(); ++cut) {
       for (const int sign : {1, -1}) {
         const int link = sign > 0 ? cuts_[cut].child : cuts_[cut].parent;
         if (link < 0) continue;
-        auto block = G_.block<6, 6>(6 * link, at(cut));
+        auto block = G_.template block<6, 6>(6 * link, at(cut));
         const Vector3l r = cuts_[cut].o - bodies_.centreOfMass(link);
-        block.topLeftCorner<3, 3>() = sign * Matrix3l::Identity();
-        block.bottomRightCorner<3, 3>() = sign * Matrix3l::Identity();
-        block.bottomLeftCorner<3, 3>() = sign * cross(r) / length_;
+        block.template topLeftCorner<3, 3>() = Real(sign) * Matrix3::Identity();
+        block.template bottomRightCorner<3, 3>() = Real(sign) * Matrix3::Identity();
+        block.template bottomLeftCorner<3, 3>() = (sign * cross(r) / length_).template cast<Real>();
       }
     }
     for (Eigen::Index link = 0; link < links; ++link) {
       const auto demand = bodies_.demand(static_cast<int>(link));
       load(static_cast<int>(link), bodies_.centreOfMass(static_cast<int>(link)), demand.force);
-      b_.segment<3>(6 * link + 3) += demand.torque / length_;
+      b_.template segment<3>(6 * link + 3) += (demand.torque / length_).template cast<Real>();
     }
     for (const PointSpring& spring : scene_.springs) {
       const SpringForce pull(mechanism_, bodies_, spring);
@@ -169,20 +177,20 @@ class MaximalCoordinatesOracle {
   }
 
   void load(int link, const Vector3l& point, const Vector3l& force) {
-    b_.segment<3>(6 * link) += force;
-    b_.segment<3>(6 * link + 3) += (point - bodies_.centreOfMass(link)).cross(force) / length_;
+    const Vector3l moment = (point - bodies_.centreOfMass(link)).cross(force);
+    b_.template segment<3>(6 * link) += force.template cast<Real>();
+    b_.template segment<3>(6 * link + 3) += (moment / length_).template cast<Real>();
   }
 
-  void addRow(const VectorXl& row, long double value) {
-    G_.conservativeResize(G_.rows() + 1, Eigen::NoChange);
-    G_.row(G_.rows() - 1) = row.transpose();
-    b_.conservativeResize(b_.size() + 1);
-    b_[b_.size() - 1] = value;
+  void addRow(const Vector& row, Real value) {
+    G_.row(rows_) = row.transpose();
+    b_[rows_] = value;
+    ++rows_;
   }
 
   void addFree(std::size_t cut, bool moment, const Vector3l& direction) {
-    VectorXl row = VectorXl::Zero(G_.cols());
-    row.segment<3>(at(cut) + (moment ? 3 : 0)) = direction;
+    Vector row = Vector::Zero(G_.cols());
+    row.template segment<3>(at(cut) + (moment ? 3 : 0)) = direction.template cast<Real>();
     addRow(row, 0);
   }
 
@@ -225,14 +233,15 @@ class MaximalCoordinatesOracle {
   }
 
   // What the joints of a coordinate carry along their axes, as they mimic it.
-  VectorXl effortRow(int coordinate) const {
-    VectorXl row = VectorXl::Zero(G_.cols());
+  Vector effortRow(int coordinate) const {
+    Vector row = Vector::Zero(G_.cols());
     for (std::size_t k = 0; k < mechanism_.joints().size(); ++k) {
       const Joint& joint = mechanism_.joints()[k];
       if (joint.coordinate != coordinate) continue;
       const Vector3l axis = cuts_[k].R * joint.axis_K;
       const bool slides = joint.type == JointType::kPrismatic;
-      row.segment<3>(at(k) + (slides ? 0 : 3)) = joint.multiplier * axis * (slides ? 1 : length_);
+      row.template segment<3>(at(k) + (slides ? 0 : 3)) =
+          (joint.multiplier * axis * (slides ? 1 : length_)).template cast<Real>();
     }
     return row;
   }
@@ -254,35 +263,37 @@ class MaximalCoordinatesOracle {
     }
     for (std::size_t i = 0; i < terms_.size(); ++i) {
       if (actuated(mechanism_.coordinateNames()[i])) continue;
-      const VectorXl row = effortRow(static_cast<int>(i));
-      addRow(row / length_, -terms_[i] / length_);
+      const Vector row = effortRow(static_cast<int>(i));
+      addRow(row / static_cast<Real>(length_), static_cast<Real>(-terms_[i] / length_));
     }
   }
 
-  static Eigen::Index rankOf(const MatrixXl& matrix) {
-    Eigen::FullPivLU<MatrixXl> lu;
+  static Eigen::Index rankOf(const Matrix& matrix) {
+    Eigen::FullPivLU<Matrix> lu;
     lu.setThreshold(kPivot);
     return lu.compute(matrix).rank();
   }
 
   void solve() {
-    Eigen::FullPivLU<MatrixXl> lu;
+    G_.conservativeResize(rows_, Eigen::NoChange);
+    b_.conservativeResize(rows_);
+    Eigen::FullPivLU<Matrix> lu;
     lu.setThreshold(kPivot);
     lu.compute(G_);
     x_ = lu.solve(b_);
     N_.resize(G_.cols(), 0);
     if (lu.dimensionOfKernel() == 0) return;
-    const MatrixXl kernel = lu.kernel();
-    N_ = Eigen::HouseholderQR<MatrixXl>(kernel).householderQ() *
-         MatrixXl::Identity(kernel.rows(), kernel.cols());
+    const Matrix kernel = lu.kernel();
+    N_ = Eigen::HouseholderQR<Matrix>(kernel).householderQ() *
+         Matrix::Identity(kernel.rows(), kernel.cols());
   }
 
-  long double violation(const VectorXl& x) const {
-    return (G_ * x - b_).cwiseAbs().maxCoeff() / std::max(1.0L, b_.cwiseAbs().maxCoeff());
+  Real violation(const Vector& x) const {
+    return (G_ * x - b_).cwiseAbs().maxCoeff() / std::max(Real(1), b_.cwiseAbs().maxCoeff());
   }
 
-  long double freedom(const VectorXl& row) const {
-    return N_.cols() == 0 ? 0 : (row.transpose() * N_).norm();
+  Real freedom(const Vector& row) const {
+    return N_.cols() == 0 ? Real(0) : (row.transpose() * N_).norm();
   }
 
   Reaction reaction(const std::string& name, const Matrix3l& axes) const {
@@ -290,9 +301,10 @@ class MaximalCoordinatesOracle {
     Reaction reaction;
     for (int i = 0; i < 6; ++i) {
       const bool moment = i >= 3;
-      VectorXl row = VectorXl::Zero(G_.cols());
-      row.segment<3>(first + (moment ? 3 : 0)) = axes.row(i % 3).transpose();
-      reaction.wrench[i] = row.dot(x_) * (moment ? length_ : 1);
+      Vector row = Vector::Zero(G_.cols());
+      row.template segment<3>(first + (moment ? 3 : 0)) =
+          axes.row(i % 3).transpose().template cast<Real>();
+      reaction.wrench[i] = row.dot(x_) * static_cast<Real>(moment ? length_ : 1);
       reaction.determined[static_cast<std::size_t>(i)] = freedom(row) <= kFree;
     }
     return reaction;
@@ -303,9 +315,12 @@ class MaximalCoordinatesOracle {
   NewtonEulerOracle bodies_;
   std::vector<Cut> cuts_;  // joints, ground, closures
   long double length_ = 0;
-  MatrixXl G_, N_;
-  VectorXl b_, x_;
+  Eigen::Index rows_ = 0;
+  Matrix G_, N_;
+  Vector b_, x_;
   std::vector<long double> terms_;  // of coordinates
 };
+
+using MaximalCoordinatesOracle = MaximalCoordinates<long double>;
 
 }  // namespace virtual_work_dynamics
