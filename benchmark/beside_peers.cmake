@@ -8,12 +8,16 @@ set(peers kdl)
 # --- beside other libraries ------------------------------------------------------------------------
 add_library(benchmark_contenders STATIC
   contenders/check.cpp
+  contenders/closed_scenes.cpp
   contenders/kdl.cpp
   contenders/kdl_model.cpp
+  contenders/linkages.cpp
   contenders/long_double_dynamics.cpp
+  contenders/loop_formalisms.cpp
   contenders/offers.cpp
   contenders/own_block.cpp
   contenders/own_lagrange.cpp
+  contenders/own_loops.cpp
   contenders/own_long_double.cpp
   contenders/own_single.cpp
   contenders/peer_input.cpp

@@ -101,8 +101,7 @@ std::vector<Candidate> checkedCandidates(const BenchmarkScene& scene,
     chooseCores(offer.label);
     try {
       std::unique_ptr<Contender> contender = offer.make();
-      const bool with_reactions = offer.label.outputs == kEffortsAndReactions;
-      const double error = yardstick.maxRelativeError(*contender, with_reactions);
+      const double error = yardstick.maxRelativeError(*contender, offer.label.outputs);
       if (!(error <= agreementLimit(offer.label.precision))) {
         std::fprintf(stderr, "%s: disagrees with the reference, relative error %.2g; not timed\n",
                      name.c_str(), error);

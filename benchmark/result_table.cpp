@@ -37,7 +37,10 @@ bool sameButOutputs(const Label& a, const Label& b) {
 std::string cell(const std::vector<ResultRow>& rows, const Label& label, const char* outputs,
                  const ResultRow* yardstick) {
   for (const ResultRow& row : rows) {
-    if (!sameButOutputs(row.label, label) || row.label.outputs != outputs) continue;
+    if (!sameButOutputs(row.label, label)) continue;
+    // A completed motion has a line of its own, and stands where efforts do.
+    const bool motion = row.label.outputs == kCompletedMotion && outputs == kEfforts;
+    if (row.label.outputs != outputs && !motion) continue;
     const std::string ratio = yardstick == nullptr ? "" : formatted("%.2f", yardstick->ns / row.ns);
     return formatted("%11.1f %7s  %7.1e", row.ns, ratio.c_str(), row.max_relative_error);
   }

@@ -5,7 +5,7 @@
 #include <exception>
 #include <memory>
 
-#include "contenders/robots.h"
+#include "contenders/closed_scenes.h"
 #include "cores.h"
 #include "measurement.h"
 #include "offline/output_file.h"
@@ -31,11 +31,13 @@ void showProgress(const std::string& text) {
   if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r\033[K%s", text.c_str());
 }
 
-// Names of the wanted scenes; says which have no file.
+// Names of the wanted scenes; says which have no file. A quick run leaves out what takes long,
+// unless asked for by name.
 std::vector<std::string> scenesToTime(const WorkPrecisionOptions& options) {
   std::vector<std::string> names;
   for (const std::string& name : sceneNames()) {
     if (!among(options.scenes, name)) continue;
+    if (options.quick && options.scenes.empty() && takesSeconds(name)) continue;
     const std::string missing = missingFile(name);
     if (missing.empty()) {
       names.push_back(name);
@@ -54,10 +56,11 @@ std::vector<Offer> wantedOffers(const BenchmarkScene& scene, const WorkPrecision
   return offers;
 }
 
-// A chain is what every method can compute.
+// Every method can compute a chain or a four-bar linkage.
 void checkMethods(const std::vector<std::string>& methods) {
-  const BenchmarkScene scene = makeScene("chain_2");
-  const std::vector<Offer> offers = offersFor(scene);
+  const BenchmarkScene chain = makeScene("chain_2"), linkage = makeScene("four_bar");
+  std::vector<Offer> offers = offersFor(chain);
+  for (Offer& offer : offersFor(linkage)) offers.push_back(std::move(offer));
   for (const std::string& method : methods) {
     const auto known = [&](const Offer& offer) { return offer.label.method == method; };
     if (std::none_of(offers.begin(), offers.end(), known)) {
@@ -80,6 +83,17 @@ int list(const WorkPrecisionOptions& options) {
   return 0;
 }
 
+int listLoops(const WorkPrecisionOptions& options) {
+  std::printf("scene,coordinates,actuated,loops,conditions,redundant_constraints\n");
+  for (const std::string& name : scenesToTime(options)) {
+    if (!isClosedScene(name)) continue;
+    const LoopCounts counts = countLoops(makeScene(name));
+    std::printf("%s,%d,%zu,%zu,%d,%d\n", name.c_str(), static_cast<int>(counts.coordinates),
+                counts.actuated, counts.closures, counts.conditions, counts.redundant_constraints);
+  }
+  return 0;
+}
+
 int run(const WorkPrecisionOptions& options) {
   std::unique_ptr<OutputFile> output;
   if (!options.output.empty()) output = std::make_unique<OutputFile>(options.output);
@@ -95,7 +109,7 @@ int run(const WorkPrecisionOptions& options) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::string head =
         "[" + std::to_string(i + 1) + "/" + std::to_string(names.size()) + "] " + names[i];
-    showProgress(head + ": compared with 113 bits");
+    showProgress(head + ": compared with the reference");
     const BenchmarkScene scene = makeScene(names[i]);
     std::vector<Candidate> candidates =
         checkedCandidates(scene, wantedOffers(scene, options), disagreed);
@@ -124,7 +138,8 @@ int runProgram(const std::vector<std::string>& arguments) {
       return 0;
     }
     checkMethods(options.methods);
-    return options.list ? list(options) : run(options);
+    if (options.list) return list(options);
+    return options.list_loops ? listLoops(options) : run(options);
   } catch (const OptionError& error) {
     std::fprintf(stderr, "work_precision: %s\n", error.what());
     return 2;

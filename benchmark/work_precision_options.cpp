@@ -31,18 +31,22 @@ const char kWorkPrecisionHelp[] =
   work_precision [options]
 
   --output FILE    all results as CSV; FILE is complete or not there
-  --quick          shorter and fewer rounds: every scene in less than a minute
+  --quick          shorter and fewer rounds, and no rows of more than 20 closed loops: all in about
+                   a minute
   --scene NAME     only this scene; may be repeated
   --method NAME    only this method, as "virtual_work"; may be repeated
   --rounds N       how often every contender is timed (default: 15, with --quick: 5)
   --list           say what would be timed
+  --list-loops     say what the scenes with closed loops consist of, as CSV
   --help           this text
 
-All contenders of a scene compute the same 16 random states. Each is compared with an evaluation in
-113 bits first; one that disagrees is named, not timed, and makes the exit status 1. Then they are
-timed in turn, round after round; times are the median, least and largest of the rounds.
-max_relative_error is the largest error of an effort over the largest effort of its state, or of a
-reaction's force or moment over the largest force or moment, whichever is worst.
+All contenders of a scene compute the same 16 random states. Each is compared with a reference first,
+an evaluation in 113 bits, or for closed loops in long double; one that disagrees is named, not timed,
+and makes the exit status 1. Then they are timed in turn, round after round; times are the median,
+least and largest of the rounds. max_relative_error is the largest error of an effort over the largest
+effort of its state, or of a reaction's force or moment over the largest force or moment, whichever is
+worst. Components that rigid bodies do not determine do not count. Of more than 50 joints and closures
+in loops only the first state is compared.
 
 A contender of one thread stays on one core, and its time is the time for which the thread ran;
 those of several threads may use all cores and are timed by the clock.
@@ -60,7 +64,14 @@ Methods
                     1008 samples, fewer where their arrays would exceed 1 MiB but at least 16; four
                     times that for each of several threads. Errors of float include those of its rounded input
   lagrange          this package's witness: Lagrange's equations, differentiated automatically; not
-                    of robots with more than 100 joints, for its cost grows with their square
+                    of robots with more than 100 joints, for its cost grows with their square. With
+                    closed loops the tests' own, with multipliers, set up for each sample
+
+Of scenes with closed loops, virtual_work in mode "single" is given the motion of all joints, in mode
+"completed" only that of the actuated joints; mode "completion" gives the motion of the others. It
+starts from their positions 1 ms before. There is one method more:
+  maximal_coordinates   the wrenches in all joints and closures from one dense linear system of all
+                        bodies, by Gauss with full pivoting and the null space; up to 30 joints
 
 Exit status: 0 done, 1 something is wrong or disagrees, 2 wrong usage.
 )";
@@ -85,6 +96,8 @@ WorkPrecisionOptions parseOptions(const std::vector<std::string>& arguments) {
       options.quick = true;
     } else if (option == "--list") {
       options.list = true;
+    } else if (option == "--list-loops") {
+      options.list_loops = true;
     } else if (option == "--help" || option == "-h") {
       options.help = true;
     } else {

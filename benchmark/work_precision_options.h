@@ -13,6 +13,7 @@ struct WorkPrecisionOptions {
   int rounds = 0;                    ///< 0: as many as usual
   bool quick = false;
   bool list = false;
+  bool list_loops = false;
   bool help = false;
 };
 

@@ -91,7 +91,8 @@ sanitized_core_tests() {
 # Every contender of a scene is compared with the reference before it is timed.
 contenders_agree() {
   local build=$repository/build/checked_benchmark
-  local scenes=(--scene pendulum --scene six_axis_arm --scene chain_10)
+  local scenes=(--scene pendulum --scene six_axis_arm --scene chain_10 --scene four_bar
+    --scene spatial_parallelogram)
   cmake -S . -B "$build" -DVWD_CORE_ONLY=ON -DVWD_BUILD_BENCHMARKS=ON \
     -DVWD_WARNINGS_AS_ERRORS=ON -DBUILD_TESTING=OFF &&
     cmake --build "$build" -- -j"${JOBS:-$(nproc)}" &&

@@ -12,13 +12,16 @@ namespace virtual_work_dynamics {
 
 constexpr char kEfforts[] = "efforts";
 constexpr char kEffortsAndReactions[] = "efforts+reactions";
+constexpr char kCompletedMotion[] = "motion";  // of passive joints, from that of actuated ones
 
 /// What is timed, in the words of the result table.
 struct Label {
   std::string method;     ///< "virtual_work", "kdl_chain", ...
   std::string precision;  ///< "double", "float", "long_double"
-  std::string mode;       ///< "single" or "block_<layout>_<instruction set>"
-  std::string outputs;    ///< kEfforts or kEffortsAndReactions
+  /// "single" or "block_<layout>_<instruction set>"; of closed loops also "completed", which starts
+  /// from the motion of the actuated joints, and "completion", which gives the others'.
+  std::string mode;
+  std::string outputs;  ///< kEfforts, kEffortsAndReactions or kCompletedMotion
   int threads = 1;
 };
 
@@ -26,8 +29,10 @@ struct Label {
 /// and then kept.
 struct SampleResults {
   std::vector<long double> efforts;  ///< of each generalized coordinate, N m or N
-  /// fx fy fz tx ty tz of each movable joint in the axes of its child link; empty for kEfforts.
+  /// fx fy fz tx ty tz of each movable joint in the axes of its child link, then of each closure in
+  /// those of its child frame; empty unless asked for.
   std::vector<long double> reactions;
+  std::vector<long double> motion = {};  ///< q, qd, qdd; only of kCompletedMotion, and then alone
 };
 
 /// One way of computing the inverse dynamics of a scene, set up and ready to run.

@@ -4,6 +4,11 @@ namespace virtual_work_dynamics {
 
 std::vector<Offer> offersFor(const BenchmarkScene& scene) {
   std::vector<Offer> offers;
+  if (scene.loops) {
+    offerOwnLoops(scene, offers);
+    offerLoopFormalisms(scene, offers);
+    return offers;
+  }
   offerKdl(scene, offers);
 #ifdef VWD_WITH_MUJOCO
   offerMujoco(scene, offers);

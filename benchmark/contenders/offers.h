@@ -6,7 +6,8 @@
 
 namespace virtual_work_dynamics {
 
-// Each appends what it has for a scene; a peer that cannot compute it appends nothing.
+// Each appends what it has for a scene, a tree unless named otherwise; a peer that cannot compute
+// it appends nothing.
 
 /// One sample after another by InverseDynamics.
 void offerOwnSingle(const BenchmarkScene& scene, std::vector<Offer>& offers);
@@ -26,5 +27,11 @@ void offerMujoco(const BenchmarkScene& scene, std::vector<Offer>& offers);
 #ifdef VWD_WITH_DART
 void offerDart(const BenchmarkScene& scene, std::vector<Offer>& offers);
 #endif
+
+/// Closed loops by ClosedLoopDynamics: the whole motion given, or only that of the actuated joints.
+void offerOwnLoops(const BenchmarkScene& scene, std::vector<Offer>& offers);
+/// Closed loops by one linear system of all bodies, and by Lagrange's equations with multipliers;
+/// up to 30 joints.
+void offerLoopFormalisms(const BenchmarkScene& scene, std::vector<Offer>& offers);
 
 }  // namespace virtual_work_dynamics

@@ -20,6 +20,15 @@ inline Request ownRequest(const BenchmarkScene& scene, const std::string& output
   return request;
 }
 
+/// The same of a scene with closed loops: reactions of movable joints, then of closures.
+inline Request loopRequest(const BenchmarkScene& scene, const std::string& outputs) {
+  Request request;
+  if (outputs == kEffortsAndReactions) {
+    request.child_axes = requestedReactions(scene.mechanism, *scene.loops);
+  }
+  return request;
+}
+
 inline Scene ownScene(const BenchmarkScene& benchmark_scene) {
   Scene scene;
   scene.gravity = benchmark_scene.gravity;

@@ -7,6 +7,7 @@
 #include <random>
 #include <sstream>
 
+#include "contenders/closed_scenes.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
@@ -103,10 +104,12 @@ std::vector<Motion> randomMotions(const Mechanism& mechanism) {
 std::vector<std::string> sceneNames() {
   std::vector<std::string> names;
   for (const Source& source : kSources) names.emplace_back(source.name);
+  for (const std::string& name : closedSceneNames()) names.push_back(name);
   return names;
 }
 
 std::string missingFile(const std::string& name) {
+  if (isClosedScene(name)) return "";
   const Source& source = sourceOf(name);
   return source.chain_links > 0 || std::ifstream(source.path) ? "" : source.path;
 }
@@ -120,6 +123,7 @@ std::string sceneUrdf(const std::string& name) {
 }
 
 BenchmarkScene makeScene(const std::string& name) {
+  if (isClosedScene(name)) return makeClosedScene(name);
   const std::array<double, 3>& gravity = sourceOf(name).gravity;
   Mechanism mechanism = readUrdf(sceneUrdf(name));
   std::vector<Motion> motions = randomMotions(mechanism);

@@ -1,0 +1,93 @@
+#include "contenders/offers.h"
+#include "contenders/own_request.h"
+#include "virtual_work_dynamics/closed_loop_dynamics.h"
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+// The sample before, from whose passive positions Newton's method starts.
+constexpr double kSamplePeriod = 1e-3;  // s
+
+// Efforts and reactions of motions that close the loops.
+class OwnLoops : public Contender {
+ public:
+  OwnLoops(const BenchmarkScene& scene, const std::string& outputs)
+      : motions_(scene.motions),
+        dynamics_(scene.mechanism, *scene.loops, loopRequest(scene, outputs)) {}
+
+  void run(std::size_t calls) override {
+    for (; calls > 0; --calls) dynamics_.compute(motions_[cycle_.next()]);
+  }
+
+  SampleResults results(std::size_t) const override {
+    return plainResults(dynamics_.effort(), dynamics_.childAxes());
+  }
+
+ private:
+  const std::vector<Motion>& motions_;
+  ClosedLoopDynamics dynamics_;
+  StateCycle cycle_;
+};
+
+// Completes motions whose passive joints stand where they were a sample before, and computes
+// efforts and reactions where wanted.
+class OwnCompletion : public Contender {
+ public:
+  OwnCompletion(const BenchmarkScene& scene, const std::string& outputs)
+      : starts_(scene.motions),
+        dynamics_(scene.mechanism, *scene.loops, loopRequest(scene, outputs)),
+        computes_(outputs != kCompletedMotion) {
+    for (Motion& start : starts_) {
+      for (Eigen::Index i = 0; i < start.q.size(); ++i) {
+        if (dynamics_.actuated()[static_cast<std::size_t>(i)]) continue;
+        start.q[i] -= kSamplePeriod * start.qd[i];
+        start.qd[i] = start.qdd[i] = 0;
+      }
+    }
+  }
+
+  void run(std::size_t calls) override {
+    for (; calls > 0; --calls) {
+      motion_ = starts_[cycle_.next()];
+      closes_ = dynamics_.complete(motion_) && closes_;
+      if (computes_) dynamics_.compute(motion_);
+    }
+  }
+
+  SampleResults results(std::size_t) const override {
+    if (!closes_) throw Error("does not close the loops");
+    if (computes_) return plainResults(dynamics_.effort(), dynamics_.childAxes());
+    SampleResults results;
+    for (const Eigen::VectorXd* values : {&motion_.q, &motion_.qd, &motion_.qdd}) {
+      results.motion.insert(results.motion.end(), values->data(), values->data() + values->size());
+    }
+    return results;
+  }
+
+ private:
+  std::vector<Motion> starts_;
+  ClosedLoopDynamics dynamics_;
+  bool computes_;
+  bool closes_ = true;
+  Motion motion_;
+  StateCycle cycle_;
+};
+
+}  // namespace
+
+void offerOwnLoops(const BenchmarkScene& scene, std::vector<Offer>& offers) {
+  for (const char* outputs : {kEfforts, kEffortsAndReactions}) {
+    offers.push_back({{"virtual_work", "double", "single", outputs, 1},
+                      [&scene, outputs] { return std::make_unique<OwnLoops>(scene, outputs); }});
+  }
+  for (const char* outputs : {kEfforts, kEffortsAndReactions}) {
+    offers.push_back({{"virtual_work", "double", "completed", outputs, 1}, [&scene, outputs] {
+                        return std::make_unique<OwnCompletion>(scene, outputs);
+                      }});
+  }
+  offers.push_back({{"virtual_work", "double", "completion", kCompletedMotion, 1},
+                    [&scene] { return std::make_unique<OwnCompletion>(scene, kCompletedMotion); }});
+}
+
+}  // namespace virtual_work_dynamics
