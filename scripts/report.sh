@@ -9,10 +9,12 @@ Usage: scripts/report.sh [--quick] [--no-install] [--output FOLDER]
 Installs what is needed, builds in build/benchmark (without ROS), measures, and writes into FOLDER
   report.md            the results, with plots; begin here
   estimator.md         error of estimated accelerations
-  work_precision.csv, leave_out.csv, estimator.csv, instructions.csv   the measurements
+  closed_loops.md      mechanisms with closed loops
+  work_precision.csv, closed_loops.csv, leave_out.csv, estimator.csv, instructions.csv
+                       the measurements
 Quiet machine wanted: nothing else should run.
-  --quick       fewer and shorter rounds, instructions not counted: a minute or less once
-                everything is built
+  --quick       fewer and shorter rounds, no more than 20 closed loops, instructions not counted:
+                about a minute once everything is built
   --no-install  do not install packages first
   --output      where to write (report/ in this repository)
 END
@@ -75,11 +77,14 @@ measure() {
 
 announce "Run time and error beside other libraries"
 disagreement=false
+rm -f "$output/closed_loops.csv"
 measure work_precision work_precision.csv || disagreement=true
 if [[ ! -f "$output/work_precision.csv" ]]; then
   echo "report.sh: work_precision has failed" >&2
   exit 1
 fi
+"$build/benchmark/work_precision" "${quick[@]}" --list-loops >"$output/closed_loops.csv.part"
+mv "$output/closed_loops.csv.part" "$output/closed_loops.csv"
 announce "What leaving out saves"
 measure leave_out leave_out.csv
 announce "Error of estimated accelerations"
@@ -97,6 +102,7 @@ else
   mv "$output/instructions.csv.part" "$output/instructions.csv"
 fi
 announce "Plots and tables"
+/usr/bin/python3 benchmark/report/closed_loops_page.py "$output"
 /usr/bin/python3 benchmark/report/report.py "${quick[@]}" --build "$build" --load "$load" "$output"
 announce "Done."
 if $disagreement; then

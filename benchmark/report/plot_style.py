@@ -35,6 +35,8 @@ METHODS = {  # name in the CSV: (name for readers, colour)
     'dart': ('DART', PURPLE),
     'pinocchio': ('Pinocchio', BLACK),
     'rbdl': ('RBDL', SKY),
+    # Only of closed loops, which KDL is not measured on: it may have KDL's colour.
+    'maximal_coordinates': ('one system of all bodies', VERMILLION),
 }
 OTHER_COLOR = FAINT
 
@@ -46,6 +48,8 @@ MODES = {  # name in the CSV: (name for readers, marker)
     'block_rows_baseline': ('block, rows, baseline', 'P'),
     'block_rows_avx2': ('block, rows, AVX2', 'v'),
     'block_rows_avx512': ('block, rows, AVX-512', 'X'),
+    'completed': ('one sample, completed first', 's'),
+    'completion': ('completion', 'D'),
 }
 OTHER_MARKER = '*'
 

@@ -45,8 +45,10 @@ def _name_at_right(axes, error, name):
                   fontsize=10, weight='bold')
 
 
-def _draw(axes, rows, labels, spare):
-    zero = _limits(axes, rows, spare)
+def draw_points(axes, rows, labels, spare, limits_of=None):
+    """Draws errors over run times, sets the limits of the errors, those of other rows if given, and
+    tells `labels` what not to cover. Returns where errors of zero are drawn, or None."""
+    zero = _limits(axes, limits_of or rows, spare)
     for row in rows:
         error = row.error if row.error > 0 else zero
         axes.plot(row.ns, error, **_marker_style(row.way))
@@ -124,11 +126,11 @@ def plot_work_precision(data, scene, title, path):
     lower.set_xlim(min(times) / 1.35, max(times) * 1.6)
     labels = LabelPlacement(lower)
     upper_labels = LabelPlacement(upper)
-    _draw(upper, rows, upper_labels, spare=1.0)
+    draw_points(upper, rows, upper_labels, spare=1.0)
     _name_precisions(upper, rows)
     _name_rounded(upper_labels, rows)
     if doubles:
-        zero = _draw(lower, doubles, labels, spare=1.5)
+        zero = draw_points(lower, doubles, labels, spare=1.5)
         _name_points(labels, doubles, zero)
     label_ticks(lower.xaxis, math.log10(max(times) / min(times)))
     lower.set_xlabel('run time [ns per sample]')

@@ -1,7 +1,7 @@
 """Makes report.md and its plots from what the benchmark programs measured, for scripts/report.sh.
 
-FOLDER holds work_precision.csv and leave_out.csv; instructions.csv if instructions were counted,
-and estimator.md if the estimator was measured.
+FOLDER holds work_precision.csv, closed_loops.csv and leave_out.csv; instructions.csv if
+instructions were counted, estimator.md if the estimator was measured.
 """
 import argparse
 import concurrent.futures
@@ -17,8 +17,8 @@ import report_pages as pages
 from plot_joints import plot_joints
 from plot_leave_out import plot_leave_out
 from plot_work_precision import plot_work_precision
-from report_data import (INSTRUCTIONS, LEAVE_OUT, WORK_PRECISION, Instructions, JointCounts,
-                         LeaveOut, ReportError, WorkPrecision)
+from report_data import (CLOSED_LOOPS, INSTRUCTIONS, LEAVE_OUT, WORK_PRECISION, ClosedLoops,
+                         Instructions, JointCounts, LeaveOut, ReportError, WorkPrecision)
 
 REPOSITORY = pathlib.Path(__file__).resolve().parent.parent.parent
 REPORT = 'report.md'
@@ -89,7 +89,9 @@ def text(folder, data, omissions, joints, build, arguments):
 
 
 def write(folder, arguments):
-    data = WorkPrecision(folder / WORK_PRECISION)
+    loops = ClosedLoops(folder / CLOSED_LOOPS)  # they have a page of their own
+    data = WorkPrecision(folder / WORK_PRECISION).of_scenes(
+        lambda scene: scene not in loops.counts)
     omissions = LeaveOut(folder / LEAVE_OUT)
     build = machine.Build(arguments.build)
     shared = build.value('VWD_SHARED_DATA') or REPOSITORY.parent / 'shared'

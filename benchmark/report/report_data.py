@@ -1,5 +1,6 @@
 """The report's CSV files, read and checked; errors are one line that names file, row and column."""
 import collections
+import copy
 import csv
 import math
 import pathlib
@@ -9,6 +10,7 @@ import xml.etree.ElementTree as ElementTree
 WORK_PRECISION = 'work_precision.csv'
 LEAVE_OUT = 'leave_out.csv'
 INSTRUCTIONS = 'instructions.csv'
+CLOSED_LOOPS = 'closed_loops.csv'
 OWN = 'virtual_work'
 LAGRANGE = 'lagrange'  # the package's, too: the other route, which is no rival
 # Peers that work_precision knows. A method that is not listed here is reported all the same.
@@ -16,6 +18,7 @@ KNOWN_PEERS = ('kdl_chain', 'kdl_tree', 'mujoco', 'dart', 'pinocchio', 'rbdl')
 BASES = ('kdl_chain', 'kdl_tree')  # solvers that all times are compared with; the first one found
 EFFORTS = 'efforts'
 ALL = 'efforts+reactions'
+MOTION = 'motion'  # of passive joints, from that of actuated ones
 PRECISIONS = ('float', 'double', 'long_double')
 
 
@@ -28,6 +31,9 @@ Way = collections.namedtuple('Way', 'method precision mode outputs threads')
 Measured = collections.namedtuple('Measured', 'scene way ns ns_min ns_max error')
 Omission = collections.namedtuple(
     'Omission', 'scene left_out multiplications additions ns same_numbers')
+
+LoopCounts = collections.namedtuple(
+    'LoopCounts', 'coordinates actuated loops conditions redundant_constraints')
 
 SINGLE = Way(OWN, 'double', 'single', ALL, 1)
 SINGLE_EFFORTS = SINGLE._replace(outputs=EFFORTS)
@@ -95,11 +101,10 @@ class WorkPrecision:
 
     def __init__(self, path):
         table = Table(path, self.COLUMNS)
-        self.rows = []
-        self._found = {}
+        rows = {}
         for row in table.rows:
             way = Way(table.name(row, 'method'), table.name(row, 'precision', PRECISIONS),
-                      table.name(row, 'mode'), table.name(row, 'outputs', (EFFORTS, ALL)),
+                      table.name(row, 'mode'), table.name(row, 'outputs', (EFFORTS, ALL, MOTION)),
                       table.count(row, 'threads'))
             measured = Measured(table.name(row, 'scene'), way,
                                 table.number(row, 'ns_per_sample', positive=True),
@@ -109,13 +114,23 @@ class WorkPrecision:
             if not measured.ns_min <= measured.ns <= measured.ns_max:
                 raise ReportError('%s: row %d: ns_per_sample is not between ns_min and ns_max' % (
                     path, row[0]))
-            if (measured.scene, way) in self._found:
+            if (measured.scene, way) in rows:
                 raise ReportError('%s: row %d repeats an earlier one' % (path, row[0]))
-            self._found[measured.scene, way] = measured
-            self.rows.append(measured)
+            rows[measured.scene, way] = measured
+        self._take(rows)
+
+    def _take(self, rows):
+        self._found = rows
+        self.rows = list(rows.values())
         self.scenes = list(dict.fromkeys(row.scene for row in self.rows))
         self.ways = list(dict.fromkeys(row.way for row in self.rows))
         self.methods = list(dict.fromkeys(way.method for way in self.ways))
+
+    def of_scenes(self, wanted):
+        """The same of the scenes for which wanted(scene) is true."""
+        part = copy.copy(self)
+        part._take({key: row for key, row in self._found.items() if wanted(row.scene)})
+        return part
 
     def find(self, scene, way):
         """Measured, or None."""
@@ -181,6 +196,29 @@ class Instructions:
                 row, 'instructions_per_sample')
         self.scenes = list(dict.fromkeys(scene for scene, _ in self.counts))
         self.ways = list(dict.fromkeys(way for _, way in self.counts))
+
+
+class ClosedLoops:
+    """What the scenes with closed loops consist of, by scene."""
+
+    COLUMNS = ('scene',) + LoopCounts._fields
+
+    def __init__(self, path):
+        table = Table(path, self.COLUMNS)
+        self.counts = {
+            table.name(row, 'scene'): LoopCounts(
+                *(table.count(row, column) for column in LoopCounts._fields))
+            for row in table.rows}
+
+    def row(self, name):
+        """[(number of loops, scene)] of a row of linkages, shortest first."""
+        pattern = re.compile(re.escape(name) + r'_\d+$')
+        return sorted((counts.loops, scene) for scene, counts in self.counts.items()
+                      if pattern.match(scene))
+
+    def examples(self):
+        """Scenes that are no rows of linkages."""
+        return [scene for scene in self.counts if not re.search(r'_\d+$', scene)]
 
 
 class JointCounts:
