@@ -39,9 +39,9 @@ class TrajectoryQueue {
   /// played.
   template <typename Play>
   void playDue(Clock::time_point now, Play play) {
-    for (int i = 0; i < kMostAtOnce && !empty() && next_ <= now; ++i) {
+    for (int i = 0; i < kMostAtOnce && waiting_ > 0 && next_ <= now; ++i) {
       next_ += spacing_;
-      if (point_ == trajectories_.front().stamps_ns.size()) {
+      while (point_ == trajectories_.front().stamps_ns.size()) {
         point_ = 0;
         trajectories_.pop_front();
       }
