@@ -13,41 +13,13 @@
 #include "core/loop_reactions.h"
 #include "core/loop_residuals.h"
 #include "core/loop_scene.h"
+#include "core/loop_trees.h"
 #include "core/point_springs.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
 
 namespace {
-// The tree with what springs exert on it: each has two applied wrenches behind the scene's own.
-Scene treeScene(const Scene& scene, const PointSprings& springs) {
-  Scene tree = withoutLoops(scene);
-  const std::vector<AppliedWrench> ends = springs.wrenches();
-  tree.applied_wrenches.insert(tree.applied_wrenches.end(), ends.begin(), ends.end());
-  return tree;
-}
-
-// Each closure has two more: on its child and on its parent, at the frames' origins.
-Scene closedTreeScene(const Scene& scene, const PointSprings& springs) {
-  Scene tree = treeScene(scene, springs);
-  for (const Closure& closure : scene.closures) {
-    for (const LinkFrame* frame : {&closure.child, &closure.parent}) {
-      AppliedWrench wrench;
-      wrench.link = frame->link;
-      wrench.at = frame->xyz;
-      wrench.axes = Axes::kRoot;
-      tree.applied_wrenches.push_back(wrench);
-    }
-  }
-  return tree;
-}
-
-// The efforts' pass sees whole reactions, whatever is reported of them.
-Scene effortScene(const Scene& scene, const PointSprings& springs) {
-  Scene tree = treeScene(scene, springs);
-  tree.include_active = true;
-  return tree;
-}
 
 // Moving joints of loops when the policy weighs their reactions.
 Request effortRequest(const Mechanism& mechanism, const LoopScene& loops,
@@ -140,7 +112,7 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene,
       new LoopReactions(mechanism, scene, loops, forces, wanted.child_axes, Axes::kLink));
   root_axes.reset(
       new LoopReactions(mechanism, scene, loops, forces, wanted.root_axes, Axes::kRoot));
-  first_pass.reset(new InverseDynamics(mechanism, effortScene(scene, springs),
+  first_pass.reset(new InverseDynamics(mechanism, openTreeScene(scene, springs),
                                        effortRequest(mechanism, loops, groups)));
   for (const std::string& name : first_pass->request().root_axes) {
     reaction_joints.push_back(mechanism.jointIndex(name));

@@ -193,16 +193,4 @@ LoopScene resolveLoopScene(const Mechanism& mechanism, const Scene& scene) {
   return Resolver(mechanism, scene).resolve();
 }
 
-Scene withoutLoops(const Scene& scene) {
-  Scene tree = scene;
-  tree.closures.clear();
-  tree.springs.clear();
-  tree.actuated.reset();
-  tree.assembly.clear();
-  tree.redundancy = {};
-  tree.reactions = ReactionSelection::kNone;
-  tree.reaction_names.clear();
-  return tree;
-}
-
 }  // namespace virtual_work_dynamics

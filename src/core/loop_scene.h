@@ -28,7 +28,4 @@ struct LoopScene {
 /// @throws SceneError naming what is unknown, given twice, out of range or of the wrong kind.
 LoopScene resolveLoopScene(const Mechanism& mechanism, const Scene& scene);
 
-/// A scene without its closures, springs and passive joints.
-Scene withoutLoops(const Scene& scene);
-
 }  // namespace virtual_work_dynamics

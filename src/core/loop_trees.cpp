@@ -1,0 +1,48 @@
+#include "core/loop_trees.h"
+
+namespace virtual_work_dynamics {
+
+namespace {
+
+Scene withoutLoops(const Scene& scene) {
+  Scene tree = scene;
+  tree.closures.clear();
+  tree.springs.clear();
+  tree.actuated.reset();
+  tree.assembly.clear();
+  tree.redundancy = {};
+  tree.reactions = ReactionSelection::kNone;
+  tree.reaction_names.clear();
+  return tree;
+}
+
+Scene withSprings(const Scene& scene, const PointSprings& springs) {
+  Scene tree = withoutLoops(scene);
+  const std::vector<AppliedWrench> ends = springs.wrenches();
+  tree.applied_wrenches.insert(tree.applied_wrenches.end(), ends.begin(), ends.end());
+  return tree;
+}
+
+}  // namespace
+
+Scene openTreeScene(const Scene& scene, const PointSprings& springs) {
+  Scene tree = withSprings(scene, springs);
+  tree.include_active = true;
+  return tree;
+}
+
+Scene closedTreeScene(const Scene& scene, const PointSprings& springs) {
+  Scene tree = withSprings(scene, springs);
+  for (const Closure& closure : scene.closures) {
+    for (const LinkFrame* frame : {&closure.child, &closure.parent}) {
+      AppliedWrench wrench;
+      wrench.link = frame->link;
+      wrench.at = frame->xyz;
+      wrench.axes = Axes::kRoot;
+      tree.applied_wrenches.push_back(wrench);
+    }
+  }
+  return tree;
+}
+
+}  // namespace virtual_work_dynamics
