@@ -90,7 +90,7 @@ struct ClosedLoopDynamics::Impl {
   std::vector<Twist> twists;
   Determinacy determinacy;
   std::vector<bool> effort_determined;
-  std::vector<double> effort_freedoms;  // sums of squares
+  std::vector<double> effort_freedoms;  // sums of squares, of the least
   std::unique_ptr<LoopResiduals> residuals;
   Motion rest;
 };
@@ -219,14 +219,15 @@ void ClosedLoopDynamics::Impl::setFlags() {
       root_axes->addChange(kinematics, g, group, change);
       for (const std::size_t j : change.touched_efforts) {
         const LoopUnknowns::Effort& actuator = group.efforts()[j];
-        effort_freedoms[actuator.index] += change.x[actuator.unknown] * change.x[actuator.unknown];
+        const double open = change.x[actuator.unknown] / group.leastChange();
+        effort_freedoms[actuator.index] += open * open;
       }
     }
   }
   child_axes->setFlags();
   root_axes->setFlags();
   for (std::size_t i = 0; i < effort_freedoms.size(); ++i) {
-    effort_determined[i] = isDetermined(effort_freedoms[i]);
+    effort_determined[i] = effort_freedoms[i] <= 1;
   }
 }
 

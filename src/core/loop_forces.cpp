@@ -15,6 +15,8 @@ constexpr double kBorne = 1e-9;
 constexpr double kTakesPart = 1e-6;
 // Efforts in a change, a unit vector, that are rounding.
 constexpr double kNoEffort = 1e-10;
+// A change by less, of a unit vector, leaves a component determined.
+constexpr double kOpen = 1e-8;
 
 Eigen::Index index(std::size_t i) {
   return static_cast<Eigen::Index>(i);
@@ -240,6 +242,11 @@ void LoopForces::putCosts(const State& state, const std::vector<Wrench>* tree_re
     }
     put(wrench, joint_costs_[k]);
   }
+}
+
+double LoopForces::leastChange() const {
+  const double steps = static_cast<double>(G_.rows() + G_.cols());
+  return std::max(kOpen, steps * std::numeric_limits<double>::epsilon() * condition());
 }
 
 const LoopForces::State& LoopForces::direction(Eigen::Index i) {

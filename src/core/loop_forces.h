@@ -14,13 +14,6 @@
 
 namespace virtual_work_dynamics {
 
-/// Whether an effort, or a component of a reaction with moments over the length, is determined, by
-/// the sum of the squares of what it changes by in the directions of LoopForces.
-inline bool isDetermined(double squares) {
-  constexpr double kOpen = 1e-8;
-  return squares <= kOpen * kOpen;
-}
-
 /// Efforts and closures' wrenches of one group of loops, (3.1)-(3.4): S^T tau + A^T lambda =
 /// tau_tree, G x = b, with x the efforts of actuated coordinates, those of actuated closures, and
 /// the multipliers. Everything is made a force by a length, so that rank and least norms do not
@@ -67,6 +60,9 @@ class LoopForces {
   /// Valid until it is called again.
   const State& direction(Eigen::Index i);
   double length() const { return length_; }
+  /// A component is determined when no direction changes it by more than this. Near a singular
+  /// position directions are known to rounding errors times the condition only, as results are.
+  double leastChange() const;
 
   const std::vector<LoopUnknowns::Effort>& efforts() const { return unknowns_.efforts; }
 

@@ -8,10 +8,13 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-void addSquares(const ClosureWrench& wrench, double length, std::array<double, 6>& sums) {
+void addSquares(const ClosureWrench& wrench, const LoopForces& forces,
+                std::array<double, 6>& sums) {
+  const double least = forces.leastChange();
   for (int i = 0; i < 3; ++i) {
-    const double moment = wrench.moment[i] / length;
-    sums[static_cast<std::size_t>(i)] += wrench.force[i] * wrench.force[i];
+    const double force = wrench.force[i] / least;
+    const double moment = wrench.moment[i] / (forces.length() * least);
+    sums[static_cast<std::size_t>(i)] += force * force;
     sums[static_cast<std::size_t>(i) + 3] += moment * moment;
   }
 }
@@ -150,14 +153,14 @@ void LoopReactions::addChange(const LoopKinematics& kinematics, std::size_t grou
       const ClosureWrench wrench = reported(
           kinematics, items_[item.item],
           item.crossed ? forces.jointWrench(*item.crossed, change) : change.closures[item.closure]);
-      addSquares(wrench, forces.length(), freedoms_[item.item]);
+      addSquares(wrench, forces, freedoms_[item.item]);
     }
   }
 }
 
 void LoopReactions::setFlags() {
   for (std::size_t i = 0; i < items_.size(); ++i) {
-    for (std::size_t j = 0; j < 6; ++j) determined_[i][j] = isDetermined(freedoms_[i][j]);
+    for (std::size_t j = 0; j < 6; ++j) determined_[i][j] = freedoms_[i][j] <= 1;
   }
 }
 

@@ -71,7 +71,7 @@ class LoopReactions {
   std::vector<std::vector<std::vector<std::size_t>>> changes_of_;
   std::size_t calls_ = 0;  // of addChange()
   std::vector<Wrench> values_;
-  std::vector<std::array<double, 6>> freedoms_;  // sums of squares
+  std::vector<std::array<double, 6>> freedoms_;  // sums of squares, of the least
   std::vector<Determined> determined_;
 };
 

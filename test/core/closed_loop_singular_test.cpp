@@ -137,6 +137,26 @@ TEST(ClosedLoopDynamics, ParallelogramThroughItsChangePoint) {
   EXPECT_LE(results.root("D").force.norm(), 100);
 }
 
+// Null vectors are known to rounding errors times the condition, which at last are larger than what
+// is taken for open at ordinary positions. Flags change with the rank and not before.
+TEST(ClosedLoopDynamics, FlagsStayUntilTheRankDrops) {
+  const FourBar four_bar = parallelogram();
+  FourBar::Cut cut = four_bar.cut('D');
+  cut.scene.assembly = {{"A", 1.0}, {"B", -1.0}, {"C", 1.0}};
+  ClosedLoopResults results(cut.mechanism, cut.scene);
+  const ClosedLoopDynamics& dynamics = results.dynamics;
+  results.dynamics.compute(cut.motion(parallel(0.2L, 2)));
+  const auto child_axes = dynamics.childAxesDetermined();
+  const auto root_axes = dynamics.rootAxesDetermined();
+  for (double angle = 0.1; angle > 1e-9; angle /= 1.7) {
+    results.dynamics.compute(cut.motion(parallel(angle, 2)));
+    ASSERT_EQ(dynamics.determinacy().rank, 3) << angle;
+    EXPECT_EQ(dynamics.childAxesDetermined(), child_axes) << angle;
+    EXPECT_EQ(dynamics.rootAxesDetermined(), root_axes) << angle;
+    EXPECT_TRUE(dynamics.effortDetermined()[0]) << angle;
+  }
+}
+
 // A singular assembly is let pass when its neighbours are not: the change point itself.
 TEST(ClosedLoopDynamics, SingularAssemblyIsLetPass) {
   const FourBar four_bar = parallelogram();
