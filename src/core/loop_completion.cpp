@@ -9,12 +9,16 @@ namespace virtual_work_dynamics {
 namespace {
 
 constexpr int kMostSteps = 200;
-constexpr int kMostHalvings = 30;
+// The fewer are for loops that are closed to the rank's tolerance: where frames fit no better, no
+// step goes on, and near singular positions half a step often does.
+constexpr int kMostHalvings = 30, kHalvingsWhenClosed = 4;
 // Misfits over the length below which a loop counts as closed, as it does below the tolerance of
 // the rank; Newton's method goes on until rounding stops it, or nothing but rounding is left of
 // each condition.
 constexpr double kClosed = 1e-12;
 constexpr double kExact = std::numeric_limits<double>::epsilon();
+// Misfits of a condition below which a step that does not lessen them was stopped by rounding.
+constexpr double kRounding = 20 * kExact;
 // A step turns nothing further than this, so that an almost singular position throws nothing away.
 constexpr double kLongestStep = 0.5;
 // What of velocities and accelerations may contradict the conditions, of the largest term.
@@ -232,15 +236,17 @@ bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
   kinematics.setPosition(q);
   double now = misfit(kinematics);
   const double closed = std::max(kClosed, rank_tolerance_);
-  const double exact = kExact * std::sqrt(static_cast<double>(kinematics.conditions()));
+  const double root = std::sqrt(static_cast<double>(kinematics.conditions()));
+  const double exact = kExact * root, rounding = kRounding * root;
   for (steps_ = 0; steps_ < kMostSteps && now > exact && std::isfinite(now); ++steps_) {
     newtonStep(kinematics, given);
     double factor = 1, then = now;
-    for (int halving = 0; halving < kMostHalvings; ++halving, factor /= 2) {
+    const int halvings = now <= closed ? kHalvingsWhenClosed : kMostHalvings;
+    for (int halving = 0; halving < halvings; ++halving, factor /= 2) {
       tried_ = q + factor * step_;
       kinematics.setPosition(tried_);
       then = misfit(kinematics);
-      if (then < now || now <= closed) break;
+      if (then < now || now <= rounding) break;
     }
     if (!(then < now)) {
       kinematics.setPosition(q);
