@@ -28,6 +28,10 @@ struct Determinacy {
   double condition = 0;           ///< estimated, of what is determined
 };
 
+/// Close to a singular position, for practical purposes: forces may be as many times the load, and
+/// positions that are wrong by 1e-4 rad change them by as much as they are.
+constexpr double kCloseToSingular = 1e4;
+
 /// Six flags of a wrench: fx fy fz tx ty tz.
 using Determined = std::array<bool, 6>;
 
@@ -93,6 +97,9 @@ class ClosedLoopDynamics {
   const std::vector<bool>& effortDetermined() const;
   const std::vector<Determined>& childAxesDetermined() const;
   const std::vector<Determined>& rootAxesDetermined() const;
+
+  /// By closure: Determinacy::condition of the loops that are solved together with its own.
+  const std::vector<double>& closureConditions() const;
 
   /// Of each closure, of the motion computed last.
   const std::vector<ClosureResidual>& residuals() const;

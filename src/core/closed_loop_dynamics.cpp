@@ -89,6 +89,7 @@ struct ClosedLoopDynamics::Impl {
   std::vector<Pose> poses;
   std::vector<Twist> twists;
   Determinacy determinacy;
+  std::vector<double> closure_conditions;
   std::vector<bool> effort_determined;
   std::vector<double> effort_freedoms;  // sums of squares, of the least
   std::unique_ptr<LoopResiduals> residuals;
@@ -106,6 +107,7 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene,
       groups(loopGroups(mechanism, kinematics, scene.closures.size())),
       tree_reactions(mechanism.joints().size()),
       closures(scene.closures.size()),
+      closure_conditions(scene.closures.size()),
       rest(static_cast<Eigen::Index>(mechanism.coordinates().size())) {
   close(mechanism, scene);
   child_axes.reset(
@@ -244,6 +246,7 @@ void ClosedLoopDynamics::Impl::setDeterminacy() {
     determinacy.redundant_constraints += static_cast<int>(group.redundantConstraints());
     determinacy.gap = std::min(determinacy.gap, group.gap());
     determinacy.condition = std::max(determinacy.condition, group.condition());
+    for (const std::size_t c : group.group().closures) closure_conditions[c] = group.condition();
   }
 }
 
@@ -356,6 +359,10 @@ const std::vector<Determined>& ClosedLoopDynamics::childAxesDetermined() const {
 
 const std::vector<Determined>& ClosedLoopDynamics::rootAxesDetermined() const {
   return impl_->root_axes->determined();
+}
+
+const std::vector<double>& ClosedLoopDynamics::closureConditions() const {
+  return impl_->closure_conditions;
 }
 
 const std::vector<ClosureResidual>& ClosedLoopDynamics::residuals() const {

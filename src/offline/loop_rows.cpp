@@ -1,6 +1,9 @@
 #include "offline/loop_rows.h"
 
 #include <limits>
+#include <sstream>
+
+#include "virtual_work_dynamics/number_text.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -51,6 +54,24 @@ void appendLoopCells(const ClosedLoopDynamics& dynamics, bool child_axes,
 
 bool inSingularPosition(const ClosedLoopDynamics& dynamics) {
   return dynamics.determinacy().free_motions > 0;
+}
+
+void Conditions::note(std::size_t row, const ClosedLoopDynamics& dynamics) {
+  const double condition = dynamics.determinacy().condition;
+  if (inSingularPosition(dynamics)) return;
+  if (condition > kCloseToSingular) ++close_;
+  if (condition <= largest_) return;
+  largest_ = condition;
+  row_ = row;
+}
+
+std::string Conditions::worst(const MotionFile& file) const {
+  if (largest_ == 0) return "singular positions only";
+  std::ostringstream text;
+  text.precision(3);
+  text << "condition " << largest_ << " at worst, line " << file.lines[row_] << ", at "
+       << numberText(file.table.times[row_]) << " s";
+  return text.str();
 }
 
 void leaveOutUndetermined(const ClosedLoopDynamics& dynamics, bool child_axes,

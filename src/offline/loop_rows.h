@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <string>
 #include <vector>
 
+#include "offline/motion_file.h"
 #include "offline/result_writer.h"
 #include "virtual_work_dynamics/closed_loop_dynamics.h"
 
@@ -24,6 +26,23 @@ void appendLoopCells(const ClosedLoopDynamics& dynamics, bool child_axes,
 /// Whether the sample computed last is in a singular position: actuated joints and closures do not
 /// hold the mechanism there.
 bool inSingularPosition(const ClosedLoopDynamics& dynamics);
+
+/// How close rows come to singular positions.
+class Conditions {
+ public:
+  /// Takes note of the sample computed last.
+  void note(std::size_t row, const ClosedLoopDynamics& dynamics);
+
+  /// "condition 12.3 at worst, line 7, at 0.5 s"
+  std::string worst(const MotionFile& file) const;
+  /// Rows that are close, for practical purposes, but none that are singular.
+  std::size_t close() const { return close_; }
+
+ private:
+  double largest_ = 0;
+  std::size_t row_ = 0;
+  std::size_t close_ = 0;
+};
 
 /// Makes NaN of what is not determined.
 void leaveOutUndetermined(const ClosedLoopDynamics& dynamics, bool child_axes,

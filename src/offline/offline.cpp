@@ -160,8 +160,13 @@ void checkLoops(const Arguments& arguments, const Mechanism& mechanism, const Sc
   if (arguments.motion.empty()) return;
   LoopMotion motion(arguments.motion, mechanism, scene, dynamics,
                     arguments.loop_tolerance.value_or(kLoopTolerance));
-  for (std::size_t i = 0; i < motion.file().lines.size(); ++i) motion.compute(i, dynamics);
+  Conditions conditions;
+  for (std::size_t i = 0; i < motion.file().lines.size(); ++i) {
+    motion.compute(i, dynamics);
+    conditions.note(i, dynamics);
+  }
   printMotion(motion.file());
+  printNames(std::cout, "closed loops", {conditions.worst(motion.file())});
 }
 
 void check(const Arguments& arguments, const Mechanism& mechanism) {

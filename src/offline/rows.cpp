@@ -32,6 +32,7 @@ void Rows::write(std::size_t row, const ClosedLoopDynamics& results) {
     if (++singular_ == 1) first_singular_line_ = file_.lines[row];
     leaveOutUndetermined(results, child_axes_, effort_, reactions_);
   }
+  conditions_.note(row, results);
   more_.clear();
   appendLoopCells(results, child_axes_, more_);
   put(row);
@@ -50,6 +51,11 @@ std::string Rows::warning() const {
     text += "warning: " + file_.path + ": " + rows(singular_) +
             " in singular positions, first in line " + std::to_string(first_singular_line_) +
             "; cells of what is not determined there are empty\n";
+  }
+  if (conditions_.close() > 0) {
+    text += "warning: " + file_.path + ": " + rows(conditions_.close()) +
+            " close to singular positions, " + conditions_.worst(file_) +
+            ": forces may be as many times the load\n";
   }
   return text;
 }

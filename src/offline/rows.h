@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "offline/certified_rows.h"
+#include "offline/loop_rows.h"
 #include "offline/motion_file.h"
 #include "offline/progress.h"
 #include "offline/result_writer.h"
@@ -63,6 +64,7 @@ class Rows {
   std::size_t first_line_ = 0;
   std::size_t singular_ = 0;
   std::size_t first_singular_line_ = 0;
+  Conditions conditions_;
 };
 
 }  // namespace virtual_work_dynamics

@@ -24,18 +24,20 @@ const char* flag(bool determined) {
   return determined ? "1" : "0";
 }
 
-void summarize(DiagnosticStatus& status, std::size_t open, bool singular) {
-  status.level = singular ? DiagnosticStatus::WARN : DiagnosticStatus::OK;
+void summarize(DiagnosticStatus& status, std::size_t open, const std::string& position) {
+  status.level = position.empty() ? DiagnosticStatus::OK : DiagnosticStatus::WARN;
   status.message =
       (open == 0 ? std::string("all determined") : std::to_string(open) + " not determined") +
-      (singular ? ", in a singular position" : "");
+      position;
 }
 
 }  // namespace
 
 DeterminacyMessage::DeterminacyMessage(const std::string& robot, std::vector<std::string> efforts,
-                                       std::vector<std::string> reactions)
-    : efforts_(std::move(efforts)), reactions_(std::move(reactions)) {
+                                       std::vector<std::string> reactions, double condition_warn)
+    : efforts_(std::move(efforts)),
+      reactions_(std::move(reactions)),
+      condition_warn_(condition_warn) {
   determinacy_.rank = -1;  // like no other
   message_.status.resize(3);
   message_.status[0].name = "determinacy of efforts";
@@ -48,8 +50,13 @@ bool DeterminacyMessage::changed(const ClosedLoopDynamics& results) const {
   const Determinacy& now = results.determinacy();
   return now.rank != determinacy_.rank || now.redundancy != determinacy_.redundancy ||
          now.redundant_constraints != determinacy_.redundant_constraints ||
-         now.free_motions != determinacy_.free_motions || results.effortDetermined() != effort_ ||
-         results.rootAxesDetermined() != root_axes_ || results.childAxesDetermined() != child_axes_;
+         now.free_motions != determinacy_.free_motions || isClose(now) != isClose(determinacy_) ||
+         results.effortDetermined() != effort_ || results.rootAxesDetermined() != root_axes_ ||
+         results.childAxesDetermined() != child_axes_;
+}
+
+bool DeterminacyMessage::isClose(const Determinacy& determinacy) const {
+  return determinacy.free_motions == 0 && determinacy.condition > condition_warn_;
 }
 
 bool DeterminacyMessage::update(std::int64_t stamp_ns, const ClosedLoopDynamics& results) {
@@ -65,7 +72,11 @@ bool DeterminacyMessage::update(std::int64_t stamp_ns, const ClosedLoopDynamics&
 
 void DeterminacyMessage::write() {
   for (DiagnosticStatus& status : message_.status) status.values.clear();
-  const bool singular = determinacy_.free_motions > 0;
+  std::string position;
+  if (determinacy_.free_motions > 0) position = ", in a singular position";
+  if (isClose(determinacy_)) {
+    position = ", close to a singular position: condition " + numberText(determinacy_.condition);
+  }
   DiagnosticStatus& efforts = message_.status[0];
   add(efforts, "rank", std::to_string(determinacy_.rank));
   add(efforts, "redundant constraints", std::to_string(determinacy_.redundant_constraints));
@@ -75,7 +86,7 @@ void DeterminacyMessage::write() {
   add(efforts, "condition", numberText(determinacy_.condition));
   for (std::size_t i = 0; i < efforts_.size(); ++i) add(efforts, efforts_[i], flag(effort_[i]));
   const auto open = static_cast<std::size_t>(std::count(effort_.begin(), effort_.end(), false));
-  summarize(efforts, open, singular);
+  summarize(efforts, open, position);
   for (const auto axes : {1, 2}) {
     const std::vector<Determined>& reactions = axes == 1 ? root_axes_ : child_axes_;
     DiagnosticStatus& status = message_.status[static_cast<std::size_t>(axes)];
@@ -86,7 +97,7 @@ void DeterminacyMessage::write() {
         if (!reactions[i][j]) ++components;
       }
     }
-    summarize(status, components, singular);
+    summarize(status, components, position);
   }
 }
 

@@ -15,11 +15,13 @@ namespace virtual_work_dynamics {
 class DeterminacyMessage {
  public:
   /// @param efforts names of what has an effort. @param reactions that the scene asks for.
+  /// @param condition_warn a larger condition is close to a singular position.
   DeterminacyMessage(const std::string& robot, std::vector<std::string> efforts,
-                     std::vector<std::string> reactions);
+                     std::vector<std::string> reactions, double condition_warn);
 
   /// @param results of everything that the scene asks for, in both axes.
-  /// @returns whether ranks, counts or flags differ from those before. Allocates only then.
+  /// @returns whether ranks, counts, flags, or being close to a singular position differ from
+  /// before. Allocates only then.
   bool update(std::int64_t stamp_ns, const ClosedLoopDynamics& results);
 
   /// Three statuses: numbers and efforts; reactions in root axes; reactions in child axes. Keys of
@@ -28,9 +30,11 @@ class DeterminacyMessage {
 
  private:
   bool changed(const ClosedLoopDynamics& results) const;
+  bool isClose(const Determinacy& determinacy) const;
   void write();
 
   const std::vector<std::string> efforts_, reactions_;
+  const double condition_warn_;
   Determinacy determinacy_;
   std::vector<bool> effort_;
   std::vector<Determined> root_axes_, child_axes_;

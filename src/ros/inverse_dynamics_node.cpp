@@ -57,7 +57,7 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
           counters_, counters_.run_times, joint_watch_,
           SelfCheckReport(parameters.self_check, cross_check_.get(), certificates_),
           LoopReport(task_.mechanism, task_.scene, task_.reactions,
-                     loops_ != nullptr ? &loops_->record : nullptr, parameters.loop_tolerance),
+                     loops_ != nullptr ? &loops_->record : nullptr, parameters.loop_limits),
           task_.mechanism.name(), parameters.diagnostic_period),
       sim_time_(ros::Time::isSimTime()) {
   task_.log(parameters);

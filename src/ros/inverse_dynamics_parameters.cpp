@@ -91,6 +91,20 @@ SelfCheckSettings readSelfCheck(PrivateParameters& parameters) {
   return settings;
 }
 
+LoopLimits readLoopLimits(PrivateParameters& parameters) {
+  LoopLimits limits;
+  limits.tolerance = parameters.number("loop_tolerance", limits.tolerance);
+  if (!(limits.tolerance > 0)) {
+    throw parameterError("loop_tolerance", numberText(limits.tolerance) + " is not positive");
+  }
+  limits.condition = parameters.number("condition_warn", limits.condition);
+  if (!(limits.condition > 1)) {
+    throw parameterError("condition_warn", numberText(limits.condition) +
+                                               " is not greater than 1, where conditions begin");
+  }
+  return limits;
+}
+
 void refuseChecksOfLoops(const InverseDynamicsParameters& parameters) {
   const SelfCheckSettings& checks = parameters.self_check;
   if (!needsClosedLoops(parameters.scene)) return;
@@ -116,10 +130,7 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   result.diagnostic_period = readPeriod(parameters, "diagnostic_period", result.diagnostic_period);
   result.late_threshold = readPeriod(parameters, "late_threshold", result.late_threshold);
   result.self_check = readSelfCheck(parameters);
-  result.loop_tolerance = parameters.number("loop_tolerance", result.loop_tolerance);
-  if (!(result.loop_tolerance > 0)) {
-    throw parameterError("loop_tolerance", numberText(result.loop_tolerance) + " is not positive");
-  }
+  result.loop_limits = readLoopLimits(parameters);
   result.scene_given = parameters.has("scene");
   const YAML::Node scene = xmlRpcToYaml(parameters.raw("scene"), "scene");
   parameters.refuseUnknown();

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "ros/loop_limits.h"
 #include "virtual_work_dynamics/motion_estimator.h"
 #include "virtual_work_dynamics/scene.h"
 
@@ -33,7 +34,7 @@ struct InverseDynamicsParameters {
   double trajectory_rate = 0;      ///< points/s; 0: all points of a trajectory at once
   double diagnostic_period = 1.0;  ///< s
   double late_threshold = 0.001;   ///< s, from receipt of a joint state to its published result
-  double loop_tolerance = 1e-6;    ///< relative; motions that violate a loop by more are a WARN
+  LoopLimits loop_limits;          ///< samples beyond them are a WARN
   SelfCheckSettings self_check;
 };
 

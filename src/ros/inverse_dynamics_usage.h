@@ -43,6 +43,7 @@ parameters
   ~residual_warn             what checks find, relative to sums of magnitudes: WARN from here (1e-10)
   ~residual_error            ERROR from here (1e-7)
   ~loop_tolerance            closed loops: a motion that violates one by more, relative, is a WARN (1e-6)
+  ~condition_warn            closed loops: close to a singular position, a WARN, from this condition (1e4)
 )";
 
 }  // namespace virtual_work_dynamics

@@ -28,17 +28,18 @@ std::vector<std::size_t> takeMarks(std::vector<std::atomic<bool>>& marks) {
 constexpr std::size_t LoopRecord::kLevels;
 
 LoopRecord::LoopRecord(std::size_t closures, std::size_t efforts, std::size_t reactions)
-    : residuals_(closures), efforts_(efforts), reactions_(reactions) {}
+    : closures_(closures), efforts_(efforts), reactions_(reactions) {}
 
-void LoopRecord::record(const LoopPlan& plan, double tolerance) {
+void LoopRecord::record(const LoopPlan& plan, const LoopLimits& limits) {
   const ClosedLoopDynamics& results = plan.results();
   bool violated = false;
-  for (std::size_t c = 0; c < residuals_.size(); ++c) {
+  for (std::size_t c = 0; c < closures_.size(); ++c) {
+    if (!plan.singular()) raise(closures_[c].condition, results.closureConditions()[c]);
     for (std::size_t i = 0; i < kLevels; ++i) {
       const double relative = results.relativeResiduals()[c].*kLevel[i];
-      raise(residuals_[c].largest[i], results.residuals()[c].*kLevel[i]);
-      raise(residuals_[c].relative[i], relative);
-      violated = violated || !(relative <= tolerance);
+      raise(closures_[c].largest[i], results.residuals()[c].*kLevel[i]);
+      raise(closures_[c].relative[i], relative);
+      violated = violated || !(relative <= limits.tolerance);
     }
   }
   if (violated) violations_.add();
@@ -49,6 +50,7 @@ void LoopRecord::record(const LoopPlan& plan, double tolerance) {
   free_motions_.store(found.free_motions, std::memory_order_relaxed);
   gap_.store(found.gap, std::memory_order_relaxed);
   condition_.store(found.condition, std::memory_order_relaxed);
+  if (!plan.singular() && found.condition > limits.condition) close_to_singular_.add();
   if (plan.singular()) {
     singular_.add();
     const auto mark = [](std::atomic<bool>& left_out, bool exists) {
@@ -72,18 +74,20 @@ LoopRecord::Report LoopRecord::take() {
   const std::uint64_t samples = samples_.value();
   report.news = samples > reported_;
   reported_ = samples;
-  for (Residual& residual : residuals_) {
+  for (OfClosure& closure : closures_) {
+    report.conditions.push_back(closure.condition.exchange(0, std::memory_order_relaxed));
     report.residuals.emplace_back();
     report.relative.emplace_back();
     for (std::size_t i = 0; i < kLevels; ++i) {
-      report.residuals.back()[i] = residual.largest[i].exchange(0, std::memory_order_relaxed);
-      report.relative.back()[i] = residual.relative[i].exchange(0, std::memory_order_relaxed);
+      report.residuals.back()[i] = closure.largest[i].exchange(0, std::memory_order_relaxed);
+      report.relative.back()[i] = closure.relative[i].exchange(0, std::memory_order_relaxed);
     }
   }
   report.efforts = takeMarks(efforts_);
   report.reactions = takeMarks(reactions_);
   report.singular = singular_.value();
   report.violations = violations_.value();
+  report.close_to_singular = close_to_singular_.value();
   report.determinacy.rank = rank_;
   report.determinacy.redundant_constraints = redundant_constraints_;
   report.determinacy.redundancy = redundancy_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ros/counters.h"
+#include "ros/loop_limits.h"
 #include "ros/loop_plan.h"
 
 namespace virtual_work_dynamics {
@@ -22,35 +23,37 @@ class LoopRecord {
 
   LoopRecord(std::size_t closures, std::size_t efforts, std::size_t reactions);
 
-  /// @param tolerance of the loops, relative.
-  void record(const LoopPlan& plan, double tolerance);
+  void record(const LoopPlan& plan, const LoopLimits& limits);
   /// Whether the positions of passive joints come with the joint states.
   void setPassiveGiven(bool given) { passive_given_ = given; }
 
   struct Report {
-    bool news = false;              ///< samples were computed since the report before
-    std::vector<Levels> residuals;  ///< largest of each closure, m or rad, per s, per s^2
-    std::vector<Levels> relative;   ///< the same without units
+    bool news = false;               ///< samples were computed since the report before
+    std::vector<Levels> residuals;   ///< largest of each closure, m or rad, per s, per s^2
+    std::vector<Levels> relative;    ///< the same without units
+    std::vector<double> conditions;  ///< largest of each closure, out of singular positions
     std::vector<std::size_t> efforts, reactions;  ///< left out
     std::uint64_t singular = 0;                   ///< samples, ever
     std::uint64_t violations = 0;                 ///< samples, ever
+    std::uint64_t close_to_singular = 0;          ///< samples, ever; none that are singular
     Determinacy determinacy;                      ///< of the latest sample
     bool passive_given = false;
   };
   Report take();
 
  private:
-  struct Residual {
+  struct OfClosure {
     std::array<std::atomic<double>, kLevels> largest{}, relative{};
+    std::atomic<double> condition{0};
   };
 
-  std::vector<Residual> residuals_;           // by closure
+  std::vector<OfClosure> closures_;
   std::vector<std::atomic<bool>> efforts_;    // left out
   std::vector<std::atomic<bool>> reactions_;  // left out
   std::atomic<int> rank_{0}, redundant_constraints_{0}, redundancy_{0}, free_motions_{0};
   std::atomic<double> gap_{0}, condition_{0};
   std::atomic<bool> passive_given_{false};
-  Counter samples_, singular_, violations_;
+  Counter samples_, singular_, violations_, close_to_singular_;
   std::uint64_t reported_ = 0;  // samples, the taking thread's
 };
 

@@ -2,6 +2,7 @@
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -37,6 +38,10 @@ std::string listOf(const Names& names) {
   return names.empty() ? "none" : shortList(names);
 }
 
+double largestOf(const std::vector<double>& conditions) {
+  return conditions.empty() ? 1 : *std::max_element(conditions.begin(), conditions.end());
+}
+
 std::string count(std::size_t number, const char* one, const char* many) {
   return std::to_string(number) + " " + (number == 1 ? one : many);
 }
@@ -65,11 +70,11 @@ Names loopLines(const Mechanism& mechanism, const Scene& scene, const LoopSample
 }
 
 LoopReport::LoopReport(const Mechanism& mechanism, const Scene& scene, Names reactions,
-                       LoopRecord* record, double tolerance)
+                       LoopRecord* record, const LoopLimits& limits)
     : efforts_(namesOfEfforts(mechanism, scene)),
       reactions_(std::move(reactions)),
       record_(record),
-      tolerance_(tolerance) {
+      limits_(limits) {
   for (const Closure& closure : scene.closures) closures_.push_back(closure.name);
 }
 
@@ -80,8 +85,10 @@ void LoopReport::add(DiagnosticStatusWrapper& status) {
   if (report.news) latest_ = report;
   status.add("samples that violate a loop", report.violations);
   status.add("samples in singular positions", report.singular);
+  status.add("samples close to singular positions", report.close_to_singular);
   if (latest_.news) addResiduals(status, latest_);
   if (report.violations > violations_) addViolations(status, report);
+  if (report.news) addConditions(status, report.conditions);
   if (report.singular > singular_) addSingular(status, report);
   violations_ = report.violations;
   singular_ = report.singular;
@@ -96,6 +103,7 @@ void LoopReport::addResiduals(DiagnosticStatusWrapper& status,
   status.add("free motions", found.free_motions);
   status.add("rank gap", shortNumber(found.gap));
   status.add("condition", shortNumber(found.condition));
+  status.add("condition, largest", shortNumber(largestOf(report.conditions)));
   double largest = 0;
   for (std::size_t c = 0; c < closures_.size(); ++c) {
     for (std::size_t i = 0; i < LoopRecord::kLevels; ++i) {
@@ -111,14 +119,28 @@ void LoopReport::addViolations(DiagnosticStatusWrapper& status,
                                const LoopRecord::Report& report) const {
   for (std::size_t c = 0; c < closures_.size(); ++c) {
     for (std::size_t i = 0; i < LoopRecord::kLevels; ++i) {
-      if (report.relative[c][i] <= tolerance_) continue;
+      if (report.relative[c][i] <= limits_.tolerance) continue;
       status.mergeSummary(DiagnosticStatus::WARN,
                           std::string(kLevels[i].many) + " violate closure '" + closures_[c] +
                               "' by " + shortNumber(report.residuals[c][i]) + " " +
                               kLevels[i].unit + ", " + shortNumber(report.relative[c][i]) +
-                              " relative; ~loop_tolerance is " + numberText(tolerance_));
+                              " relative; ~loop_tolerance is " + numberText(limits_.tolerance));
     }
   }
+}
+
+void LoopReport::addConditions(DiagnosticStatusWrapper& status,
+                               const std::vector<double>& conditions) const {
+  Names loops;
+  for (std::size_t c = 0; c < closures_.size(); ++c) {
+    if (conditions[c] > limits_.condition) loops.push_back(closures_[c]);
+  }
+  if (loops.empty()) return;
+  status.mergeSummary(DiagnosticStatus::WARN,
+                      "close to a singular position of the loops through " + shortList(loops) +
+                          ", condition " + shortNumber(largestOf(conditions)) +
+                          ": forces may be as many times the load; ~condition_warn is " +
+                          numberText(limits_.condition));
 }
 
 void LoopReport::addSingular(DiagnosticStatusWrapper& status,

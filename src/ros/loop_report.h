@@ -21,9 +21,8 @@ class LoopReport {
  public:
   /// @param reactions that the scene asks for. @param record null: an open chain, nothing to
   /// report.
-  /// @param tolerance of the loops, relative.
   LoopReport(const Mechanism& mechanism, const Scene& scene, std::vector<std::string> reactions,
-             LoopRecord* record, double tolerance);
+             LoopRecord* record, const LoopLimits& limits);
 
   /// Adds what samples since the call before were like, and to the summary what is wrong with them.
   /// Residuals hold until there are others.
@@ -34,12 +33,14 @@ class LoopReport {
                     const LoopRecord::Report& report) const;
   void addViolations(diagnostic_updater::DiagnosticStatusWrapper& status,
                      const LoopRecord::Report& report) const;
+  void addConditions(diagnostic_updater::DiagnosticStatusWrapper& status,
+                     const std::vector<double>& conditions) const;
   void addSingular(diagnostic_updater::DiagnosticStatusWrapper& status,
                    const LoopRecord::Report& report) const;
 
   std::vector<std::string> closures_, efforts_, reactions_;
   LoopRecord* record_;
-  double tolerance_;
+  LoopLimits limits_;
   LoopRecord::Report latest_;  // that had news
   std::uint64_t singular_ = 0, violations_ = 0;
 };

@@ -5,11 +5,11 @@
 namespace virtual_work_dynamics {
 
 LoopSamples::LoopSamples(const Mechanism& mechanism, const Scene& scene,
-                         const std::vector<std::string>& reactions, double tol)
-    : tolerance(tol),
+                         const std::vector<std::string>& reactions, const LoopLimits& within)
+    : limits(within),
       completer(mechanism, scene),
       record(scene.closures.size(), namesOfEfforts(mechanism, scene).size(), reactions.size()),
-      determinacy(mechanism.name(), namesOfEfforts(mechanism, scene), reactions) {
+      determinacy(mechanism.name(), namesOfEfforts(mechanism, scene), reactions, within.condition) {
   record.setPassiveGiven(completer.passiveGiven());
   // Everything, where the closures were assembled: there is always a latest message.
   LoopPlan assembled(mechanism, scene, Request{true, reactions, reactions, false, false},

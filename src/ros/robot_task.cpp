@@ -48,7 +48,7 @@ RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
   }
   closure_frames = closureFrames(mechanism, scene, reactions, parameters.frame_prefix);
   if (needsClosedLoops(scene)) {
-    loops = std::make_unique<LoopSamples>(mechanism, scene, reactions, parameters.loop_tolerance);
+    loops = std::make_unique<LoopSamples>(mechanism, scene, reactions, parameters.loop_limits);
     plan_lines = loopLines(mechanism, scene, *loops);
   } else {
     plan_lines = InverseDynamics(mechanism, scene).summary().lines();

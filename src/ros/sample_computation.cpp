@@ -87,7 +87,7 @@ SampleComputation::Outcome SampleComputation::computeLoops(ActivePlan& plan, std
       std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count());
   if (!loops.results().finite()) return Outcome::kNotFinite;
   plan.messages.fill(stamp_ns, motion_, loops);
-  loops_->record.record(loops, loops_->tolerance);
+  loops_->record.record(loops, loops_->limits);
   return Outcome::kDone;
 }
 

@@ -117,6 +117,24 @@ TEST_F(OfflineLoops, ColumnsFollowWhatIsAskedFor) {
   EXPECT_TRUE(contains(header("--reactions all"), " reaction.wrist.tz reaction.pin.fx "));
 }
 
+// The flat parallelogram: nothing that the drive does holds it there.
+TEST_F(OfflineLoops, TheLargestConditionIsToldWithItsTime) {
+  const double flat = std::acos(0.0);
+  write("m.csv", kAllColumns + row(0.5, {0.3, 0, 0}) + row(0.75, {flat - 1e-6, 0, 0}) +
+                     row(1, {flat - 1e-3, 0, 0}) + row(1.25, {flat - 2e-6, 0, 0}));
+  const Run checked = run("--urdf l.urdf --scene s.yaml --motion m.csv --check");
+  const std::size_t found = checked.out.find("closed loops: condition ");
+  ASSERT_NE(found, std::string::npos) << checked.out << checked.err;
+  const double condition = std::stod(checked.out.substr(found + 24));
+  EXPECT_GT(condition, 1e5);
+  EXPECT_LT(condition, 1e8);
+  EXPECT_TRUE(contains(checked.out, " at worst, line 3, at 0.75 s\n")) << checked.out;
+  const Run result = run("--urdf l.urdf --scene s.yaml --motion m.csv");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_TRUE(contains(result.err, "warning: m.csv: 2 rows close to singular positions, condition"))
+      << result.err;
+}
+
 TEST_F(OfflineLoops, AMotionOfAllJointsGivesTheSame) {
   write("m.csv", driveMotion());
   std::string text = kAllColumns;

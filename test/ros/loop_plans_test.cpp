@@ -22,7 +22,7 @@ namespace {
 using Outcome = SampleComputation::Outcome;
 using Names = std::vector<std::string>;
 
-constexpr double kTolerance = 1e-6;
+constexpr LoopLimits kLimits{1e-6, 1e4};
 
 /// A slider-crank as the node computes it.
 class LoopPlans : public testing::Test {
@@ -31,7 +31,7 @@ class LoopPlans : public testing::Test {
       : mechanism(slider_crank.mechanism()),
         scene(gravityOn(slider_crank.scene(actuated))),
         reactions(requestedReactions(mechanism, scene)),
-        loops(mechanism, scene, reactions, kTolerance),
+        loops(mechanism, scene, reactions, kLimits),
         samples(3, false, counters, certificates, &loops) {}
 
   static Scene gravityOn(Scene scene) {
@@ -155,6 +155,43 @@ TEST_F(LoopPlans, DeterminacyChangesWithThePosition) {
   EXPECT_TRUE(changed(0.4));
 }
 
+// The slider holds the crank by a lever that is as long as the angle from the dead centre.
+TEST_F(LoopPlans, ConditionGrowsTowardsDeadCentre) {
+  Audience audience;
+  audience.effort = audience.determinacy = true;
+  const auto plan = compile(audience);
+  const auto computed = [&](double angle) {
+    EXPECT_EQ(compute(*plan, SliderCrank::motion(angle, 0, 0)), Outcome::kDone);
+    return loops.record.take();
+  };
+  const auto changed = [&] { return loops.determinacy.update(1, plan->loops->results()); };
+  const auto level = [&] { return loops.determinacy.message().status[0].level; };
+  LoopRecord::Report report = computed(0.7);
+  EXPECT_LT(report.conditions[0], 100);
+  EXPECT_EQ(report.close_to_singular, 0u);
+  changed();
+  EXPECT_EQ(level(), diagnostic_msgs::DiagnosticStatus::OK);
+  for (const double angle : {1e-5, -1e-8}) {
+    report = computed(angle);
+    EXPECT_GT(report.conditions[0], 0.1 / std::abs(angle));
+    EXPECT_LT(report.conditions[0], 100 / std::abs(angle));
+    EXPECT_EQ(report.determinacy.free_motions, 0);
+    EXPECT_EQ(changed(), angle > 0);  // no news afterwards
+    EXPECT_EQ(level(), diagnostic_msgs::DiagnosticStatus::WARN);
+  }
+  EXPECT_EQ(report.close_to_singular, 2u);
+  EXPECT_NE(loops.determinacy.message().status[0].message.find("close to a singular position"),
+            std::string::npos);
+  report = computed(0);
+  EXPECT_EQ(report.close_to_singular, 2u);
+  EXPECT_EQ(report.singular, 1u);
+  EXPECT_EQ(report.conditions[0], 0);
+  report = computed(0.7);
+  EXPECT_LT(report.conditions[0], 100);
+  EXPECT_TRUE(changed());
+  EXPECT_EQ(level(), diagnostic_msgs::DiagnosticStatus::OK);
+}
+
 TEST_F(LoopPlans, MotionsThatViolateALoopAreComputedAndCounted) {
   const auto plan = compile(everything());
   Motion motion = SliderCrank::motion(0.7, 0, 0);
@@ -164,7 +201,7 @@ TEST_F(LoopPlans, MotionsThatViolateALoopAreComputedAndCounted) {
   const LoopRecord::Report report = loops.record.take();
   EXPECT_EQ(report.violations, 1u);
   EXPECT_NEAR(report.residuals[0][0], 0.01, 1e-15);
-  EXPECT_GT(report.relative[0][0], kTolerance);
+  EXPECT_GT(report.relative[0][0], kLimits.tolerance);
 }
 
 class LoopPlansOfTheCrank : public LoopPlans {

@@ -93,6 +93,34 @@ class LoopPositions(LoopTest):
         self.assertIn('left out: effort of slider_joint, reaction of crank_joint', status.message)
         self.assertFalse(self.node.ended())
 
+    def test_close_to_dead_centre(self):
+        scene = dict(SLIDER_CRANK_SCENE, actuated=['slider_joint'], assembly=ASSEMBLY)
+        self.start('effort', 'determinacy', scene=scene,
+                   parameters={'estimator': {'acceleration': 'zero'}, 'condition_warn': 1e5})
+        stamps = iter(EPOCH + STEP * i for i in range(10))
+
+        def move(angle):
+            self.states.publish(joint_state(next(stamps), SliderCrank(angle, 0, 0).q))
+
+        move(0.04)
+        status = self.status(lambda s: s.level == DiagnosticStatus.OK and 'condition' in
+                             {entry.key for entry in s.values}, 'a position like others')
+        move(1e-7)
+        status = self.status(lambda s: 'close' in s.message, 'the position close to dead centre',
+                             from_the_start=True)
+        self.assertEqual(status.level, DiagnosticStatus.WARN)
+        self.assertRegex(status.message, "close to a singular position of the loops through "
+                         "wrist_pin, condition [1-9][.0-9]*e\\+0[678]: .*; ~condition_warn is 1e\\+05")
+        move(-0.04)
+        self.status(lambda s: s.level == DiagnosticStatus.OK, 'a position like others again')
+        self.assertEqual(self.node.wait_for_count('samples computed', 3)
+                         ['samples close to singular positions'], '1')
+        found = self.recorders['determinacy'].wait(3)
+        self.assertEqual([message.status[0].level for message in found],
+                         [DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.OK])
+        self.assertIn('close to a singular position: condition', found[1].status[0].message)
+        self.assertEqual(flags(found[1], 0)['slider_joint'], '1')
+
     def test_dead_centre_of_an_actuated_crank_is_a_position_like_others(self):
         self.start('effort', parameters={'estimator': {'acceleration': 'zero'}})
         for i, angle in enumerate((-0.02, 0, 0.02, math.pi)):

@@ -161,6 +161,7 @@ BAD_PARAMETERS = {
     'endless_queue_by_a_negative_size': ({'queue_size': {'input': -1}},
                                          ['~queue_size/input', '-1']),
     'loop_tolerance_of_nothing': ({'loop_tolerance': 0}, ['~loop_tolerance: 0 is not positive']),
+    'condition_of_less_than_one': ({'condition_warn': 0.5}, ['~condition_warn: 0.5 is not greater']),
     'closure_on_an_unknown_link': (loop(child={'link': 'paw'}), ["'pin'", "'paw'"]),
     'closure_named_like_a_joint': (loop(name='hinge'), ["'hinge'"]),
     'closure_named_like_a_link': (loop(name='arm'), ["closures: 'arm' is the name of a link"]),
