@@ -101,6 +101,21 @@ class ClosedLoopDynamics {
   /// By closure: Determinacy::condition of the loops that are solved together with its own.
   const std::vector<double>& closureConditions() const;
 
+  /// The tree that is left when closures and springs are cut. What these exert are applied wrenches
+  /// behind the scene's own, so that Certifier and LagrangeDynamics, which know of no loops, can be
+  /// made of it. Its efforts are those of the coordinates, without the actuated closures.
+  const Scene& tree() const;
+  /// Values of the wrenches behind the scene's own, of the motion computed last, root axes.
+  const std::vector<Wrench>& treeWrenches() const;
+  /// Hands them to what was made of tree().
+  template <typename OfTree>
+  void applyTo(OfTree& of_tree) const {
+    const std::size_t own = tree().applied_wrenches.size() - treeWrenches().size();
+    for (std::size_t i = 0; i < treeWrenches().size(); ++i) {
+      of_tree.setAppliedWrench(own + i, treeWrenches()[i].force, treeWrenches()[i].torque);
+    }
+  }
+
   /// Of each closure, of the motion computed last.
   const std::vector<ClosureResidual>& residuals() const;
   /// The same without units, to be held against a tolerance: lengths over the size of the loops,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -26,6 +27,10 @@ class LagrangeDynamics {
 
   Eigen::Index coordinates() const;
   const Request& request() const;
+
+  /// As Workspace::setAppliedWrench().
+  void setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
+                        const Eigen::Vector3d& torque);
 
   /// All results of one sample. Does not allocate.
   /// @throws MotionError when a vector of `motion` has the wrong length.

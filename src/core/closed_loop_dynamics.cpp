@@ -70,6 +70,8 @@ struct ClosedLoopDynamics::Impl {
   LoopScene loops;
   LoopKinematics kinematics;
   PointSprings springs;
+  Scene tree;
+  std::vector<Wrench> tree_wrenches;  // of springs and closures
   std::vector<LoopGroup> groups;
   std::unique_ptr<LoopCompletion> completion;
   Eigen::VectorXd assembly;
@@ -104,6 +106,8 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene,
       loops(resolveLoopScene(mechanism, scene)),
       kinematics(mechanism, scene),
       springs(mechanism, scene),
+      tree(closedTreeScene(scene, springs)),
+      tree_wrenches(tree.applied_wrenches.size() - own_wrenches),
       groups(loopGroups(mechanism, kinematics, scene.closures.size())),
       tree_reactions(mechanism.joints().size()),
       closures(scene.closures.size()),
@@ -119,8 +123,8 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene,
   for (const std::string& name : first_pass->request().root_axes) {
     reaction_joints.push_back(mechanism.jointIndex(name));
   }
-  second_pass.reset(new InverseDynamics(mechanism, closedTreeScene(scene, springs),
-                                        reactionRequest(wanted, *child_axes, *root_axes)));
+  second_pass.reset(
+      new InverseDynamics(mechanism, tree, reactionRequest(wanted, *child_axes, *root_axes)));
   first.reset(new Workspace(first_pass->makeWorkspace()));
   second.reset(new Workspace(second_pass->makeWorkspace()));
   for (const std::size_t c : loops.actuated_closures) {
@@ -155,9 +159,11 @@ void ClosedLoopDynamics::Impl::push(const Motion& motion) {
   kinematics.setPosition(motion.q);
   for (std::size_t i = 0; i < springs.size(); ++i) {
     const Eigen::Vector3d force = springs.force(i, kinematics);
-    for (Workspace* workspace : {first.get(), second.get()}) {
-      workspace->setAppliedWrench(own_wrenches + 2 * i, force, Eigen::Vector3d::Zero());
-      workspace->setAppliedWrench(own_wrenches + 2 * i + 1, -force, Eigen::Vector3d::Zero());
+    tree_wrenches[2 * i] = {force, Eigen::Vector3d::Zero()};
+    tree_wrenches[2 * i + 1] = {-force, Eigen::Vector3d::Zero()};
+    for (const std::size_t end : {2 * i, 2 * i + 1}) {
+      first->setAppliedWrench(own_wrenches + end, tree_wrenches[end].force,
+                              tree_wrenches[end].torque);
     }
   }
   first_pass->compute(motion, *first);
@@ -196,11 +202,13 @@ void ClosedLoopDynamics::Impl::solve() {
 void ClosedLoopDynamics::Impl::react(const Motion& motion) {
   for (std::size_t c = 0; c < closures.size(); ++c) {
     const ClosureWrench& wrench = closures[c];
-    const std::size_t child = own_wrenches + 2 * springs.size() + 2 * c;
+    const std::size_t child = 2 * springs.size() + 2 * c;
     const Eigen::Vector3d lever = kinematics.childOrigin(c) - kinematics.parentOrigin(c);
-    second->setAppliedWrench(child, wrench.force, wrench.moment);
-    second->setAppliedWrench(child + 1, -wrench.force,
-                             -(wrench.moment + lever.cross(wrench.force)));
+    tree_wrenches[child] = {wrench.force, wrench.moment};
+    tree_wrenches[child + 1] = {-wrench.force, -(wrench.moment + lever.cross(wrench.force))};
+  }
+  for (std::size_t i = 0; i < tree_wrenches.size(); ++i) {
+    second->setAppliedWrench(own_wrenches + i, tree_wrenches[i].force, tree_wrenches[i].torque);
   }
   second_pass->compute(motion, *second);
   child_axes->setValues(kinematics, second->childAxes(), closures);
@@ -363,6 +371,14 @@ const std::vector<Determined>& ClosedLoopDynamics::rootAxesDetermined() const {
 
 const std::vector<double>& ClosedLoopDynamics::closureConditions() const {
   return impl_->closure_conditions;
+}
+
+const Scene& ClosedLoopDynamics::tree() const {
+  return impl_->tree;
+}
+
+const std::vector<Wrench>& ClosedLoopDynamics::treeWrenches() const {
+  return impl_->tree_wrenches;
 }
 
 const std::vector<ClosureResidual>& ClosedLoopDynamics::residuals() const {

@@ -1,10 +1,12 @@
 #include "virtual_work_dynamics/lagrange_dynamics.h"
 
 #include <cmath>
+#include <string>
 
 #include "core/input_checks.h"
 #include "core/lagrange_equations.h"
 #include "core/lagrange_plan.h"
+#include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
 
@@ -188,6 +190,20 @@ Eigen::Index LagrangeDynamics<Real>::coordinates() const {
 template <typename Real>
 const Request& LagrangeDynamics<Real>::request() const {
   return impl_->request;
+}
+
+template <typename Real>
+void LagrangeDynamics<Real>::setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
+                                              const Eigen::Vector3d& torque) {
+  if (index >= impl_->plan.applied.size()) {
+    throw SceneError("the scene has no applied wrench " + std::to_string(index));
+  }
+  const auto& place = impl_->plan.applied[index];
+  auto& applied = impl_->plan.links[place.link].applied[place.index];
+  for (int i = 0; i < 3; ++i) {
+    applied.force[static_cast<std::size_t>(i)] = static_cast<Real>(force[i]);
+    applied.torque[static_cast<std::size_t>(i)] = static_cast<Real>(torque[i]);
+  }
 }
 
 template <typename Real>

@@ -54,9 +54,11 @@ typename LagrangePlan<Real>::LinkData linkData(const Link& link) {
 template <typename Real>
 void addApplied(const Mechanism& mechanism, const Scene& scene, LagrangePlan<Real>& plan) {
   for (const AppliedWrench& wrench : scene.applied_wrenches) {
-    plan.links[linkOf(mechanism, wrench)].applied.push_back(
-        {wrench.axes == Axes::kRoot, triple<Real>(wrench.at), triple<Real>(wrench.force),
-         triple<Real>(wrench.torque)});
+    const int link = static_cast<int>(linkOf(mechanism, wrench));
+    auto& applied = plan.links[link].applied;
+    plan.applied.push_back({link, applied.size()});
+    applied.push_back({wrench.axes == Axes::kRoot, triple<Real>(wrench.at),
+                       triple<Real>(wrench.force), triple<Real>(wrench.torque)});
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "core/joint_terms.h"
@@ -61,8 +62,15 @@ struct LagrangePlan {
     bool drop_active = false;
   };
 
+  /// Where an applied wrench of the scene stands.
+  struct AppliedPlace {
+    int link = 0;
+    std::size_t index = 0;  ///< into LinkData::applied
+  };
+
   std::vector<JointData> joints;
   std::vector<LinkData> links;
+  std::vector<AppliedPlace> applied;  ///< in the scene's order
   Triple<Real> gravity{};
   bool static_motion = false;
   int coordinate_count = 0;

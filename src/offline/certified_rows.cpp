@@ -26,10 +26,13 @@ std::string CertifiedRows::summary() const {
   std::ostringstream text;
   text.precision(2);
   if (worst_ >= 0) text << worst_column_ << " is " << worst_ << " at worst, line " << worst_line_;
-  if (uncertified_ > 0) {
-    text << (worst_ >= 0 ? "; " : "") << uncertified_ << " row" << (uncertified_ == 1 ? "" : "s")
-         << " not certified: not finite";
-  }
+  const auto addRows = [&](std::size_t rows, const char* why) {
+    if (rows == 0) return;
+    text << (text.str().empty() ? "" : "; ") << rows << (rows == 1 ? " row" : " rows")
+         << " not certified: " << why;
+  };
+  addRows(uncertified_, "not finite");
+  addRows(singular_, "singular positions");
   return text.str();
 }
 

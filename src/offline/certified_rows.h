@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "virtual_work_dynamics/certificates.h"
+#include "virtual_work_dynamics/closed_loop_dynamics.h"
 
 namespace virtual_work_dynamics {
 
@@ -25,6 +28,23 @@ class CertifiedRows {
     cells.insert(cells.end(), {found.power, found.ground_force, found.ground_moment});
   }
 
+  /// Of a mechanism with closed loops, whose tree() this was made of. Singular positions, which
+  /// need not bear the load, are not certified.
+  template <typename Results>
+  void check(const Motion& motion, const ClosedLoopDynamics& loops, const Results& results,
+             std::size_t line, std::vector<double>& cells) {
+    if (loops.determinacy().free_motions > 0) {
+      ++singular_;
+      cells.insert(cells.end(), 3, std::numeric_limits<double>::quiet_NaN());
+      return;
+    }
+    loops.applyTo(certifier_);
+    const Certificates found = certifier_.check(motion, results.effort().head(motion.q.size()),
+                                                results.childAxes()[ground_]);
+    note(found, line);
+    cells.insert(cells.end(), {found.power, found.ground_force, found.ground_moment});
+  }
+
   /// One line on the worst of all rows.
   std::string summary() const;
 
@@ -37,6 +57,7 @@ class CertifiedRows {
   const char* worst_column_ = "";
   std::size_t worst_line_ = 0;
   std::size_t uncertified_ = 0;  ///< rows whose certificates are not finite
+  std::size_t singular_ = 0;     ///< rows
 };
 
 /// Names of the columns, in the order of the members of Certificates.

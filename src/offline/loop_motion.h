@@ -23,6 +23,8 @@ class LoopMotion {
              const ClosedLoopDynamics& dynamics, double tolerance);
 
   const MotionFile& file() const { return file_; }
+  /// Of all coordinates, of the row computed last.
+  const Motion& motion() const { return motion_; }
 
   /// Computes a row. Positions that it lacks are searched for from those of the row computed
   /// before, of the first row from the assembly.

@@ -38,13 +38,13 @@ std::vector<std::string> loopColumns(const Columns& results, const std::vector<C
   return columns;
 }
 
-void appendLoopCells(const ClosedLoopDynamics& dynamics, bool child_axes,
+void appendLoopCells(const ClosedLoopDynamics& dynamics, const Columns& results, bool child_axes,
                      std::vector<double>& cells) {
-  if (dynamics.request().efforts) {
-    for (const bool flag : dynamics.effortDetermined()) cells.push_back(flag ? 1 : 0);
+  for (std::size_t i = 0; i < results.efforts.size(); ++i) {
+    cells.push_back(dynamics.effortDetermined()[i] ? 1 : 0);
   }
-  for (const Determined& flags : flagsOf(dynamics, child_axes)) {
-    for (const bool flag : flags) cells.push_back(flag ? 1 : 0);
+  for (std::size_t i = 0; i < results.reactions.size(); ++i) {
+    for (const bool flag : flagsOf(dynamics, child_axes)[i]) cells.push_back(flag ? 1 : 0);
   }
   const std::vector<ClosureResidual>& residuals = dynamics.residuals();
   for (const ClosureResidual& residual : residuals) cells.push_back(residual.position);

@@ -20,7 +20,8 @@ std::vector<std::string> namesOfEfforts(const Mechanism& mechanism,
 std::vector<std::string> loopColumns(const Columns& results, const std::vector<Closure>& closures);
 
 /// Their cells, of the sample computed last.
-void appendLoopCells(const ClosedLoopDynamics& dynamics, bool child_axes,
+/// @param results flags of these are appended; more than these may have been computed
+void appendLoopCells(const ClosedLoopDynamics& dynamics, const Columns& results, bool child_axes,
                      std::vector<double>& cells);
 
 /// Whether the sample computed last is in a singular position: actuated joints and closures do not

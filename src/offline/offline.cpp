@@ -8,6 +8,7 @@
 
 #include "offline/certified_rows.h"
 #include "offline/check_report.h"
+#include "offline/loop_lagrange.h"
 #include "offline/loop_motion.h"
 #include "offline/loop_report.h"
 #include "offline/loop_rows.h"
@@ -55,14 +56,17 @@ Request computedFor(const Request& written, const Arguments& arguments) {
   return arguments.certificates ? Certifier::extended(written) : written;
 }
 
+void addCertificates(const Arguments& arguments, Columns& columns) {
+  if (!arguments.certificates) return;
+  columns.more.insert(columns.more.end(), std::begin(kCertificateColumns),
+                      std::end(kCertificateColumns));
+}
+
 // `with_efforts`: names of what has an effort.
 Columns columnsOf(const Names& with_efforts, const Request& written, const Arguments& arguments) {
   Columns columns;
   if (written.efforts) columns.efforts = with_efforts;
   columns.reactions = arguments.child_axes ? written.child_axes : written.root_axes;
-  if (arguments.certificates) {
-    columns.more.assign(std::begin(kCertificateColumns), std::end(kCertificateColumns));
-  }
   return columns;
 }
 
@@ -71,14 +75,6 @@ void refuseByLoops(const Arguments& arguments, bool loops) {
   if (!loops) {
     if (arguments.loop_tolerance) throw UsageError("--loop-tolerance: the scene has no closures");
     return;
-  }
-  if (arguments.method == Method::kLagrange) {
-    throw UsageError(
-        "--method: lagrange is for scenes without closures, springs and passive joints");
-  }
-  if (arguments.certificates) {
-    throw UsageError(
-        "--certificates: there are none of scenes with closures, springs or passive joints");
   }
   if (arguments.threads != 1) {
     throw UsageError("--threads: closed loops are solved in one thread, not in " +
@@ -119,10 +115,16 @@ void compute(LagrangeDynamics<long double>& dynamics, Rows& rows) {
   }
 }
 
-void compute(LoopMotion& motion, ClosedLoopDynamics& dynamics, Rows& rows) {
+// `lagrange`: null for virtual work.
+void compute(LoopMotion& motion, ClosedLoopDynamics& dynamics, LoopLagrange* lagrange, Rows& rows) {
   for (std::size_t i = 0; i < rows.count(); ++i) {
     motion.compute(i, dynamics);
-    rows.write(i, dynamics);
+    if (lagrange) {
+      lagrange->compute(motion.motion(), dynamics);
+      rows.write(i, motion.motion(), dynamics, *lagrange);
+    } else {
+      rows.write(i, motion.motion(), dynamics, dynamics);
+    }
   }
 }
 
@@ -184,7 +186,8 @@ void explain(const Arguments& arguments, const Mechanism& mechanism) {
   refuseByLoops(arguments, needsClosedLoops(scene));
   const Request written = requestOf(mechanism, scene, arguments);
   if (needsClosedLoops(scene)) {
-    explainLoops(std::cout, mechanism, scene, ClosedLoopDynamics(mechanism, scene, written));
+    explainLoops(std::cout, mechanism, scene,
+                 ClosedLoopDynamics(mechanism, scene, computedFor(written, arguments)));
   } else {
     const InverseDynamics dynamics(mechanism, scene, computedFor(written, arguments));
     for (const std::string& line : dynamics.summary().lines()) std::cout << line << "\n";
@@ -224,7 +227,8 @@ void computeTree(const Arguments& arguments, const Mechanism& mechanism, const S
   } else {
     virtual_work.emplace(mechanism, scene, request);
   }
-  const Columns columns = columnsOf(mechanism.coordinateNames(), written, arguments);
+  Columns columns = columnsOf(mechanism.coordinateNames(), written, arguments);
+  addCertificates(arguments, columns);
   MotionFile motion = readMotion(arguments.motion, mechanism);
   completeDerivatives(mechanism, scene, motion);
   writeResult(arguments, motion, columns, certified ? &*certified : nullptr, [&](Rows& rows) {
@@ -238,13 +242,20 @@ void computeTree(const Arguments& arguments, const Mechanism& mechanism, const S
 
 void computeLoops(const Arguments& arguments, const Mechanism& mechanism, const Scene& scene) {
   const Request written = requestOf(mechanism, scene, arguments);
-  ClosedLoopDynamics dynamics(mechanism, scene, written);
+  const Request request = computedFor(written, arguments);
+  ClosedLoopDynamics dynamics(mechanism, scene, request);
+  std::optional<CertifiedRows> certified;
+  if (arguments.certificates) certified.emplace(mechanism, dynamics.tree(), request);
+  std::optional<LoopLagrange> lagrange;
+  if (arguments.method == Method::kLagrange) lagrange.emplace(mechanism, dynamics);
   Columns columns = columnsOf(namesOfEfforts(mechanism, dynamics), written, arguments);
   columns.more = loopColumns(columns, scene.closures);
+  addCertificates(arguments, columns);
   LoopMotion motion(arguments.motion, mechanism, scene, dynamics,
                     arguments.loop_tolerance.value_or(kLoopTolerance));
-  writeResult(arguments, motion.file(), columns, nullptr,
-              [&](Rows& rows) { compute(motion, dynamics, rows); });
+  writeResult(
+      arguments, motion.file(), columns, certified ? &*certified : nullptr,
+      [&](Rows& rows) { compute(motion, dynamics, lagrange ? &*lagrange : nullptr, rows); });
 }
 
 }  // namespace

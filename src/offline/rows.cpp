@@ -9,6 +9,7 @@ namespace virtual_work_dynamics {
 Rows::Rows(const MotionFile& file, const Columns& columns, bool child_axes,
            CertifiedRows* certified, ResultWriter& writer)
     : file_(file),
+      columns_(columns),
       child_axes_(child_axes),
       certified_(certified),
       writer_(writer),
@@ -26,16 +27,14 @@ const Motion& Rows::motion(std::size_t row) {
   return motion_;
 }
 
-void Rows::write(std::size_t row, const ClosedLoopDynamics& results) {
-  take(row, results.effort(), child_axes_ ? results.childAxes() : results.rootAxes());
-  if (inSingularPosition(results)) {
+void Rows::takeLoops(std::size_t row, const ClosedLoopDynamics& loops) {
+  if (inSingularPosition(loops)) {
     if (++singular_ == 1) first_singular_line_ = file_.lines[row];
-    leaveOutUndetermined(results, child_axes_, effort_, reactions_);
+    leaveOutUndetermined(loops, child_axes_, effort_, reactions_);
   }
-  conditions_.note(row, results);
+  conditions_.note(row, loops);
   more_.clear();
-  appendLoopCells(results, child_axes_, more_);
-  put(row);
+  appendLoopCells(loops, columns_, child_axes_, more_);
 }
 
 std::string Rows::warning() const {

@@ -40,8 +40,15 @@ class Rows {
     put(row);
   }
 
-  /// Of a mechanism with closed loops.
-  void write(std::size_t row, const ClosedLoopDynamics& results);
+  /// Of a mechanism with closed loops: its own results, or those of another formalism.
+  template <typename Results>
+  void write(std::size_t row, const Motion& motion, const ClosedLoopDynamics& loops,
+             const Results& results) {
+    take(row, results.effort(), child_axes_ ? results.childAxes() : results.rootAxes());
+    takeLoops(row, loops);
+    if (certified_) certified_->check(motion, loops, results, file_.lines[row], more_);
+    put(row);
+  }
 
   /// Lines on what is missing in the rows; may be none.
   std::string warning() const;
@@ -49,9 +56,11 @@ class Rows {
  private:
   // Those that are written; certificates' own come behind them.
   void take(std::size_t row, const Eigen::VectorXd& effort, const std::vector<Wrench>& reactions);
+  void takeLoops(std::size_t row, const ClosedLoopDynamics& loops);
   void put(std::size_t row);
 
   const MotionFile& file_;
+  const Columns& columns_;
   bool child_axes_;
   CertifiedRows* certified_;
   ResultWriter& writer_;

@@ -92,10 +92,6 @@ TEST_F(OfflineLoops, WhatLoopsDoNotHaveIsRefused) {
   const std::string start = "--scene s.yaml --motion m.csv ";
   EXPECT_EQ(failure(start + "--threads 2", 2),
             "--threads: closed loops are solved in one thread, not in 2");
-  EXPECT_EQ(failure(start + "--method lagrange", 2),
-            "--method: lagrange is for scenes without closures, springs and passive joints");
-  EXPECT_EQ(failure(start + "--certificates", 2),
-            "--certificates: there are none of scenes with closures, springs or passive joints");
   EXPECT_EQ(failure("--motion m.csv --loop-tolerance 1e-3", 2),
             "--loop-tolerance: the scene has no closures");
   for (const std::string text : {"0", "-1", "nan", "tight"}) {
