@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "stability/kdl_efforts.h"
+#include "stability/loop_judge.h"
 #include "stability/own_paths.h"
 #include "virtual_work_dynamics/instruction_set.h"
 
@@ -67,6 +68,24 @@ Motion movedByOneUlp(const Motion& motion, InputNumbers numbers, RandomNumbers& 
   return moved;
 }
 
+Verdict measureLoops(const StabilityCase& stability_case, std::uint32_t seed, int count) {
+  LoopJudge judge(stability_case);
+  RandomNumbers random(seed);
+  LoopVerdict loops;
+  for (int n = 0; n < count; ++n) {
+    const Motion motion = stability_case.motion(random);
+    loops.include(judge.judge(motion, random));
+    if (n % kStatesForEachSensitivity != 0) continue;
+    const Motion moved = movedByOneUlp(motion, InputNumbers::kDouble, random);
+    loops.sensitivity = std::max(loops.sensitivity, judge.sensitivity(motion, moved));
+  }
+  Verdict verdict;
+  verdict.paths = {{"closed_loops", "double", loops.errors}};
+  verdict.sensitivity = loops.sensitivity;
+  verdict.loops = loops;
+  return verdict;
+}
+
 }  // namespace
 
 void Verdict::include(const Verdict& other) {
@@ -82,6 +101,10 @@ void Verdict::include(const Verdict& other) {
     }
   }
   sensitivity = std::max(sensitivity, other.sensitivity);
+  if (other.loops) {
+    if (!loops) loops = LoopVerdict();
+    loops->include(*other.loops);
+  }
   if (other.kdl) {
     if (!kdl) kdl = Errors();
     kdl->include(*other.kdl);
@@ -102,6 +125,9 @@ double Verdict::overSubtreeBound(const std::string& precision) const {
 Verdict measureStates(const StabilityCase& stability_case, InputNumbers numbers, std::uint32_t seed,
                       int count) {
   const bool is_float = numbers == InputNumbers::kFloat;
+  if (needsClosedLoops(stability_case.scene)) {
+    return is_float ? Verdict() : measureLoops(stability_case, seed, count);
+  }
   Verdict verdict;
   if (is_float && !fitsFloat(stability_case.mechanism)) return verdict;
   const Mechanism mechanism =

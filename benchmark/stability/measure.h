@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "stability/exact_results.h"
+#include "stability/loop_verdict.h"
 #include "stability/sweeps.h"
 #include "stability/worst_certificates.h"
 
@@ -25,6 +26,7 @@ struct Verdict {
   std::optional<Errors> kdl;       ///< of KDL's efforts
   /// Of one sample by the chosen instruction set, where numbers are double.
   std::optional<WorstCertificates> certificates;
+  std::optional<LoopVerdict> loops;  ///< of mechanisms with closures, which have one path only
 
   void include(const Verdict& other);
   /// Largest error of all paths of a precision over the narrower bound.
@@ -35,7 +37,7 @@ struct Verdict {
 enum class InputNumbers { kDouble, kFloat };
 
 /// Computes `count` random states in every way that takes such numbers, and by KDL if they are
-/// double.
+/// double. Closed loops are computed on double alone.
 Verdict measureStates(const StabilityCase& stability_case, InputNumbers numbers, std::uint32_t seed,
                       int count);
 

@@ -5,7 +5,10 @@ add_executable(stability
   stability/balance_sweeps.cpp
   stability/body_sweeps.cpp
   stability/exact_results.cpp
+  stability/four_bar_sweeps.cpp
   stability/kdl_efforts.cpp
+  stability/linkage_sweeps.cpp
+  stability/loop_judge.cpp
   stability/measure.cpp
   stability/mechanism_maker.cpp
   stability/motion_sweeps.cpp

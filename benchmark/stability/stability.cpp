@@ -21,6 +21,9 @@ constexpr int kTasksOfValue = 20;  // for each kind of numbers
 // Mechanisms of so many joints take long in 113 bits.
 constexpr std::size_t kManyJoints = 500;
 constexpr int kTasksOfManyJoints = 10;
+// The exact equations of loops take the cube of the number of joints.
+constexpr std::size_t kManyJointsInLoops = 20;
+constexpr int kTasksOfManyLoops = 2;
 
 struct Task {
   std::size_t sweep, value;
@@ -34,7 +37,8 @@ struct Row {
 };
 
 std::vector<Sweep> wantedSweeps(const std::vector<std::string>& names) {
-  const std::vector<Sweep> all = allSweeps();
+  std::vector<Sweep> all = treeSweeps();
+  for (const Sweep& sweep : loopSweeps()) all.push_back(sweep);
   if (names.empty()) return all;
   std::vector<Sweep> wanted;
   for (const std::string& name : names) {
@@ -48,12 +52,19 @@ std::vector<Sweep> wantedSweeps(const std::vector<std::string>& names) {
   return wanted;
 }
 
+int taskCountOf(const StabilityCase& stability_case) {
+  const std::size_t joints = stability_case.mechanism.joints().size();
+  if (needsClosedLoops(stability_case.scene)) {
+    return joints >= kManyJointsInLoops ? kTasksOfManyLoops : kTasksOfValue;
+  }
+  return joints >= kManyJoints ? kTasksOfManyJoints : kTasksOfValue;
+}
+
 std::vector<Task> tasksOf(const std::vector<Sweep>& sweeps, bool quick) {
   std::vector<Task> tasks;
   for (std::size_t s = 0; s < sweeps.size(); ++s) {
     for (std::size_t v = 0; v < sweeps[s].values.size(); ++v) {
-      const std::size_t joints = sweeps[s].make(sweeps[s].values[v]).mechanism.joints().size();
-      const int count = quick ? 1 : joints >= kManyJoints ? kTasksOfManyJoints : kTasksOfValue;
+      const int count = quick ? 1 : taskCountOf(sweeps[s].make(sweeps[s].values[v]));
       for (int i = 0; i < count; ++i) {
         const std::uint32_t seed = static_cast<std::uint32_t>(1000 * v + 2 * i + 1);
         tasks.push_back({s, v, InputNumbers::kDouble, seed});
@@ -149,23 +160,41 @@ std::string csv(const std::vector<Sweep>& sweeps, const std::vector<std::vector<
   return text;
 }
 
+std::string treeDetails(const Verdict& verdict) {
+  const std::optional<WorstCertificates>& found = verdict.certificates;
+  if (!found) return ",,,,,,";
+  return ',' + number(found->worst.power) + ',' + number(found->worst.ground_force) + ',' +
+         number(found->worst.ground_moment) + ',' + number(found->limit) + ',' +
+         (verdict.kdl ? number(verdict.kdl->over_bound) : "") + ',' +
+         number(verdict.overSubtreeBound("double"));
+}
+
+std::string loopDetails(const Verdict& verdict) {
+  if (!verdict.loops) return ",,,,,,,,,,,";
+  const LoopVerdict& loops = *verdict.loops;
+  std::string text = ',' + number(loops.condition);
+  for (const int count : {loops.rank, loops.redundancy, loops.redundant_constraints,
+                          loops.free_motions, loops.open, loops.components, loops.apart}) {
+    text += ',' + std::to_string(count);
+  }
+  return text + ',' + number(loops.residual) + ',' + std::to_string(loops.completed) + ',' +
+         std::to_string(loops.states);
+}
+
 // Of double alone, one line for each value of a scene.
 std::string detailsCsv(const std::vector<Sweep>& sweeps,
                        const std::vector<std::vector<Row>>& rows) {
   std::string text =
       "scene,parameter,value,certificate_power,certificate_ground_force,"
       "certificate_ground_moment,certificate_limit,kdl_error_over_bound,"
-      "error_over_subtree_bound\n";
+      "error_over_subtree_bound,loop_condition,loop_rank,loop_redundancy,"
+      "loop_redundant_constraints,loop_free_motions,loop_open,loop_components,loop_apart,"
+      "loop_residual_over_limit,loop_completed,loop_states\n";
   for (std::size_t s = 0; s < sweeps.size(); ++s) {
     for (std::size_t v = 0; v < rows[s].size(); ++v) {
       const Verdict& verdict = rows[s][v].of_double;
-      const std::optional<WorstCertificates>& found = verdict.certificates;
-      if (!found) continue;
       text += sweeps[s].scene + ',' + sweeps[s].parameter + ',' + number(sweeps[s].values[v]) +
-              ',' + number(found->worst.power) + ',' + number(found->worst.ground_force) + ',' +
-              number(found->worst.ground_moment) + ',' + number(found->limit) + ',' +
-              (verdict.kdl ? number(verdict.kdl->over_bound) : "") + ',' +
-              number(verdict.overSubtreeBound("double")) + '\n';
+              treeDetails(verdict) + loopDetails(verdict) + '\n';
     }
   }
   return text;
@@ -228,6 +257,33 @@ struct WorstCertified {
   }
 };
 
+// Says where closed loops are not what they are exactly, or not closed; true where all are.
+bool loopsAreRight(const std::vector<Sweep>& sweeps, const std::vector<std::vector<Row>>& rows) {
+  bool right = true;
+  const auto wrong = [&](const Sweep& sweep, double value, const std::string& what) {
+    right = false;
+    std::fprintf(stderr, "stability: %s at %s: %s\n", sweep.scene.c_str(), number(value).c_str(),
+                 what.c_str());
+  };
+  for (std::size_t s = 0; s < sweeps.size(); ++s) {
+    for (std::size_t v = 0; v < rows[s].size(); ++v) {
+      const std::optional<LoopVerdict>& loops = rows[s][v].of_double.loops;
+      if (!loops) continue;
+      const double value = sweeps[s].values[v];
+      if (loops->apart > 0) {
+        wrong(sweeps[s], value,
+              std::to_string(loops->apart) +
+                  " counts or flags differ from the exact ones: " + loops->worst_apart);
+      }
+      if (loops->residual > 1) {
+        wrong(sweeps[s], value,
+              "completed motions leave " + number(loops->residual) + " times the limit open");
+      }
+    }
+  }
+  return right;
+}
+
 int report(const std::vector<Sweep>& sweeps, const std::vector<std::vector<Row>>& rows) {
   Worst worst;
   WorstCertified certified;
@@ -247,7 +303,12 @@ int report(const std::vector<Sweep>& sweeps, const std::vector<std::vector<Row>>
     std::fprintf(stderr, "stability: a certificate is %s times its limit: %s\n",
                  number(certified.over_limit).c_str(), certified.of_closest.c_str());
   }
-  if (worst.over_bound > 1 || certified.over_limit > 1) return 1;
+  const bool loops_are_right = loopsAreRight(sweeps, rows);
+  if (worst.over_bound > 1 || certified.over_limit > 1 || !loops_are_right) return 1;
+  if (certified.over_limit < 0) {
+    std::printf("all stable\n");
+    return 0;
+  }
   std::printf("all stable; worst certificate %s; closest to its limit, %s of it: %s\n",
               certified.of_largest.c_str(), number(certified.over_limit).c_str(),
               certified.of_closest.c_str());

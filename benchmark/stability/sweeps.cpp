@@ -12,6 +12,14 @@ double drawn(RandomNumbers& random, double range, double zeros) {
   return value;
 }
 
+std::vector<Sweep> joined(const std::vector<std::vector<Sweep>>& families) {
+  std::vector<Sweep> all;
+  for (const std::vector<Sweep>& family : families) {
+    all.insert(all.end(), family.begin(), family.end());
+  }
+  return all;
+}
+
 }  // namespace
 
 StabilityCase caseOf(Mechanism mechanism, const MotionRange& range, Scene scene) {
@@ -43,12 +51,12 @@ std::vector<double> powersOfTen(int from, int to, int step) {
   return values;
 }
 
-std::vector<Sweep> allSweeps() {
-  std::vector<Sweep> all;
-  for (const auto& family : {bodySweeps(), motionSweeps(), structureSweeps(), balanceSweeps()}) {
-    all.insert(all.end(), family.begin(), family.end());
-  }
-  return all;
+std::vector<Sweep> treeSweeps() {
+  return joined({bodySweeps(), motionSweeps(), structureSweeps(), balanceSweeps()});
+}
+
+std::vector<Sweep> loopSweeps() {
+  return joined({fourBarSweeps(), linkageSweeps()});
 }
 
 }  // namespace virtual_work_dynamics

@@ -35,8 +35,15 @@ std::vector<Sweep> structureSweeps();
 /// Of bodies at rest whose true efforts are zero.
 std::vector<Sweep> balanceSweeps();
 
-/// All of them, in the order of the table.
-std::vector<Sweep> allSweeps();
+/// Of closed loops: planar four-bars and slider-cranks near singular positions, their masses,
+/// lengths, springs and rates.
+std::vector<Sweep> fourBarSweeps();
+/// Of closed loops in space, and of many.
+std::vector<Sweep> linkageSweeps();
+
+/// Those of trees, in the order of the table, and those of closed loops.
+std::vector<Sweep> treeSweeps();
+std::vector<Sweep> loopSweeps();
 
 /// Random states between the negative and the positive of these; slides relative to the distance of
 /// the joint from its parent's origin, so that they are of its mechanism's size.

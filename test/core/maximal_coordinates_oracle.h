@@ -26,8 +26,19 @@ class MaximalCoordinates {
   using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
   using Matrix3 = Eigen::Matrix<Real, 3, 3>;
 
-  MaximalCoordinates(const Mechanism& mechanism, const Scene& scene, const Motion& motion)
-      : mechanism_(mechanism), scene_(scene), bodies_(mechanism, withoutLoops(scene), motion) {
+  // Of pivots against the largest; those of dependent equations are rounding errors, 1e-18 in long
+  // double and 1e-15 in double.
+  static constexpr Real kPivot = sizeof(Real) > sizeof(double) ? Real(1e-13L) : Real(1e-11L);
+  // A component is determined when no null vector, orthonormal in newtons, changes it by more.
+  static constexpr Real kFree = Real(1e-8L);
+
+  /// @param pivot_tolerance Pivots above it, relative to the largest, count for the rank.
+  MaximalCoordinates(const Mechanism& mechanism, const Scene& scene, const Motion& motion,
+                     Real pivot_tolerance = kPivot)
+      : mechanism_(mechanism),
+        scene_(scene),
+        bodies_(mechanism, withoutLoops(scene), motion),
+        pivot_tolerance_(pivot_tolerance) {
     for (std::size_t k = 0; k < mechanism.joints().size(); ++k) {
       const int child = mechanism.joints()[k].child_link;
       cuts_.push_back({mechanism.joints()[k].name, mechanism.joints()[k].parent_link, child,
@@ -50,12 +61,16 @@ class MaximalCoordinates {
   Eigen::Index redundancy() const { return N_.cols(); }
   /// Equations less rank: motions that nothing holds.
   Eigen::Index freeMotions() const { return G_.rows() - (G_.cols() - redundancy()); }
+  /// Pivots over the largest: the least that counts for the rank, the largest that does not.
+  Real leastCounted() const { return least_counted_; }
+  Real largestLeftOut() const { return largest_left_out_; }
   /// Largest violation of an equation by the solution, relative to the largest load or 1 N.
   Real residual() const { return violation(x_); }
 
   struct Reaction {
     Vector6 wrench;  ///< force, moment; one of many where it is not determined
     std::array<bool, 6> determined;
+    std::array<Real, 6> freedom;  ///< by how much null vectors change it, against kFree
   };
   /// Of a joint, a closure or "ground".
   Reaction rootAxes(const std::string& name) const { return reaction(name, Matrix3l::Identity()); }
@@ -78,11 +93,11 @@ class MaximalCoordinates {
   struct Effort {
     Real value;
     bool determined;
+    Real freedom;  ///< likewise; of a torque over the length
   };
   /// Of a generalized coordinate, or of an actuated closure by its name.
   Effort effort(int coordinate) const {
-    const Vector row = effortRow(coordinate);
-    return {row.dot(x_) + static_cast<Real>(terms_[coordinate]), freedom(row) <= kFree};
+    return effort(effortRow(coordinate), static_cast<Real>(terms_[coordinate]));
   }
   Effort closureEffort(const std::string& name) const {
     const std::size_t cut = indexOf(name);
@@ -91,7 +106,7 @@ class MaximalCoordinates {
     const bool slides = closure.type == ClosureType::kPrismatic;
     row.template segment<3>(at(cut) + (slides ? 0 : 3)) =
         (cuts_[cut].R.col(2) * (slides ? 1 : length_)).template cast<Real>();
-    return {row.dot(x_), freedom(row) <= kFree};
+    return effort(row, 0);
   }
 
   /// How much reactions, root axes, of every joint, "ground" and closure violate the equations,
@@ -110,12 +125,6 @@ class MaximalCoordinates {
   }
 
  private:
-  // A component is determined when no null vector, orthonormal in newtons, changes it by more.
-  static constexpr Real kFree = Real(1e-8L);
-  // Of pivots against the largest; those of dependent equations are rounding errors, 1e-18 in long
-  // double and 1e-15 in double.
-  static constexpr Real kPivot = sizeof(Real) > sizeof(double) ? Real(1e-13L) : Real(1e-11L);
-
   struct Cut {
     std::string name;
     int parent, child;  // links; parent -1: ground
@@ -268,9 +277,9 @@ class MaximalCoordinates {
     }
   }
 
-  static Eigen::Index rankOf(const Matrix& matrix) {
+  Eigen::Index rankOf(const Matrix& matrix) const {
     Eigen::FullPivLU<Matrix> lu;
-    lu.setThreshold(kPivot);
+    lu.setThreshold(pivot_tolerance_);
     return lu.compute(matrix).rank();
   }
 
@@ -278,9 +287,17 @@ class MaximalCoordinates {
     G_.conservativeResize(rows_, Eigen::NoChange);
     b_.conservativeResize(rows_);
     Eigen::FullPivLU<Matrix> lu;
-    lu.setThreshold(kPivot);
+    lu.setThreshold(pivot_tolerance_);
     lu.compute(G_);
     x_ = lu.solve(b_);
+    for (Eigen::Index i = 0; i < lu.matrixLU().diagonalSize(); ++i) {
+      const Real pivot = std::abs(lu.matrixLU()(i, i)) / lu.maxPivot();
+      if (pivot > pivot_tolerance_) {
+        least_counted_ = std::min(least_counted_, pivot);
+      } else {
+        largest_left_out_ = std::max(largest_left_out_, pivot);
+      }
+    }
     N_.resize(G_.cols(), 0);
     if (lu.dimensionOfKernel() == 0) return;
     const Matrix kernel = lu.kernel();
@@ -296,6 +313,11 @@ class MaximalCoordinates {
     return N_.cols() == 0 ? Real(0) : (row.transpose() * N_).norm();
   }
 
+  Effort effort(const Vector& row, Real terms) const {
+    const Real free = freedom(row);
+    return {row.dot(x_) + terms, free <= kFree, free / row.norm()};
+  }
+
   Reaction reaction(const std::string& name, const Matrix3l& axes) const {
     const Eigen::Index first = at(indexOf(name));
     Reaction reaction;
@@ -305,6 +327,7 @@ class MaximalCoordinates {
       row.template segment<3>(first + (moment ? 3 : 0)) =
           axes.row(i % 3).transpose().template cast<Real>();
       reaction.wrench[i] = row.dot(x_) * static_cast<Real>(moment ? length_ : 1);
+      reaction.freedom[static_cast<std::size_t>(i)] = freedom(row);
       reaction.determined[static_cast<std::size_t>(i)] = freedom(row) <= kFree;
     }
     return reaction;
@@ -315,6 +338,7 @@ class MaximalCoordinates {
   NewtonEulerOracle bodies_;
   std::vector<Cut> cuts_;  // joints, ground, closures
   long double length_ = 0;
+  Real pivot_tolerance_, least_counted_ = 1, largest_left_out_ = 0;
   Eigen::Index rows_ = 0;
   Matrix G_, N_;
   Vector b_, x_;

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "plain_results.h"
 #include "stability/exact_results.h"
+#include "stability/loop_judge.h"
 #include "stability/sweeps.h"
 #include "stability/worst_certificates.h"
 
@@ -64,7 +66,7 @@ Judged judge(const StabilityCase& stability_case) {
 }
 
 TEST(Stability, ErrorsAndCertificatesStayWithinTheirBoundsAtTheEndsOfEveryScene) {
-  for (const Sweep& sweep : allSweeps()) {
+  for (const Sweep& sweep : treeSweeps()) {
     for (const double value : {sweep.values.front(), sweep.values.back()}) {
       const Judged judged = judge(sweep.make(value));
       const std::string where = sweep.scene + ", " + sweep.parameter + ": " + std::to_string(value);
@@ -75,10 +77,162 @@ TEST(Stability, ErrorsAndCertificatesStayWithinTheirBoundsAtTheEndsOfEveryScene)
   }
 }
 
-// The judge itself: what it must not let pass.
+// The exact equations of all joints take the cube of their number.
+constexpr std::size_t kMostJoints = 25;
+
+LoopVerdict judgeLoops(const StabilityCase& stability_case) {
+  LoopJudge judge(stability_case);
+  RandomNumbers random(kSeed);
+  LoopVerdict verdict;
+  for (int n = 0; n < kStates; ++n) {
+    verdict.include(judge.judge(stability_case.motion(random), random));
+  }
+  return verdict;
+}
+
+LoopVerdict judgeLoops(const std::string& scene, double value) {
+  for (const Sweep& sweep : loopSweeps()) {
+    if (sweep.scene == scene) return judgeLoops(sweep.make(value));
+  }
+  throw std::runtime_error("there is no scene " + scene);
+}
+
+TEST(Stability, ClosedLoopsStayWithinTheirBoundsAndAgreeInCountsAndFlags) {
+  for (const Sweep& sweep : loopSweeps()) {
+    const std::vector<double>& values = sweep.values;
+    for (const double value : {values.front(), values[values.size() / 2], values.back()}) {
+      const StabilityCase stability_case = sweep.make(value);
+      if (stability_case.mechanism.joints().size() > kMostJoints) continue;
+      const LoopVerdict verdict = judgeLoops(stability_case);
+      SCOPED_TRACE(sweep.scene + ", " + sweep.parameter + ": " + std::to_string(value));
+      EXPECT_LE(verdict.errors.over_bound, 1) << verdict.errors.worst;
+      EXPECT_EQ(verdict.apart, 0) << verdict.worst_apart;
+      EXPECT_LE(verdict.residual, 1);
+      EXPECT_EQ(verdict.states, kStates);
+    }
+  }
+}
+
+// From determined with a large condition to singular, at about the rank's tolerance of 1e-10.
+TEST(Stability, LoopsAreDeterminedUntilTheRankDrops) {
+  for (const char* scene : {"loop_change_point", "loop_dead_centre", "loop_gimbals"}) {
+    SCOPED_TRACE(scene);
+    const LoopVerdict ordinary = judgeLoops(scene, 1e-2);
+    const LoopVerdict near = judgeLoops(scene, 1e-8), singular = judgeLoops(scene, 1e-12);
+    EXPECT_GT(near.condition, 1e4 * ordinary.condition);
+    EXPECT_EQ(near.rank, ordinary.rank);
+    EXPECT_EQ(near.redundancy, ordinary.redundancy);
+    EXPECT_LE(near.open, ordinary.open);
+    EXPECT_EQ(near.free_motions, 0);
+    EXPECT_EQ(singular.rank, ordinary.rank - 1);
+    EXPECT_EQ(singular.redundancy, ordinary.redundancy + 1);
+    EXPECT_EQ(singular.free_motions, 1);
+    EXPECT_GT(singular.open, ordinary.open);
+    EXPECT_EQ(ordinary.completed, kStates);
+    EXPECT_EQ(singular.completed, 0);
+  }
+}
+
+// Always three redundant constraints; of parallel axes, forces in the plane are determined besides.
+TEST(Stability, LoopsOfNearlyParallelAxesCountAsParallel) {
+  const LoopVerdict spherical = judgeLoops("loop_parallel_axes", 1e-4);
+  const LoopVerdict parallel = judgeLoops("loop_parallel_axes", 1e-12);
+  EXPECT_EQ(spherical.redundant_constraints, 3);
+  EXPECT_EQ(parallel.redundant_constraints, 3);
+  EXPECT_LT(parallel.open, spherical.open);
+  EXPECT_LT(parallel.condition, 10);
+}
+
+TEST(Stability, EachFourBarOfALadderHasThreeRedundantConstraints) {
+  EXPECT_EQ(judgeLoops("loop_ladder", 5).redundant_constraints, 15);
+}
+
+// The judge of loops: what it must not let pass.
+class LoopStabilityJudge : public ::testing::Test {
+ protected:
+  LoopStabilityJudge() {
+    RandomNumbers random(kSeed);
+    motion_ = case_.motion(random);
+    good_ = judge_.compute(motion_);
+    found_ = judge_.determinacy();
+  }
+
+  LoopVerdict judged(const LoopComponents& components) const {
+    return judge_.compare(motion_, components, found_);
+  }
+
+  const StabilityCase case_ = loopSweeps().front().make(0.1);
+  LoopJudge judge_{case_};
+  Motion motion_;
+  LoopComponents good_;
+  Determinacy found_;
+};
+
+TEST_F(LoopStabilityJudge, FindsAnErrorOfEveryDeterminedNumber) {
+  EXPECT_TRUE(judged(good_).good());
+  int determined = 0;
+  for (std::size_t i = 0; i < good_.size(); ++i) {
+    LoopComponents wrong = good_;
+    wrong[i].value += 1e-9;
+    EXPECT_EQ(judged(wrong).errors.over_bound > 1, good_[i].determined) << i;
+    determined += good_[i].determined;
+  }
+  EXPECT_GE(determined, 20);
+}
+
+TEST_F(LoopStabilityJudge, FindsAWrongFlagOfEveryNumber) {
+  for (std::size_t i = 0; i < good_.size(); ++i) {
+    LoopComponents wrong = good_;
+    wrong[i].determined = !wrong[i].determined;
+    EXPECT_EQ(judged(wrong).apart, 1) << i;
+  }
+}
+
+TEST_F(LoopStabilityJudge, FindsWrongCounts) {
+  ++found_.redundancy;
+  EXPECT_EQ(judged(good_).apart, 1);
+  --found_.redundancy;
+  ++found_.free_motions;
+  EXPECT_EQ(judged(good_).apart, 1);
+}
+
+TEST_F(LoopStabilityJudge, TakesWhatIsNotFiniteForAnInfiniteError) {
+  for (std::size_t i = 0; i < good_.size(); ++i) {
+    for (const double bad : {std::nan(""), HUGE_VAL}) {
+      LoopComponents wrong = good_;
+      wrong[i].value = bad;
+      EXPECT_TRUE(std::isinf(judged(wrong).errors.over_bound)) << i;
+    }
+  }
+}
+
+TEST_F(LoopStabilityJudge, BelievesNoConditionThatIsTooLarge) {
+  LoopComponents wrong = good_;
+  wrong[0].value += 1e-6;
+  found_.condition = 1e12;
+  EXPECT_GT(judged(wrong).errors.over_bound, 1);
+}
+
+TEST_F(LoopStabilityJudge, KeepsTheWorstOfAllStates) {
+  LoopVerdict all = judged(good_), worse = judged(good_);
+  worse.rank = 1;
+  worse.apart = 2;
+  worse.residual = 3;
+  worse.worst_apart = "flag";
+  all.include(worse);
+  all.include(judged(good_));
+  EXPECT_EQ(all.rank, 1);
+  EXPECT_EQ(all.apart, 2);
+  EXPECT_EQ(all.residual, 3);
+  EXPECT_EQ(all.worst_apart, "flag");
+  EXPECT_EQ(all.states, 3);
+  EXPECT_FALSE(all.good());
+}
+
+// The judge of trees: what it must not let pass.
 class StabilityJudge : public ::testing::Test {
  protected:
-  StabilityJudge() : case_(allSweeps().front().make(1)), bound_(case_.mechanism, case_.scene) {
+  StabilityJudge() : case_(treeSweeps().front().make(1)), bound_(case_.mechanism, case_.scene) {
     RandomNumbers random(kSeed);
     motion_ = case_.motion(random);
     bound_.compute(motion_);

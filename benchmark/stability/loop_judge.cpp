@@ -1,0 +1,284 @@
+#include "stability/loop_judge.h"
+
+#ifdef VWD_HAS_REAL113
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/loop_scene.h"
+#include "virtual_work_dynamics/error_bound.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Within this factor of the tolerances of rank and flags, either answer may be the right one.
+constexpr double kUnclear = 100;
+// The condition of the loops and that of the equations of all joints differ by the scaling of rows
+// alone, in the scenes of the suite by less than three.
+constexpr double kMostTrusted = 10;
+// The exact system of a load that is borne is violated by rounding errors only.
+constexpr double kBorne = 1e-12;
+// Off by so much, rad or of the size, is what the completion starts from.
+constexpr double kOffAtStart = 1e-3;
+// Up to this condition a motion must be completed; the package gives up from 1e7 on, by the
+// condition of the passive coordinates alone.
+constexpr double kMustComplete = 1e5;
+
+Request everythingOf(const std::vector<std::string>& names) {
+  Request request;
+  request.child_axes = request.root_axes = names;
+  request.poses = true;
+  return request;
+}
+
+std::vector<std::string> namesOf(const Mechanism& mechanism, const Scene& scene) {
+  std::vector<std::string> names{kGround};
+  for (const Joint& joint : mechanism.joints()) names.push_back(joint.name);
+  for (const Closure& closure : scene.closures) names.push_back(closure.name);
+  return names;
+}
+
+double finiteOrInfinity(long double value) {
+  return std::isfinite(value) ? static_cast<double>(value) : kInfinity;
+}
+
+bool near(long double value, long double tolerance) {
+  return value > tolerance / kUnclear && value < tolerance * kUnclear;
+}
+
+}  // namespace
+
+void LoopVerdict::include(const LoopVerdict& other) {
+  errors.include(other.errors);
+  sensitivity = std::max(sensitivity, other.sensitivity);
+  condition = std::max(condition, other.condition);
+  rank = states == 0 ? other.rank : std::min(rank, other.rank);
+  redundancy = std::max(redundancy, other.redundancy);
+  redundant_constraints = std::max(redundant_constraints, other.redundant_constraints);
+  free_motions = std::max(free_motions, other.free_motions);
+  components = std::max(components, other.components);
+  open = std::max(open, other.open);
+  if (apart == 0) worst_apart = other.worst_apart;
+  apart += other.apart;
+  residual = std::max(residual, other.residual);
+  completed += other.completed;
+  states += other.states;
+}
+
+LoopJudge::LoopJudge(const StabilityCase& stability_case)
+    : mechanism_(stability_case.mechanism),
+      scene_(stability_case.scene),
+      names_(namesOf(mechanism_, scene_)),
+      dynamics_(mechanism_, scene_, everythingOf(names_)) {
+  Motion rest(dynamics_.coordinates());
+  rest.q = dynamics_.assembly();
+  dynamics_.compute(rest);
+  for (const Pose& pose : dynamics_.poses()) size_ = std::max(size_, pose.position.norm());
+  const ErrorBound bound(mechanism_, withoutLoops(scene_));
+  depth_ = *std::max_element(bound.depths().begin(), bound.depths().end());
+}
+
+LoopComponents LoopJudge::compute(const Motion& motion) {
+  dynamics_.compute(motion);
+  LoopComponents components;
+  const auto put = [&](const Wrench& wrench, const Determined& determined) {
+    for (int i = 0; i < 6; ++i) {
+      components.push_back({i < 3 ? wrench.force[i] : wrench.torque[i - 3],
+                            determined[static_cast<std::size_t>(i)]});
+    }
+  };
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    put(dynamics_.rootAxes()[i], dynamics_.rootAxesDetermined()[i]);
+    put(dynamics_.childAxes()[i], dynamics_.childAxesDetermined()[i]);
+  }
+  for (Eigen::Index i = 0; i < dynamics_.effort().size(); ++i) {
+    components.push_back(
+        {dynamics_.effort()[i], dynamics_.effortDetermined()[static_cast<std::size_t>(i)]});
+  }
+  return components;
+}
+
+LoopJudge::Exact LoopJudge::exactOf(const Motion& motion) const {
+  const MaximalCoordinatesOracle oracle(mechanism_, scene_, motion,
+                                        scene_.redundancy.rank_tolerance);
+  Exact exact;
+  const auto put = [&](const ExactComponent& component) {
+    const long double size = std::abs(component.value);
+    exact.components.push_back(component);
+    exact.largest = std::max(exact.largest, size / (component.turns ? size_ : 1));
+    if (!component.determined()) return;
+    long double& largest = component.turns ? exact.moment : exact.force;
+    largest = std::max(largest, size);
+  };
+  for (const std::string& name : names_) {
+    for (const auto& reaction : {oracle.rootAxes(name), oracle.childAxes(name)}) {
+      for (int i = 0; i < 6; ++i) {
+        put({reaction.wrench[i], reaction.freedom[static_cast<std::size_t>(i)], i >= 3});
+      }
+    }
+  }
+  for (std::size_t i = 0; i < mechanism_.coordinates().size(); ++i) {
+    const Joint& joint = mechanism_.joints()[static_cast<std::size_t>(mechanism_.coordinates()[i])];
+    const auto effort = oracle.effort(static_cast<int>(i));
+    put({effort.value, effort.freedom, joint.type != JointType::kPrismatic});
+  }
+  exact.redundancy = oracle.redundancy();
+  exact.free_motions = oracle.freeMotions();
+  exact.least_counted = oracle.leastCounted();
+  exact.largest_left_out = oracle.largestLeftOut();
+  exact.violation = oracle.residual();
+  return exact;
+}
+
+std::string LoopJudge::nameOf(std::size_t component) const {
+  constexpr std::array<const char*, 6> kComponents = {"fx", "fy", "fz", "tx", "ty", "tz"};
+  const std::size_t wrench = component / 6, in_child_axes = wrench % 2;
+  if (wrench >= 2 * names_.size()) {
+    return "effort of " + mechanism_.coordinateNames()[component - 12 * names_.size()];
+  }
+  return kComponents[component % 6] +
+         std::string(in_child_axes ? " in child axes of " : " in root axes of ") +
+         names_[wrench / 2];
+}
+
+long double LoopJudge::loadOf(const Motion& motion) const {
+  ErrorBound bound(mechanism_, withoutLoops(scene_));
+  bound.compute(motion, std::numeric_limits<double>::min());
+  long double load = 0;
+  for (const WrenchMagnitude& wrench : bound.wrenches()) {
+    load = std::max({load, static_cast<long double>(wrench.force),
+                     wrench.moment / static_cast<long double>(size_)});
+  }
+  for (std::size_t i = 0; i < bound.efforts().size(); ++i) {
+    const Joint& joint = mechanism_.joints()[static_cast<std::size_t>(mechanism_.coordinates()[i])];
+    const bool slides = joint.type == JointType::kPrismatic;
+    load = std::max<long double>(load, bound.efforts()[i] / (slides ? 1 : size_));
+  }
+  return load;
+}
+
+LoopVerdict LoopJudge::compare(const Motion& motion, const LoopComponents& computed,
+                               const Determinacy& found) const {
+  const Exact exact = exactOf(motion);
+  LoopVerdict verdict;
+  verdict.condition = found.condition;
+  verdict.rank = found.rank;
+  verdict.redundancy = found.redundancy;
+  verdict.redundant_constraints = found.redundant_constraints;
+  verdict.free_motions = found.free_motions;
+  verdict.components = static_cast<int>(computed.size());
+  verdict.states = 1;
+  compareCountsAndFlags(exact, computed, found, verdict);
+  const long double scale =
+      4 * (depth_ + found.rank + found.redundancy) * (loadOf(motion) + exact.largest);
+  compareValues(exact, computed, scale, lossOf(exact, found), verdict);
+  return verdict;
+}
+
+void LoopJudge::compareCountsAndFlags(const Exact& exact, const LoopComponents& computed,
+                                      const Determinacy& found, LoopVerdict& verdict) const {
+  const long double tolerance = scene_.redundancy.rank_tolerance;
+  const bool clear =
+      !near(exact.least_counted, tolerance) && !near(exact.largest_left_out, tolerance);
+  const auto differs = [&](const std::string& what) {
+    if (clear && verdict.apart++ == 0) verdict.worst_apart = what;
+  };
+  if (found.redundancy != exact.redundancy) {
+    differs("redundancy of " + std::to_string(exact.redundancy));
+  }
+  if (found.free_motions != exact.free_motions) {
+    differs(std::to_string(exact.free_motions) + " free motions");
+  }
+  for (std::size_t i = 0; i < computed.size(); ++i) {
+    const ExactComponent& right = exact.components[i];
+    if (!computed[i].determined) ++verdict.open;
+    // A load that a singular position does not bear leaves more open than the null space does.
+    const bool may_be_open = found.free_motions > 0 && right.determined();
+    if (computed[i].determined != right.determined() && !may_be_open &&
+        !near(right.freedom, MaximalCoordinatesOracle::kFree)) {
+      differs("flag of " + nameOf(i));
+    }
+  }
+}
+
+// What a step of the computation loses: eps and what the rank leaves out, times the condition.
+long double LoopJudge::lossOf(const Exact& exact, const Determinacy& found) const {
+  const long double condition =
+      std::min<long double>(found.condition, kMostTrusted / exact.least_counted);
+  const bool same_rank =
+      found.redundancy == exact.redundancy && found.free_motions == exact.free_motions;
+  const long double left_out =
+      same_rank ? exact.largest_left_out : kUnclear * scene_.redundancy.rank_tolerance;
+  return condition * (kEps + left_out);
+}
+
+void LoopJudge::compareValues(const Exact& exact, const LoopComponents& computed, long double scale,
+                              long double loss, LoopVerdict& verdict) const {
+  const bool borne = exact.free_motions == 0 || exact.violation <= kBorne;
+  for (std::size_t i = 0; i < computed.size(); ++i) {
+    const ExactComponent& right = exact.components[i];
+    if (!(borne && computed[i].determined) && std::isfinite(computed[i].value)) continue;
+    const long double error = std::abs(computed[i].value - right.value);
+    const long double bound = (loss + right.freedom) * scale * (right.turns ? size_ : 1);
+    const double over_bound = finiteOrInfinity(error / bound);
+    if (over_bound > verdict.errors.over_bound) {
+      verdict.errors.over_bound = over_bound;
+      verdict.errors.worst = nameOf(i);
+    }
+    const long double largest = right.turns ? exact.moment : exact.force;
+    if (largest == 0 || !right.determined()) continue;
+    verdict.errors.relative = std::max(verdict.errors.relative, finiteOrInfinity(error / largest));
+  }
+}
+
+double LoopJudge::sensitivity(const Motion& motion, const Motion& moved) const {
+  const Exact here = exactOf(motion), there = exactOf(moved);
+  double most = 0;
+  for (std::size_t i = 0; i < here.components.size(); ++i) {
+    const ExactComponent &a = here.components[i], &b = there.components[i];
+    const long double largest = a.turns ? here.moment : here.force;
+    if (!a.determined() || !b.determined() || largest == 0) continue;
+    most = std::max(most, finiteOrInfinity(std::abs(b.value - a.value) / largest));
+  }
+  return most;
+}
+
+void LoopJudge::complete(const Motion& motion, double limit, RandomNumbers& random,
+                         LoopVerdict& verdict) {
+  Motion start = motion;
+  for (Eigen::Index i = 0; i < start.q.size(); ++i) {
+    if (dynamics_.actuated()[static_cast<std::size_t>(i)]) continue;
+    const int joint = mechanism_.coordinates()[static_cast<std::size_t>(i)];
+    const bool slides =
+        mechanism_.joints()[static_cast<std::size_t>(joint)].type == JointType::kPrismatic;
+    start.q[i] += random.uniform(-kOffAtStart, kOffAtStart) * (slides ? size_ : 1);
+    start.qd[i] = start.qdd[i] = 0;
+  }
+  if (!dynamics_.complete(start)) {
+    if (verdict.condition > kMustComplete || verdict.free_motions > 0) return;
+    if (verdict.apart++ == 0) verdict.worst_apart = "a motion that is not completed";
+    return;
+  }
+  ++verdict.completed;
+  dynamics_.compute(start);
+  for (const ClosureResidual& residual : dynamics_.relativeResiduals()) {
+    for (const double level : {residual.position, residual.velocity, residual.acceleration}) {
+      verdict.residual = std::max(verdict.residual, finiteOrInfinity(level / limit));
+    }
+  }
+}
+
+LoopVerdict LoopJudge::judge(const Motion& motion, RandomNumbers& random) {
+  const LoopComponents computed = compute(motion);
+  LoopVerdict verdict = compare(motion, computed, determinacy());
+  complete(motion, 4 * kEps * (depth_ + verdict.rank + verdict.redundancy), random, verdict);
+  return verdict;
+}
+
+}  // namespace virtual_work_dynamics
+
+#endif  // VWD_HAS_REAL113
