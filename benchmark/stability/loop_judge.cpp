@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/loop_scene.h"
+#include "core/loop_trees.h"
 #include "virtual_work_dynamics/error_bound.h"
 
 namespace virtual_work_dynamics {
@@ -209,19 +209,17 @@ void LoopJudge::compareCountsAndFlags(const Exact& exact, const LoopComponents& 
 long double LoopJudge::lossOf(const Exact& exact, const Determinacy& found) const {
   const long double condition =
       std::min<long double>(found.condition, kMostTrusted / exact.least_counted);
-  const bool same_rank =
-      found.redundancy == exact.redundancy && found.free_motions == exact.free_motions;
-  const long double left_out =
-      same_rank ? exact.largest_left_out : kUnclear * scene_.redundancy.rank_tolerance;
-  return condition * (kEps + left_out);
+  return condition * (kEps + exact.largest_left_out);
 }
 
 void LoopJudge::compareValues(const Exact& exact, const LoopComponents& computed, long double scale,
                               long double loss, LoopVerdict& verdict) const {
-  const bool borne = exact.free_motions == 0 || exact.violation <= kBorne;
+  const bool same_rank =
+      verdict.redundancy == exact.redundancy && verdict.free_motions == exact.free_motions;
+  const bool comparable = same_rank && (exact.free_motions == 0 || exact.violation <= kBorne);
   for (std::size_t i = 0; i < computed.size(); ++i) {
     const ExactComponent& right = exact.components[i];
-    if (!(borne && computed[i].determined) && std::isfinite(computed[i].value)) continue;
+    if (!(comparable && computed[i].determined) && std::isfinite(computed[i].value)) continue;
     const long double error = std::abs(computed[i].value - right.value);
     const long double bound = (loss + right.freedom) * scale * (right.turns ? size_ : 1);
     const double over_bound = finiteOrInfinity(error / bound);
