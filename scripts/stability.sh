@@ -10,9 +10,10 @@ Installs what is needed, builds in build/benchmark (without ROS), computes, and 
   stability.md            the results; begin here
   stability_<scene>.png   error over what is varied, one picture for each scene
   stability.csv           the measurements
-  stability_details.csv   certificates, KDL's error over the bound, ours over a narrower one
-Exit status 1 when an error is beyond its bound, a certificate beyond its limit, or one of them is not
-finite.
+  stability_details.csv   certificates, KDL's error over the bound, ours over a narrower one; of
+                          closed loops, condition, rank, what is determined, and the completion
+Exit status 1 when an error is beyond its bound, a certificate beyond its limit, one of them is not
+finite, or a closed loop's counts, flags or completion are wrong.
   --quick       fewer states of each scene: a minute or less once everything is built
   --no-install  do not install packages first
   --output      where to write (report/ in this repository)

@@ -7,8 +7,12 @@ from report_data import ReportError
 COLUMNS = ('scene', 'parameter', 'value', 'path', 'precision', 'error_over_bound',
            'max_relative_error', 'one_ulp_sensitivity', 'kdl_relative_error')
 CERTIFICATES = ('certificate_power', 'certificate_ground_force', 'certificate_ground_moment')
+LOOP_COUNTS = ('loop_rank', 'loop_redundancy', 'loop_redundant_constraints', 'loop_free_motions',
+               'loop_open', 'loop_components', 'loop_apart')
 DETAIL_COLUMNS = ('scene', 'parameter', 'value') + CERTIFICATES + (
-    'certificate_limit', 'kdl_error_over_bound', 'error_over_subtree_bound')
+    'certificate_limit', 'kdl_error_over_bound', 'error_over_subtree_bound',
+    'loop_condition') + LOOP_COUNTS + (
+    'loop_residual_over_limit', 'loop_completed', 'loop_states')
 PRECISIONS = ('double', 'float', 'long_double')  # in the order of the plots
 DOUBLE = 'double'
 
@@ -25,8 +29,20 @@ class Row:
         self.kdl = float(kdl) if kdl else None
 
 
+class Loops:
+    """Of closed loops, the worst at one value of a scene's parameter."""
+
+    def __init__(self, fields):
+        self.value = float(fields['value'])
+        self.condition = float(fields['loop_condition'])
+        (self.rank, self.redundancy, self.redundant_constraints, self.free_motions, self.open,
+         self.components, self.apart) = (int(fields[name]) for name in LOOP_COUNTS)
+        self.residual_over_limit = float(fields['loop_residual_over_limit'])
+        self.completed, self.states = int(fields['loop_completed']), int(fields['loop_states'])
+
+
 class Detail:
-    """Of double, the worst at one value of a scene's parameter."""
+    """Of trees, of double, the worst at one value of a scene's parameter."""
 
     def __init__(self, fields):
         self.scene, self.value = fields['scene'], float(fields['value'])
@@ -47,8 +63,8 @@ class Curve:
 class Scene:
     """The rows of one scene."""
 
-    def __init__(self, name, rows, details):
-        self.name, self.rows, self.details = name, rows, details
+    def __init__(self, name, rows, details, loops):
+        self.name, self.rows, self.details, self.loops = name, rows, details, loops
         self.parameter = rows[0].parameter
         self.values = sorted({row.value for row in rows})
         self.precisions = [p for p in PRECISIONS if any(row.precision == p for row in rows)]
@@ -66,6 +82,26 @@ class Scene:
 
     def largest_certificate(self):
         return max((detail.certificate for detail in self.details), default=None)
+
+    def largest_condition(self):
+        """Of closed loops whose rank is full."""
+        return max((loop.condition for loop in self.loops if not loop.free_motions), default=None)
+
+    def apart(self):
+        return sum(loop.apart for loop in self.loops)
+
+    def largest_residual(self):
+        """Over its limit; None where nothing was completed."""
+        return max((loop.residual_over_limit for loop in self.loops if loop.completed),
+                   default=None)
+
+    def loop_curve(self, number):
+        loops = sorted(self.loops, key=lambda loop: loop.value)
+        return Curve([loop.value for loop in loops], [number(loop) for loop in loops])
+
+    def right(self):
+        """Whether closed loops have exact counts and flags and are closed by the completion."""
+        return self.apart() == 0 and (self.largest_residual() or 0) <= 1
 
     def certified(self):
         return all(detail.over_limit <= 1 for detail in self.details)
@@ -108,20 +144,30 @@ def read(path, columns, row):
 class Stability:
     def __init__(self, path, details_path):
         rows = read(path, COLUMNS, Row)
-        details = read(details_path, DETAIL_COLUMNS, Detail)
+        details, loops = [], []
+        for fields in read(details_path, DETAIL_COLUMNS, dict):
+            if fields['loop_condition']:
+                loops.append((fields['scene'], Loops(fields)))
+            else:
+                details.append(Detail(fields))
         names = list(dict.fromkeys(row.scene for row in rows))
         self.scenes = [Scene(name, [row for row in rows if row.scene == name],
-                             [detail for detail in details if detail.scene == name])
+                             [detail for detail in details if detail.scene == name],
+                             [loop for scene, loop in loops if scene == name])
                        for name in names]
+        self.trees = [scene for scene in self.scenes if not scene.loops]
+        self.closed_loops = [scene for scene in self.scenes if scene.loops]
         self.details = details
         self.row_count = len(rows)
-        self.paths = list(dict.fromkeys((row.precision, row.path) for row in rows))
+        self.paths = list(dict.fromkeys((row.precision, row.path)
+                                        for scene in self.trees for row in scene.rows))
 
     def scene(self, name):
         return next(scene for scene in self.scenes if scene.name == name)
 
-    def worst(self):
-        return max((scene.worst() for scene in self.scenes), key=lambda row: row.over_bound)
+    @staticmethod
+    def worst_of(scenes):
+        return max((scene.worst() for scene in scenes), key=lambda row: row.over_bound)
 
     def largest_certificate(self):
         return max(self.details, key=lambda detail: detail.certificate)
@@ -133,6 +179,7 @@ class Stability:
     def worst_of_subtrees(self):
         return max(self.details, key=lambda detail: detail.over_subtree_bound)
 
-    def stable(self):
-        return self.worst().over_bound <= 1 and not any(
-            math.isnan(row.over_bound) for scene in self.scenes for row in scene.rows)
+    @staticmethod
+    def stable(scenes):
+        return Stability.worst_of(scenes).over_bound <= 1 and not any(
+            math.isnan(row.over_bound) for scene in scenes for row in scene.rows)

@@ -48,6 +48,16 @@ TITLES = {  # scene in the CSV: for readers
     'balance_vertical_axes': 'Axes along gravity, at rest: efforts are zero',
     'joint_stiffness': 'Stiff joints',
     'joint_damping': 'Damped joints',
+    'loop_change_point': 'Parallelogram towards its change point',
+    'loop_dead_centre': 'Slider-crank towards dead centre, slider driven',
+    'loop_mass_ratio': 'Four-bar: mass of the coupler',
+    'loop_unit_of_length': 'Four-bar: unit of length',
+    'loop_tiny_link': 'Parallelogram with tiny coupler',
+    'loop_stiff_joints': 'Four-bar with stiff and damped joints',
+    'loop_rates': 'Fast four-bar',
+    'loop_parallel_axes': 'Spherical four-bar whose axes become parallel',
+    'loop_gimbals': 'Gimbals whose axes become parallel',
+    'loop_ladder': 'Ladder of four-bars',
 }
 
 
@@ -95,29 +105,71 @@ def span(scene):
     return '%s … %s' % (plain(scene.values[0]), plain(scene.values[-1]))
 
 
+def of_trees(what):
+    """Of open chains, of which --scene may have left none."""
+    def text(data):
+        return what(data) if data.trees else ''
+    return text
+
+
 def table(data):
+    if not data.trees:
+        return 'No scene of open chains was computed in this run.\n'
     header = ['scene', 'from … to', 'worst error over the bound',
               'KDL’s over the bound (efforts, double)', 'over the narrower bound (double)',
               'worst certificate']
     rows = [['[%s](%s)' % (title_of(scene), picture_of(scene)), span(scene),
              over_bound(scene.worst()), times(scene.largest_kdl_over_bound()),
              times(scene.largest_over_subtree_bound()), certificate(scene)]
-            for scene in data.scenes]
+            for scene in data.trees]
     return md.table(header, rows, left=2)
 
 
+def loop_table(data):
+    if not data.closed_loops:
+        return 'No scene of closed loops was computed in this run.\n'
+    header = ['scene', 'from … to', 'worst error over the bound', 'worst relative error',
+              'largest condition (full rank)', 'redundant constraints', 'singular at',
+              'counts and flags not exact', 'completed', 'open after completion, over the limit']
+    rows = []
+    for scene in data.closed_loops:
+        singular = [loop.value for loop in scene.loops if loop.free_motions]
+        completed, states = (sum(getattr(loop, name) for loop in scene.loops)
+                             for name in ('completed', 'states'))
+        constraints = [loop.redundant_constraints for loop in scene.loops]
+        rows.append(['[%s](%s)' % (title_of(scene), picture_of(scene)), span(scene),
+                     over_bound(scene.worst()), number(scene.largest_relative(DOUBLE)),
+                     number(scene.largest_condition()), counts(constraints),
+                     'up to ' + plain(max(singular)) if singular else md.NONE,
+                     bold(str(scene.apart()), scene.apart() > 0),
+                     '{:,} of {:,}'.format(completed, states),
+                     bold(times(scene.largest_residual()), (scene.largest_residual() or 0) > 1)])
+    return md.table(header, rows, left=2)
+
+
+def bold(text, wrong):
+    return '**%s**' % text if wrong else text
+
+
+def counts(numbers):
+    low, high = min(numbers), max(numbers)
+    return str(low) if low == high else '%d … %d' % (low, high)
+
+
+@of_trees
 def relative_table(data):
     header = ['scene', 'worst relative error, double', 'KDL’s, efforts only']
     rows = [[title_of(scene), number(scene.largest_relative(DOUBLE)), number(scene.largest_kdl())]
-            for scene in data.scenes]
+            for scene in data.trees]
     return md.table(header, rows)
 
 
+@of_trees
 def precision_table(data):
     header = ['scene'] + [word for p in PRECISIONS
                           for word in (plots.LOOK[p][0] + ': over the bound', 'relative')]
     rows = []
-    for scene in data.scenes:
+    for scene in data.trees:
         row = [title_of(scene)]
         for precision in PRECISIONS:
             row += [over_bound(scene.worst(precision)), number(scene.largest_relative(precision))]
@@ -125,21 +177,39 @@ def precision_table(data):
     return md.table(header, rows)
 
 
+@of_trees
 def verdict(data):
-    worst = data.worst()
+    worst = data.worst_of(data.trees)
     scene = data.scene(worst.scene)
     where = '%s; %s, `%s`' % (place(scene, worst.value), plots.LOOK[worst.precision][0],
                               worst.path)
-    if data.stable():
+    if data.stable(data.trees):
         return ('**All scenes are stable**: the worst error is %.3g of its bound (%s).'
                 % (worst.over_bound, where))
-    scenes = [scene for scene in data.scenes if scene.worst().over_bound > 1]
+    scenes = [scene for scene in data.trees if scene.worst().over_bound > 1]
     return ('**Not stable in all %d scenes**: errors beyond the bound in %s; the worst is %.3g '
-            'times its bound (%s).' % (len(data.scenes),
+            'times its bound (%s).' % (len(data.trees),
                                        md.listed('“%s”' % title_of(scene) for scene in scenes),
                                        worst.over_bound, where))
 
 
+def loop_verdict(data):
+    if not data.closed_loops:
+        return ''
+    worst = data.worst_of(data.closed_loops)
+    scene = data.scene(worst.scene)
+    wrong = [scene for scene in data.closed_loops
+             if scene.worst().over_bound > 1 or not scene.right()]
+    where = '%s of its bound (%s)' % (times(worst.over_bound), place(scene, worst.value))
+    if not wrong:
+        return ('**All scenes of closed loops are stable**: the worst error is %s, counts and '
+                'flags are the exact ones, and completed motions close their loops.' % where)
+    return ('**Not all scenes of closed loops are right**: errors, counts, flags or the completion '
+            'are not in %s; the worst error is %s.'
+            % (md.listed('“%s”' % title_of(scene) for scene in wrong), where))
+
+
+@of_trees
 def certificates_verdict(data):
     largest, worst = data.largest_certificate(), data.worst_certificate()
     where = place(data.scene(worst.scene), worst.value)
@@ -152,19 +222,20 @@ def certificates_verdict(data):
             'limit (%s).' % (number(worst.certificate), worst.over_limit, where))
 
 
+@of_trees
 def narrower_verdict(data):
     worst = data.worst_of_subtrees()
-    beyond = [scene for scene in data.scenes if scene.largest_over_subtree_bound() > 1]
+    beyond = [scene for scene in data.trees if scene.largest_over_subtree_bound() > 1]
     return ('Errors are beyond the narrower bound in %s of the %d scenes; the worst is '
             '%s times it (%s).'
-            % (len(beyond) or 'none', len(data.scenes), times(worst.over_subtree_bound),
+            % (len(beyond) or 'none', len(data.trees), times(worst.over_subtree_bound),
                place(data.scene(worst.scene), worst.value)))
 
 
 def float_left_out(data):
     lines = ['- %s: %s' % (title_of(scene), 'all' if len(values) == len(scene.values)
                            else md.listed(plain(value) for value in values))
-             for scene in data.scenes for values in [scene.left_out('float')] if values]
+             for scene in data.trees for values in [scene.left_out('float')] if values]
     return '\n'.join(lines) if lines else 'Nothing.'
 
 
@@ -178,7 +249,8 @@ def paths(data):
 def page(data, quick):
     return TEMPLATE.read_text(encoding='utf-8').format(
         table=table(data), verdict=verdict(data), certificates=certificates_verdict(data),
-        narrower=narrower_verdict(data), relative=relative_table(data), paths=paths(data),
+        narrower=narrower_verdict(data), loop_table=loop_table(data),
+        loops=loop_verdict(data), relative=relative_table(data), paths=paths(data),
         quick='This is a quick run (`--quick`): few states of each scene.\n\n' if quick else '',
         precisions=precision_table(data), left_out=float_left_out(data),
         rows='{:,}'.format(data.row_count),
@@ -199,7 +271,8 @@ def write(folder, quick):
         old.unlink()
     for scene in data.scenes:
         progress('drawing ' + picture_of(scene))
-        plots.plot_scene(scene, title_of(scene), folder / picture_of(scene))
+        plot = plots.plot_loops if scene.loops else plots.plot_scene
+        plot(scene, title_of(scene), folder / picture_of(scene))
     (folder / PAGE).write_text(page(data, quick), encoding='utf-8')
     progress(None)
 
