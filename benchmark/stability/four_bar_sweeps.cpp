@@ -99,7 +99,7 @@ std::vector<Sweep> fourBarSweeps() {
       {"loop_mass_ratio", "mass of the coupler over an ordinary one's", ratios, heavyCoupler},
       {"loop_unit_of_length", "size over an ordinary one's", ratios,
        [](double unit) { return caseOf(FourBar(unit)); }},
-      {"loop_tiny_link", "coupler and ground over crank and rocker", powersOfTen(-8, 0),
+      {"loop_tiny_link", "coupler and ground over crank and rocker", powersOfTen(-9, 0),
        narrowParallelogram},
       {"loop_stiff_joints", "stiffness [N m/rad]", powersOfTen(0, 12), stiffFourBar},
       {"loop_rates", "rates up to [rad/s]", powersOfTen(0, 6), fastFourBar},

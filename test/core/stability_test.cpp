@@ -12,6 +12,7 @@
 #include "stability/loop_judge.h"
 #include "stability/sweeps.h"
 #include "stability/worst_certificates.h"
+#include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -141,6 +142,18 @@ TEST(Stability, LoopsOfNearlyParallelAxesCountAsParallel) {
   EXPECT_EQ(parallel.redundant_constraints, 3);
   EXPECT_LT(parallel.open, spherical.open);
   EXPECT_LT(parallel.condition, 10);
+}
+
+// It is singular in every position, and so refused before anything is computed.
+TEST(Stability, ALinkSmallerThanTheRankToleranceHoldsNothing) {
+  try {
+    judgeLoops("loop_tiny_link", 1e-11);
+    FAIL() << "it is not refused";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("nothing holds the motion of 'B', 'C'"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(Stability, EachFourBarOfALadderHasThreeRedundantConstraints) {
