@@ -70,7 +70,11 @@ class ClosedLoopDynamics {
   /// position; positions are then the best met, rates are of no use. Does not allocate.
   /// @throws MotionError when a vector of `motion` has the wrong length.
   bool complete(Motion& motion);
-  /// The same with other coordinates given.
+  /// The same from a position close by, as one of the samples before: where the loops cannot be
+  /// closed, the search ends as soon as it gets no further.
+  /// @throws MotionError when a vector of `motion` has the wrong length.
+  bool completeFromCloseBy(Motion& motion);
+  /// complete() with other coordinates given.
   /// @throws MotionError when `given` has not one entry for each coordinate.
   bool complete(Motion& motion, const std::vector<bool>& given);
 

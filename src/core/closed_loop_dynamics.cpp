@@ -298,6 +298,12 @@ bool ClosedLoopDynamics::complete(Motion& motion) {
   return complete(motion, impl_->loops.actuated);
 }
 
+bool ClosedLoopDynamics::completeFromCloseBy(Motion& motion) {
+  requireLengths(motion, coordinates());
+  return impl_->completion->complete(impl_->kinematics, motion, impl_->loops.actuated,
+                                     LoopCompletion::kFromCloseBy);
+}
+
 bool ClosedLoopDynamics::complete(Motion& motion, const std::vector<bool>& given) {
   requireLengths(motion, coordinates());
   if (given.size() != impl_->loops.actuated.size()) {

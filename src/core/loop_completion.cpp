@@ -8,10 +8,9 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-constexpr int kMostSteps = 200;
-// The fewer are for loops that are closed to the rank's tolerance: where frames fit no better, no
-// step goes on, and near singular positions half a step often does.
-constexpr int kMostHalvings = 30, kHalvingsWhenClosed = 4;
+// Of steps, for loops that are closed to the rank's tolerance: where frames fit no better, no step
+// goes on, and near singular positions half a step often does.
+constexpr int kHalvingsWhenClosed = 4;
 // Misfits over the length below which a loop counts as closed, as it does below the tolerance of
 // the rank; Newton's method goes on until rounding stops it, or nothing but rounding is left of
 // each condition.
@@ -55,6 +54,9 @@ std::vector<RowBlock> conditionBlocks(const LoopGroup& group, const LoopKinemati
 }
 
 }  // namespace
+
+constexpr LoopCompletion::Search LoopCompletion::kFromAnywhere;
+constexpr LoopCompletion::Search LoopCompletion::kFromCloseBy;
 
 LoopCompletion::System::System(const LoopGroup& own, const LoopKinematics& kinematics)
     : group(own),
@@ -232,16 +234,16 @@ void LoopCompletion::newtonStep(const LoopKinematics& kinematics, const std::vec
 }
 
 bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
-                           const std::vector<bool>& given) {
+                           const std::vector<bool>& given, const Search& search) {
   kinematics.setPosition(q);
   double now = misfit(kinematics);
   const double closed = std::max(kClosed, rank_tolerance_);
   const double root = std::sqrt(static_cast<double>(kinematics.conditions()));
   const double exact = kExact * root, rounding = kRounding * root;
-  for (steps_ = 0; steps_ < kMostSteps && now > exact && std::isfinite(now); ++steps_) {
+  for (steps_ = 0; steps_ < search.most_steps && now > exact && std::isfinite(now); ++steps_) {
     newtonStep(kinematics, given);
     double factor = 1, then = now;
-    const int halvings = now <= closed ? kHalvingsWhenClosed : kMostHalvings;
+    const int halvings = now <= closed ? kHalvingsWhenClosed : search.most_halvings;
     for (int halving = 0; halving < halvings; ++halving, factor /= 2) {
       tried_ = q + factor * step_;
       kinematics.setPosition(tried_);
@@ -253,7 +255,9 @@ bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
       break;
     }
     q = tried_;
+    const bool stalled = then > search.stalled * now && then > closed;
     now = then;
+    if (stalled) break;
   }
   return now <= closed;
 }
@@ -274,8 +278,8 @@ bool LoopCompletion::solveRates(const LoopKinematics& kinematics, const Eigen::V
 }
 
 bool LoopCompletion::complete(LoopKinematics& kinematics, Motion& motion,
-                              const std::vector<bool>& given) {
-  if (!close(kinematics, motion.q, given)) return false;
+                              const std::vector<bool>& given, const Search& search) {
+  if (!close(kinematics, motion.q, given, search)) return false;
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (given[i]) continue;
     if (!in_loop_[i]) return false;

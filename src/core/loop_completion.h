@@ -23,9 +23,20 @@ class LoopCompletion {
   LoopCompletion(const Mechanism& mechanism, const LoopKinematics& kinematics,
                  const std::vector<LoopGroup>& groups, double rank_tolerance, double length);
 
+  /// How far a search goes before it fails: from anywhere, as for an assembly, or from a position
+  /// close by, so that what cannot be closed costs little more than what can.
+  struct Search {
+    int most_steps;
+    int most_halvings;  ///< of a step
+    double stalled;     ///< what must remain of the misfit, at least, for the search to end
+  };
+  static constexpr Search kFromAnywhere{200, 30, 1};
+  static constexpr Search kFromCloseBy{40, 8, 0.9};
+
   /// Closes the loops by moving the coordinates that are not given, from where they are; leaves
   /// `kinematics` there. False when that fails, with `q` at the best position met.
-  bool close(LoopKinematics& kinematics, Eigen::VectorXd& q, const std::vector<bool>& given);
+  bool close(LoopKinematics& kinematics, Eigen::VectorXd& q, const std::vector<bool>& given,
+             const Search& search = kFromAnywhere);
 
   double length() const { return length_; }
   /// How many steps close() took.
@@ -33,7 +44,8 @@ class LoopCompletion {
 
   /// Does the same and finds velocities and accelerations, too. False also when the conditions
   /// cannot be met by any, or do not determine them, as in singular positions and outside loops.
-  bool complete(LoopKinematics& kinematics, Motion& motion, const std::vector<bool>& given);
+  bool complete(LoopKinematics& kinematics, Motion& motion, const std::vector<bool>& given,
+                const Search& search = kFromAnywhere);
 
   /// Rank of the conditions' Jacobian for the coordinates not given, all groups together.
   Eigen::Index rank(const LoopKinematics& kinematics, const std::vector<bool>& given);

@@ -9,6 +9,9 @@ namespace {
 // A position that is searched for from another, with no joint turned farther than this, rad, is on
 // the same branch as that; shorter than any way from one branch to another but near singular ones.
 constexpr double kFar = 0.3;
+// Shortest pieces of a way that may end where the loops cannot be closed, as it happens at singular
+// positions, before the rest of the way is given up.
+constexpr int kMostFailures = 4;
 constexpr double kTurn = 6.283185307179586476925286766559;
 
 bool wraps(const Mechanism& mechanism, const Joint& wanted) {
@@ -24,6 +27,7 @@ bool wraps(const Mechanism& mechanism, const Joint& wanted) {
 // How often a way is halved at most; whole turns between two positions come down to a tenth of
 // kFar.
 constexpr int LoopFollower::kHalvings;
+constexpr int LoopFollower::kMostSearches;
 
 LoopFollower::LoopFollower(const Mechanism& mechanism, const ClosedLoopDynamics& dynamics)
     : completed_(dynamics.coordinates()), before_(dynamics.assembly()), closed_(before_) {
@@ -41,8 +45,12 @@ LoopFollower::LoopFollower(const Mechanism& mechanism, const ClosedLoopDynamics&
 bool LoopFollower::complete(Motion& motion, ClosedLoopDynamics& dynamics) {
   before_ = closed_;
   setNearest(motion);
-  const bool closes = follow(motion, kHalvings, dynamics);
-  if (!closes) closed_ = before_;
+  searches_ = failures_ = 0;
+  bool closes = follow(motion, kHalvings, dynamics);
+  // From where the way ends: the caller wants to know how far the loops stay open at the position
+  // itself. Where they close after all, the way there led through a gap.
+  if (givenUp()) closes = search(motion, targets_[kHalvings], dynamics);
+  closed_ = closes ? completed_.q : before_;
   // What was given stays as it is, with its whole turns.
   for (const Eigen::Index i : given_) completed_.q[i] = motion.q[i];
   motion = completed_;
@@ -64,10 +72,8 @@ void LoopFollower::setNearest(const Motion& motion) {
 // Brings what the motion gives to the target, and the passive joints along.
 bool LoopFollower::follow(const Motion& motion, int halvings, ClosedLoopDynamics& dynamics) {
   const auto place = static_cast<std::size_t>(halvings);
-  completed_ = motion;
-  completed_.q = closed_;
-  for (const Eigen::Index i : given_) completed_.q[i] = targets_[place][i];
-  const bool closes = dynamics.complete(completed_);
+  if (givenUp()) return false;
+  const bool closes = search(motion, targets_[place], dynamics);
   if (halvings > 0 && (!closes || turnsFar(closed_, completed_.q))) {
     targets_[place - 1] = (closed_ + targets_[place]) / 2;
     follow(motion, halvings - 1, dynamics);  // a position in between may be singular
@@ -75,7 +81,22 @@ bool LoopFollower::follow(const Motion& motion, int halvings, ClosedLoopDynamics
     return follow(motion, halvings - 1, dynamics);
   }
   if (closes) closed_ = completed_.q;
+  if (!closes) ++failures_;
   return closes;
+}
+
+// From the position that was found last.
+bool LoopFollower::search(const Motion& motion, const Eigen::VectorXd& target,
+                          ClosedLoopDynamics& dynamics) {
+  ++searches_;
+  completed_ = motion;
+  completed_.q = closed_;
+  for (const Eigen::Index i : given_) completed_.q[i] = target[i];
+  return dynamics.completeFromCloseBy(completed_);
+}
+
+bool LoopFollower::givenUp() const {
+  return failures_ >= kMostFailures || searches_ >= kMostSearches - 1;
 }
 
 bool LoopFollower::turnsFar(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const {

@@ -17,8 +17,13 @@ class LoopFollower {
 
   /// Completes a motion that gives the actuated coordinates. False, at the position before, when
   /// the loops cannot be closed or do not determine how the passive joints move; `motion` is then
-  /// the last that was tried.
+  /// the last that was tried. Searches kMostSearches times at most, each for a bounded number of
+  /// steps.
   bool complete(Motion& motion, ClosedLoopDynamics& dynamics);
+
+  static constexpr int kMostSearches = 256;
+  /// How many complete() made.
+  int searches() const { return searches_; }
 
   /// The position that was found last.
   const Eigen::VectorXd& position() const { return closed_; }
@@ -27,6 +32,8 @@ class LoopFollower {
  private:
   static constexpr int kHalvings = 8;
 
+  bool search(const Motion& motion, const Eigen::VectorXd& target, ClosedLoopDynamics& dynamics);
+  bool givenUp() const;
   void setNearest(const Motion& motion);
   bool follow(const Motion& motion, int halvings, ClosedLoopDynamics& dynamics);
   bool turnsFar(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
@@ -34,6 +41,7 @@ class LoopFollower {
   std::vector<Eigen::Index> given_;
   std::vector<bool> wraps_;  // of the given ones: whole turns make no difference
   std::vector<Eigen::Index> turning_;
+  int searches_ = 0, failures_ = 0;
   Motion completed_;
   Eigen::VectorXd before_, closed_;
   std::array<Eigen::VectorXd, kHalvings + 1> targets_;  // by the halvings that are left

@@ -2,8 +2,6 @@
 
 namespace virtual_work_dynamics {
 
-namespace {
-
 Scene withoutLoops(const Scene& scene) {
   Scene tree = scene;
   tree.closures.clear();
@@ -15,6 +13,8 @@ Scene withoutLoops(const Scene& scene) {
   tree.reaction_names.clear();
   return tree;
 }
+
+namespace {
 
 Scene withSprings(const Scene& scene, const PointSprings& springs) {
   Scene tree = withoutLoops(scene);

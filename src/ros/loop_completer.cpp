@@ -137,7 +137,7 @@ void LoopCompleter::completeDerivatives(TrajectoryMotion& trajectory) {
   MotionTable& table = trajectory.table;
   for (Eigen::Index row = 0; row < table.positions.rows(); ++row) {
     takeRow(table, row, motion_);
-    if (!dynamics_.complete(motion_)) continue;
+    if (!dynamics_.completeFromCloseBy(motion_)) continue;
     if (!trajectory.has_velocities) table.velocities.row(row) = motion_.qd;
     table.accelerations.row(row) = motion_.qdd;
   }

@@ -58,6 +58,35 @@ TEST_F(FollowedSliderCrank, IsWhereItWasAfterAFailure) {
   EXPECT_EQ(follower.position(), before);
 }
 
+// A stream of positions out of reach must not hold up what comes behind it.
+TEST_F(FollowedSliderCrank, GivesUpSoon) {
+  ClosedLoopDynamics by_slider(mechanism_, slider_crank_.scene("joint_3"),
+                               Request{false, {}, {}, false, false});
+  LoopFollower follower(mechanism_, by_slider);
+  const double reach = SliderCrank::kCrank + SliderCrank::kRod;
+  Motion motion(3);
+  for (const double beyond : {1e-6, 1e-3, 0.1, 1.0, 100.0}) {
+    motion.q[2] = reach + beyond;
+    EXPECT_FALSE(follower.complete(motion, by_slider)) << beyond;
+    EXPECT_GT(follower.searches(), 1);
+    EXPECT_LE(follower.searches(), 40) << beyond;
+  }
+  const Motion expected = SliderCrank::motion(0.6, 0, 0);
+  motion.q[2] = expected.q[2];
+  ASSERT_TRUE(follower.complete(motion, by_slider));
+  EXPECT_EQ(follower.searches(), 1);
+  EXPECT_NEAR(motion.q[0], 0.6, kClosed);
+}
+
+// Of ways that are halved.
+TEST_F(FollowedSliderCrank, SearchesNoMoreThanItSays) {
+  for (const double angle : {3.8, 0.7, 3.8, 1.0}) {
+    expectFollowed(angle, 0, 0);
+    EXPECT_GT(follower_.searches(), 10);
+    EXPECT_LE(follower_.searches(), LoopFollower::kMostSearches);
+  }
+}
+
 TEST_F(FollowedSliderCrank, GoesOnFromWhereItIsMovedTo) {
   // The other branch of a slider that is given: the crank below its way.
   ClosedLoopDynamics by_slider(mechanism_, slider_crank_.scene("joint_3"),
