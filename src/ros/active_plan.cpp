@@ -20,7 +20,8 @@ Request computed(const Request& request, PlanChecks checks) {
 
 // With determinacy, everything that the scene asks for.
 std::unique_ptr<LoopPlan> compileLoops(const Mechanism& mechanism, const Scene& scene,
-                                       Request request, const Audience& audience) {
+                                       Request request, const Audience& audience,
+                                       PlanChecks checks) {
   std::vector<std::size_t> wrenches = audience.wrenches;
   if (audience.determinacy) {
     request.efforts = true;
@@ -28,7 +29,7 @@ std::unique_ptr<LoopPlan> compileLoops(const Mechanism& mechanism, const Scene& 
     wrenches.resize(request.child_axes.size());
     std::iota(wrenches.begin(), wrenches.end(), 0);
   }
-  return std::make_unique<LoopPlan>(mechanism, scene, request, wrenches);
+  return std::make_unique<LoopPlan>(mechanism, scene, computed(request, checks), wrenches);
 }
 
 }  // namespace
@@ -63,8 +64,12 @@ ActivePlan::ActivePlan(const Mechanism& mechanism, const Scene& scene, const Req
                        Audience who, const std::string& frame_prefix, PlanChecks checks)
     : audience(std::move(who)), messages(mechanism, scene, request, frame_prefix) {
   if (needsClosedLoops(scene)) {
-    loops = compileLoops(mechanism, scene, request, audience);
+    loops = compileLoops(mechanism, scene, request, audience, checks);
     messages.setComputed(loops->results().request());
+    if (checks.certificates && !isEmpty(loops->results().request())) {
+      certifier.emplace(mechanism, loops->results().tree());
+      ground = Certifier::groundIndex(loops->results().request());
+    }
     return;
   }
   chain.emplace(mechanism, scene, computed(request, checks));

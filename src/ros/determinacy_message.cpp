@@ -37,7 +37,8 @@ DeterminacyMessage::DeterminacyMessage(const std::string& robot, std::vector<std
                                        std::vector<std::string> reactions, double condition_warn)
     : efforts_(std::move(efforts)),
       reactions_(std::move(reactions)),
-      condition_warn_(condition_warn) {
+      condition_warn_(condition_warn),
+      child_axes_(reactions_.size()) {
   determinacy_.rank = -1;  // like no other
   message_.status.resize(3);
   message_.status[0].name = "determinacy of efforts";
@@ -52,7 +53,7 @@ bool DeterminacyMessage::changed(const ClosedLoopDynamics& results) const {
          now.redundant_constraints != determinacy_.redundant_constraints ||
          now.free_motions != determinacy_.free_motions || isClose(now) != isClose(determinacy_) ||
          results.effortDetermined() != effort_ || results.rootAxesDetermined() != root_axes_ ||
-         results.childAxesDetermined() != child_axes_;
+         !std::equal(child_axes_.begin(), child_axes_.end(), results.childAxesDetermined().begin());
 }
 
 bool DeterminacyMessage::isClose(const Determinacy& determinacy) const {
@@ -64,7 +65,10 @@ bool DeterminacyMessage::update(std::int64_t stamp_ns, const ClosedLoopDynamics&
   determinacy_ = results.determinacy();
   effort_ = results.effortDetermined();
   root_axes_ = results.rootAxesDetermined();
-  child_axes_ = results.childAxesDetermined();
+  // Behind these there may be others, of no interest here.
+  const auto child_axes = results.childAxesDetermined().begin();
+  std::copy(child_axes, child_axes + static_cast<std::ptrdiff_t>(child_axes_.size()),
+            child_axes_.begin());
   message_.header.stamp.fromNSec(static_cast<std::uint64_t>(stamp_ns));
   write();
   return true;

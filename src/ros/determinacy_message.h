@@ -19,7 +19,8 @@ class DeterminacyMessage {
   DeterminacyMessage(const std::string& robot, std::vector<std::string> efforts,
                      std::vector<std::string> reactions, double condition_warn);
 
-  /// @param results of everything that the scene asks for, in both axes.
+  /// @param results of everything that the scene asks for, in both axes; other reactions may follow
+  /// in child axes.
   /// @returns whether ranks, counts, flags, or being close to a singular position differ from
   /// before. Allocates only then.
   bool update(std::int64_t stamp_ns, const ClosedLoopDynamics& results);

@@ -105,14 +105,15 @@ LoopLimits readLoopLimits(PrivateParameters& parameters) {
   return limits;
 }
 
-void refuseChecksOfLoops(const InverseDynamicsParameters& parameters) {
+void refuseCrossCheckOfLoops(const InverseDynamicsParameters& parameters) {
   const SelfCheckSettings& checks = parameters.self_check;
   if (!needsClosedLoops(parameters.scene)) return;
-  const char* loops = " is for open chains; the scene has closures, springs or passive joints";
   if (checks.cross_check_rate > 0) {
-    throw parameterError("cross_check_rate", numberText(checks.cross_check_rate) + loops);
+    throw parameterError(
+        "cross_check_rate",
+        numberText(checks.cross_check_rate) +
+            " is for open chains; the scene has closures, springs or passive joints");
   }
-  if (checks.certificates) throw parameterError("certificates", std::string("true") + loops);
 }
 
 }  // namespace
@@ -135,7 +136,7 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   const YAML::Node scene = xmlRpcToYaml(parameters.raw("scene"), "scene");
   parameters.refuseUnknown();
   result.scene = readScene(scene);
-  refuseChecksOfLoops(result);
+  refuseCrossCheckOfLoops(result);
   readRobotDescription(private_node, result);
   return result;
 }

@@ -13,7 +13,8 @@ namespace virtual_work_dynamics {
 class LoopPlan {
  public:
   /// @param reactions all that the scene asks for.
-  /// @param wrenches which of them `request` has in child axes, ascending.
+  /// @param wrenches which of them `request` has in child axes, ascending; others may follow that
+  /// nobody listens to.
   /// @throws SceneError as ClosedLoopDynamics does.
   LoopPlan(const Mechanism& mechanism, const Scene& scene, const Request& request,
            const std::vector<std::size_t>& wrenches);
@@ -29,7 +30,9 @@ class LoopPlan {
   const std::vector<bool>& rootAxesExist() const { return root_axes_exist_; }
   const std::vector<bool>& childAxesExist() const { return child_axes_exist_; }
 
-  /// Which of all reactions an entry in child axes is; those in root axes are all or none.
+  /// How many entries in child axes, the first ones, somebody listens to.
+  std::size_t wrenches() const { return wrenches_.size(); }
+  /// Which of all reactions such an entry is; those in root axes are all or none.
   std::size_t reactionOf(std::size_t child_axes_entry) const { return wrenches_[child_axes_entry]; }
 
  private:

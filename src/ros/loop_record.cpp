@@ -62,7 +62,7 @@ void LoopRecord::record(const LoopPlan& plan, const LoopLimits& limits) {
     for (std::size_t i = 0; i < plan.rootAxesExist().size(); ++i) {
       mark(reactions_[i], plan.rootAxesExist()[i]);
     }
-    for (std::size_t i = 0; i < plan.childAxesExist().size(); ++i) {
+    for (std::size_t i = 0; i < plan.wrenches(); ++i) {
       mark(reactions_[plan.reactionOf(i)], plan.childAxesExist()[i]);
     }
   }

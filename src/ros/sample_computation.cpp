@@ -12,7 +12,8 @@ SampleComputation::SampleComputation(Eigen::Index coordinates, bool static_motio
       counters_(counters),
       certificates_(certificates),
       loops_(loops),
-      motion_(coordinates) {}
+      motion_(coordinates),
+      tree_effort_(coordinates) {}
 
 SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan, std::int64_t stamp_ns) {
   if (static_motion_) motion_.qd.setZero();
@@ -88,6 +89,7 @@ SampleComputation::Outcome SampleComputation::computeLoops(ActivePlan& plan, std
   if (!loops.results().finite()) return Outcome::kNotFinite;
   plan.messages.fill(stamp_ns, motion_, loops);
   loops_->record.record(loops, loops_->limits);
+  checkLoops(plan);
   return Outcome::kDone;
 }
 
@@ -110,6 +112,16 @@ void SampleComputation::check(ActivePlan& plan) {
     const Wrench& ground = results.childAxes()[plan.ground];
     certificates_.record(plan.certifier->check(motion_, results.effort(), ground));
   }
+}
+
+// Singular positions need not bear the load.
+void SampleComputation::checkLoops(ActivePlan& plan) {
+  if (!plan.certifier || plan.loops->singular()) return;
+  const ClosedLoopDynamics& results = plan.loops->results();
+  results.applyTo(*plan.certifier);
+  tree_effort_ = results.effort().head(tree_effort_.size());
+  const Wrench& ground = results.childAxes()[plan.ground];
+  certificates_.record(plan.certifier->check(motion_, tree_effort_, ground));
 }
 
 }  // namespace virtual_work_dynamics

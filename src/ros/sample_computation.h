@@ -48,12 +48,14 @@ class SampleComputation {
   Outcome computeLoops(ActivePlan& plan, std::int64_t stamp_ns, Clock::time_point start);
   Outcome fillMessages(ActivePlan& plan, std::int64_t stamp_ns);
   void check(ActivePlan& plan);
+  void checkLoops(ActivePlan& plan);
 
   const bool static_motion_;
   Counters& counters_;
   CertificateRecord& certificates_;
   LoopSamples* const loops_;
   Motion motion_;
+  Eigen::VectorXd tree_effort_;  // without actuated closures
 };
 
 }  // namespace virtual_work_dynamics

@@ -23,6 +23,8 @@ using Outcome = SampleComputation::Outcome;
 using Names = std::vector<std::string>;
 
 constexpr LoopLimits kLimits{1e-6, 1e4};
+// A dozen terms of four bodies, relative to the sum of their magnitudes.
+constexpr double kSound = 1e-14;
 
 /// A slider-crank as the node computes it.
 class LoopPlans : public testing::Test {
@@ -202,6 +204,44 @@ TEST_F(LoopPlans, MotionsThatViolateALoopAreComputedAndCounted) {
   EXPECT_EQ(report.violations, 1u);
   EXPECT_NEAR(report.residuals[0][0], 0.01, 1e-15);
   EXPECT_GT(report.relative[0][0], kLimits.tolerance);
+}
+
+TEST_F(LoopPlans, AreCertifiedOutOfSingularPositions) {
+  Audience only_wrenches, only_determinacy;
+  only_wrenches.wrenches = {1, 3};
+  only_determinacy.determinacy = true;
+  for (const Audience& audience : {everything(), only_wrenches, only_determinacy}) {
+    const ActivePlan plain(mechanism, scene, requestFor(audience, reactions, true), audience, "",
+                           PlanChecks());
+    ActivePlan plan(mechanism, scene, requestFor(audience, reactions, true), audience, "",
+                    PlanChecks{false, true});
+    ASSERT_TRUE(plan.certifier);
+    EXPECT_EQ(plan.request().child_axes.size(), plain.request().child_axes.size() + 1);
+    ASSERT_EQ(compute(plan, SliderCrank::motion(0.7, 1.5, -2)), Outcome::kDone);
+    auto found = certificates.take();
+    ASSERT_TRUE(found);
+    EXPECT_LE(found->largest(), kSound);
+    EXPECT_GT(found->power + found->ground_force + found->ground_moment, 0);
+    ASSERT_EQ(compute(plan, SliderCrank::motion(0, 1.5, 0)), Outcome::kDone);
+    EXPECT_FALSE(certificates.take());
+    if (audience.determinacy) loops.determinacy.update(1, plan.loops->results());
+    // What violates a loop is certified as it is.
+    Motion violating = SliderCrank::motion(0.7, 1.5, -2);
+    violating.q[2] += 0.01;
+    violating.qd[1] += 0.1;
+    const AllocationGuard guard;
+    const Outcome outcome = compute(plan, violating);
+    const std::size_t allocations = guard.allocations();
+    ASSERT_EQ(outcome, Outcome::kDone);
+    EXPECT_LE(allocations, 1u) << "of the test's own";
+    found = certificates.take();
+    ASSERT_TRUE(found);
+    EXPECT_LE(found->largest(), kSound);
+    EXPECT_TRUE(loops.record.take().news);
+    if (!audience.determinacy) continue;
+    EXPECT_TRUE(loops.determinacy.update(1, plan.loops->results()));
+    EXPECT_EQ(loops.determinacy.message().status[2].values.size(), 6 * reactions.size());
+  }
 }
 
 class LoopPlansOfTheCrank : public LoopPlans {

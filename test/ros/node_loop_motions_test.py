@@ -11,6 +11,8 @@ from node_under_test import (EPOCH, Polynomials, joint_state, ros_time, run, tra
 
 # The estimator's rounding on a cubic, in accelerations of links of some kg.
 ESTIMATED = 1e-8
+# A few roundings to a link, relative to the sums of magnitudes.
+SOUND = 1e-13
 LAG = 4
 CRANK = Polynomials(crank_joint=(0.4, 2.0, 1.5, -0.8))
 
@@ -49,6 +51,23 @@ class LoopMotions(LoopTest):
         self.assertEqual(values['samples that violate a loop'], '0')
         self.assertLess(float(values['residual, largest (relative)']), 1e-9)
         self.assertEqual((values['rank'], values['redundant constraints']), ('3', '3'))
+
+    def test_certificates(self):
+        self.start('reaction/wrist_pin', parameters={'certificates': True})
+        stamps = [EPOCH + STEP * i for i in range(30)]
+        for ns in stamps:
+            q, qd, _ = CRANK(ns)
+            self.states.publish(joint_state(ns, q, qd))
+        self.assertStamps(self.recorders['reaction/wrist_pin'].wait(22), stamps[LAG:-LAG])
+        kinds = ['certificate: %s (largest, relative)' % kind
+                 for kind in ('power', 'ground force', 'ground moment')]
+        values = self.node.diagnostics(lambda values: all(kind in values for kind in kinds),
+                                       'the certificates')
+        self.assertEqual(values['certificates'], 'on')
+        for kind in kinds:
+            self.assertLess(float(values[kind]), SOUND, kind)
+        for status in self.node.statuses():
+            self.assertEqual(status.level, DiagnosticStatus.OK, status)
 
     def test_full_joint_states_are_checked_and_not_altered(self):
         self.start('effort')
