@@ -54,6 +54,7 @@ message(STATUS "Libraries to compare with: ${peers}")
 
 add_executable(work_precision
   ../src/offline/output_file.cpp
+  command_line.cpp
   cores.cpp
   measurement.cpp
   result_table.cpp
@@ -69,6 +70,7 @@ target_link_libraries(callgrind_sample PRIVATE benchmark_contenders ${PROJECT_NA
 # --- what leaving out saves --------------------------------------------------------------------------
 add_executable(leave_out
   ../src/offline/output_file.cpp
+  command_line.cpp
   cores.cpp
   leave_out.cpp
   omissions.cpp

@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <iostream>
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "encoder_stream.h"
 #include "offline/output_file.h"
 #include "offline/progress.h"
@@ -23,7 +23,6 @@ using namespace virtual_work_dynamics;
 
 namespace {
 
-constexpr char kProgram[] = "estimator_error";
 constexpr char kHelp[] =
     R"(estimator_error: error of estimated velocities, accelerations and efforts
 
@@ -335,37 +334,14 @@ void run(const std::string& path, const Extent& extent) {
   file.commit();
 }
 
-int refuse(const std::string& what) {
-  std::cerr << kProgram << ": error: " << what << "\nTry '" << kProgram << " --help'.\n";
-  return 2;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string path;
-  Extent extent;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word == "--help") {
-      std::cout << kHelp;
-      return 0;
-    }
-    if (word == "--quick") {
-      extent = quickExtent();
-    } else if (word == "--output") {
-      if (i + 1 == argc) return refuse("--output needs a value");
-      if (!path.empty()) return refuse("--output is given twice");
-      path = argv[++i];
-    } else {
-      return refuse("unknown argument '" + word + "'");
-    }
-  }
-  try {
-    run(path, extent);
-    return 0;
-  } catch (const std::exception& error) {
-    std::cerr << kProgram << ": error: " << error.what() << "\n";
-    return 1;
-  }
+  std::string output;
+  bool quick = false;
+  return runProgram("estimator_error", kHelp, argc, argv,
+                    {text("--output", output), flag("--quick", quick)}, [&] {
+                      run(output, quick ? quickExtent() : Extent());
+                      return 0;
+                    });
 }

@@ -1,15 +1,14 @@
 // Operations, run time and numbers of plans that compute less than everything.
 #include <time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
-#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "command_line.h"
 #include "contenders/robots.h"
 #include "cores.h"
 #include "offline/output_file.h"
@@ -19,7 +18,6 @@
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr char kProgram[] = "leave_out";
 constexpr char kHelp[] =
     R"(leave_out: what a plan saves by leaving out what nobody asked for
 
@@ -65,10 +63,6 @@ __attribute__((format(printf, 1, 2))) std::string formatted(const char* format, 
   std::vsnprintf(text, sizeof(text), format, arguments);
   va_end(arguments);
   return text;
-}
-
-void showProgress(const std::string& text) {
-  if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r\033[K%s", text.c_str());
 }
 
 // For which this thread has run.
@@ -197,42 +191,16 @@ void run(const std::string& path, const Extent& extent) {
   }
 }
 
-int refuse(const std::string& what) {
-  std::fprintf(stderr, "%s: %s\nTry '%s --help'.\n", kProgram, what.c_str(), kProgram);
-  return 2;
-}
-
-int runProgram(const std::vector<std::string>& arguments) {
-  std::string path;
-  Extent extent = kUsual;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& argument = arguments[i];
-    if (argument == "--help" || argument == "-h") {
-      std::printf("%s", kHelp);
-      return 0;
-    }
-    if (argument == "--quick") {
-      extent = kQuick;
-    } else if (argument == "--output") {
-      if (i + 1 == arguments.size()) return refuse("--output needs a value");
-      path = arguments[++i];
-    } else {
-      return refuse("unknown argument '" + argument + "'");
-    }
-  }
-  try {
-    run(path, extent);
-    return 0;
-  } catch (const std::exception& error) {
-    showProgress("");
-    std::fprintf(stderr, "%s: %s\n", kProgram, error.what());
-    return 1;
-  }
-}
-
 }  // namespace
 }  // namespace virtual_work_dynamics
 
 int main(int argc, char** argv) {
-  return virtual_work_dynamics::runProgram({argv + 1, argv + argc});
+  using namespace virtual_work_dynamics;
+  std::string output;
+  bool quick = false;
+  return runProgram("leave_out", kHelp, argc, argv,
+                    {text("--output", output), flag("--quick", quick)}, [&] {
+                      run(output, quick ? kQuick : kUsual);
+                      return 0;
+                    });
 }

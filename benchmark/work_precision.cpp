@@ -1,8 +1,5 @@
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <memory>
 
 #include "contenders/closed_scenes.h"
@@ -24,11 +21,6 @@ constexpr Effort kQuick{5, 2e-3};
 
 bool among(const std::vector<std::string>& names, const std::string& name) {
   return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
-}
-
-// One line that is written over, on a terminal only.
-void showProgress(const std::string& text) {
-  if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r\033[K%s", text.c_str());
 }
 
 // Names of the wanted scenes; says which have no file. A quick run leaves out what takes long,
@@ -130,28 +122,15 @@ int run(const WorkPrecisionOptions& options) {
   return disagreed ? 1 : 0;
 }
 
-int runProgram(const std::vector<std::string>& arguments) {
-  try {
-    const WorkPrecisionOptions options = parseOptions(arguments);
-    if (options.help) {
-      std::printf("%s", kWorkPrecisionHelp);
-      return 0;
-    }
-    checkMethods(options.methods);
-    if (options.list) return list(options);
-    return options.list_loops ? listLoops(options) : run(options);
-  } catch (const OptionError& error) {
-    std::fprintf(stderr, "work_precision: %s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "work_precision: %s\n", error.what());
-    return 1;
-  }
-}
-
 }  // namespace
 }  // namespace virtual_work_dynamics
 
 int main(int argc, char** argv) {
-  return virtual_work_dynamics::runProgram({argv + 1, argv + argc});
+  using namespace virtual_work_dynamics;
+  WorkPrecisionOptions options;
+  return runProgram("work_precision", kWorkPrecisionHelp, argc, argv, commandLine(options), [&] {
+    checkMethods(options.methods);
+    if (options.list) return list(options);
+    return options.list_loops ? listLoops(options) : run(options);
+  });
 }

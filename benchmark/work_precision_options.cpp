@@ -7,16 +7,6 @@
 namespace virtual_work_dynamics {
 namespace {
 
-int parseRounds(const std::string& text) {
-  constexpr std::size_t kMostDigits = 4;
-  const bool digits = !text.empty() && text.size() <= kMostDigits &&
-                      text.find_first_not_of("0123456789") == std::string::npos;
-  if (!digits || std::stoi(text) < 1) {
-    throw OptionError("--rounds: '" + text + "' is no number from 1 to 9999");
-  }
-  return std::stoi(text);
-}
-
 std::string knownScene(const std::string& name) {
   const std::vector<std::string> names = sceneNames();
   if (std::find(names.begin(), names.end(), name) != names.end()) return name;
@@ -76,35 +66,15 @@ starts from their positions 1 ms before. There is one method more:
 Exit status: 0 done, 1 something is wrong or disagrees, 2 wrong usage.
 )";
 
-WorkPrecisionOptions parseOptions(const std::vector<std::string>& arguments) {
-  WorkPrecisionOptions options;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& option = arguments[i];
-    const auto value = [&] {
-      if (i + 1 == arguments.size()) throw OptionError(option + " needs a value");
-      return arguments[++i];
-    };
-    if (option == "--output") {
-      options.output = value();
-    } else if (option == "--scene") {
-      options.scenes.push_back(knownScene(value()));
-    } else if (option == "--method") {
-      options.methods.push_back(value());
-    } else if (option == "--rounds") {
-      options.rounds = parseRounds(value());
-    } else if (option == "--quick") {
-      options.quick = true;
-    } else if (option == "--list") {
-      options.list = true;
-    } else if (option == "--list-loops") {
-      options.list_loops = true;
-    } else if (option == "--help" || option == "-h") {
-      options.help = true;
-    } else {
-      throw OptionError("unknown option '" + option + "'");
-    }
-  }
-  return options;
+std::vector<Option> commandLine(WorkPrecisionOptions& options) {
+  return {text("--output", options.output),
+          {"--scene", true,
+           [&options](const std::string& name) { options.scenes.push_back(knownScene(name)); }},
+          texts("--method", options.methods),
+          count("--rounds", 4, options.rounds),
+          flag("--quick", options.quick),
+          flag("--list", options.list),
+          flag("--list-loops", options.list_loops)};
 }
 
 }  // namespace virtual_work_dynamics

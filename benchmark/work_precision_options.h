@@ -1,8 +1,9 @@
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "command_line.h"
 
 namespace virtual_work_dynamics {
 
@@ -14,18 +15,11 @@ struct WorkPrecisionOptions {
   bool quick = false;
   bool list = false;
   bool list_loops = false;
-  bool help = false;
-};
-
-/// Wrong usage, in one line.
-class OptionError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 extern const char kWorkPrecisionHelp[];
 
-/// @throws OptionError.
-WorkPrecisionOptions parseOptions(const std::vector<std::string>& arguments);
+/// What fills `options`.
+std::vector<Option> commandLine(WorkPrecisionOptions& options);
 
 }  // namespace virtual_work_dynamics

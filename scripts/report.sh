@@ -40,34 +40,15 @@ done
 mkdir -p "$output"
 output=$(realpath "$output")
 cd "$repository"
-build=$repository/build/benchmark
-log=$repository/build/benchmark.log
-programs=(work_precision leave_out estimator_error callgrind_sample)
 counted_scenes=(six_axis_arm seven_axis_arm chain_100)
-export PATH=/usr/bin:$PATH PYTHONDONTWRITEBYTECODE=1
+program=report.sh
+steps=7
+source scripts/measuring.sh
 read -r load _ </proc/loadavg
 
-if $install; then scripts/install_dependencies.sh --build --benchmark; fi
-/usr/bin/python3 -c 'import matplotlib' 2>/dev/null || {
-  echo "report.sh: Python's matplotlib is missing (Debian, Ubuntu: python3-matplotlib)" >&2
-  exit 1
-}
-
-step=0
-announce() {
-  step=$((step + 1))
-  echo "[$step/7] $* ($SECONDS s)"
-}
-
+prepare "$install"
 announce "Building in ${build#"$repository"/}, output in ${log#"$repository"/} ..."
-mkdir -p "$build"
-if ! { cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DVWD_CORE_ONLY=ON \
-    -DVWD_BUILD_BENCHMARKS=ON -DBUILD_TESTING=OFF &&
-    cmake --build "$build" --target "${programs[@]}" -- -j"${JOBS:-$(nproc)}"; } >"$log" 2>&1; then
-  grep -E -A 5 'error|Error' "$log" | head -n 40 >&2 || tail -n 40 "$log" >&2
-  echo "report.sh: the build failed; its whole output is in $log" >&2
-  exit 1
-fi
+build_programs work_precision leave_out estimator_error callgrind_sample
 
 # measure PROGRAM RESULT: leaves RESULT in the output folder.
 measure() {

@@ -50,39 +50,21 @@ if ! $list; then
   output=$(realpath "$output")
 fi
 cd "$repository"
-build=$repository/build/benchmark
-log=$repository/build/stability.log
-export PATH=/usr/bin:$PATH PYTHONDONTWRITEBYTECODE=1
+program=stability.sh
+steps=4
+source scripts/measuring.sh
+if $list; then announce() { :; }; fi
 
-if $install; then scripts/install_dependencies.sh --build --benchmark; fi
-/usr/bin/python3 -c 'import matplotlib' 2>/dev/null || {
-  echo "stability.sh: Python's matplotlib is missing (Debian, Ubuntu: python3-matplotlib)" >&2
-  exit 1
-}
-
-step=0
-announce() {
-  step=$((step + 1))
-  if ! $list; then echo "[$step/4] $* ($SECONDS s)"; fi
-}
-
+prepare "$install"
 announce "Building in ${build#"$repository"/}, output in ${log#"$repository"/} ..."
-mkdir -p "$build"
-if ! { cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DVWD_CORE_ONLY=ON \
-    -DVWD_BUILD_BENCHMARKS=ON -DBUILD_TESTING=OFF &&
-    cmake --build "$build" --target stability -- -j"${JOBS:-$(nproc)}"; } >"$log" 2>&1; then
-  grep -E -A 5 'error|Error' "$log" | head -n 40 >&2 || tail -n 40 "$log" >&2
-  echo "stability.sh: the build failed; its whole output is in $log" >&2
-  exit 1
-fi
-program=$build/benchmark/stability
-if $list; then exec "$program" "${scenes[@]}" --list; fi
+build_programs stability
+if $list; then exec "$build/benchmark/stability" "${scenes[@]}" --list; fi
 
 announce "Computing in every way and in 113 bits"
 measured=$(mktemp -d)  # results of a run before stay until there are others
 trap 'rm -rf "$measured"' EXIT
 status=0
-"$program" "${quick[@]}" "${scenes[@]}" --output "$measured/stability.csv" \
+"$build/benchmark/stability" "${quick[@]}" "${scenes[@]}" --output "$measured/stability.csv" \
   --details "$measured/stability_details.csv" || status=$?
 [[ -f "$measured/stability.csv" && -f "$measured/stability_details.csv" ]] || exit "$status"
 mv "$measured"/*.csv "$output"

@@ -1,9 +1,7 @@
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
-#include <exception>
 #include <mutex>
 #include <thread>
 
@@ -73,11 +71,6 @@ std::vector<Task> tasksOf(const std::vector<Sweep>& sweeps, bool quick) {
     }
   }
   return tasks;
-}
-
-// One line that is written over, on a terminal only.
-void showProgress(const std::string& text) {
-  if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r\033[K%s", text.c_str());
 }
 
 // Rows of every sweep, computed by several threads; the results do not depend on their number.
@@ -315,39 +308,32 @@ int report(const std::vector<Sweep>& sweeps, const std::vector<std::vector<Row>>
   return 0;
 }
 
-int runProgram(const std::vector<std::string>& arguments) {
-  try {
-    const StabilityOptions options = parseOptions(arguments);
-    if (options.help) {
-      std::printf("%s", kStabilityHelp);
-      return 0;
-    }
-    const std::vector<Sweep> sweeps = wantedSweeps(options.scenes);
-    if (options.list) {
-      for (const Sweep& sweep : sweeps) {
-        std::printf("%-24s %s\n", sweep.scene.c_str(), sweep.parameter.c_str());
-      }
-      return 0;
-    }
-    requireWritable({options.output, options.details});
-    const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    Measurement measurement(sweeps, options.quick);
-    const auto& rows = measurement.run(options.threads > 0 ? options.threads : cores);
-    if (!options.output.empty()) writeFile(options.output, csv(sweeps, rows));
-    if (!options.details.empty()) writeFile(options.details, detailsCsv(sweeps, rows));
-    return report(sweeps, rows);
-  } catch (const OptionError& error) {
-    std::fprintf(stderr, "stability: %s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "stability: %s\n", error.what());
-    return 1;
+int run(const StabilityOptions& options) {
+  if (!options.output.empty() && options.output == options.details) {
+    throw OptionError("--output and --details both name '" + options.output + "'");
   }
+  const std::vector<Sweep> sweeps = wantedSweeps(options.scenes);
+  if (options.list) {
+    for (const Sweep& sweep : sweeps) {
+      std::printf("%-24s %s\n", sweep.scene.c_str(), sweep.parameter.c_str());
+    }
+    return 0;
+  }
+  requireWritable({options.output, options.details});
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  Measurement measurement(sweeps, options.quick);
+  const auto& rows = measurement.run(options.threads > 0 ? options.threads : cores);
+  if (!options.output.empty()) writeFile(options.output, csv(sweeps, rows));
+  if (!options.details.empty()) writeFile(options.details, detailsCsv(sweeps, rows));
+  return report(sweeps, rows);
 }
 
 }  // namespace
 }  // namespace virtual_work_dynamics
 
 int main(int argc, char** argv) {
-  return virtual_work_dynamics::runProgram({argv + 1, argv + argc});
+  using namespace virtual_work_dynamics;
+  StabilityOptions options;
+  return runProgram("stability", kStabilityHelp, argc, argv, commandLine(options),
+                    [&] { return run(options); });
 }

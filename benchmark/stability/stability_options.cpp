@@ -1,20 +1,6 @@
 #include "stability/stability_options.h"
 
 namespace virtual_work_dynamics {
-namespace {
-
-int parseThreads(const std::string& text) {
-  constexpr std::size_t kMostDigits = 3;
-  const bool digits = !text.empty() && text.size() <= kMostDigits &&
-                      text.find_first_not_of("0123456789") == std::string::npos;
-  if (!digits || std::stoi(text) < 1) {
-    throw OptionError("--threads: '" + text + "' is no number from 1 to 999");
-  }
-  return std::stoi(text);
-}
-
-}  // namespace
-
 const char kStabilityHelp[] =
     R"(stability: errors of inverse dynamics where scenes go to extremes
 
@@ -71,36 +57,10 @@ them not finite, a loop's count or flag wrong or its completion open, or somethi
 usage.
 )";
 
-StabilityOptions parseOptions(const std::vector<std::string>& arguments) {
-  StabilityOptions options;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::string& option = arguments[i];
-    const auto value = [&] {
-      if (i + 1 == arguments.size()) throw OptionError(option + " needs a value");
-      return arguments[++i];
-    };
-    if (option == "--output") {
-      options.output = value();
-    } else if (option == "--details") {
-      options.details = value();
-    } else if (option == "--scene") {
-      options.scenes.push_back(value());
-    } else if (option == "--threads") {
-      options.threads = parseThreads(value());
-    } else if (option == "--quick") {
-      options.quick = true;
-    } else if (option == "--list") {
-      options.list = true;
-    } else if (option == "--help" || option == "-h") {
-      options.help = true;
-    } else {
-      throw OptionError("unknown option '" + option + "'");
-    }
-  }
-  if (!options.output.empty() && options.output == options.details) {
-    throw OptionError("--output and --details both name '" + options.output + "'");
-  }
-  return options;
+std::vector<Option> commandLine(StabilityOptions& options) {
+  return {text("--output", options.output), text("--details", options.details),
+          texts("--scene", options.scenes), count("--threads", 3, options.threads),
+          flag("--quick", options.quick),   flag("--list", options.list)};
 }
 
 }  // namespace virtual_work_dynamics

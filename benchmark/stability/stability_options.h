@@ -1,8 +1,9 @@
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "command_line.h"
 
 namespace virtual_work_dynamics {
 
@@ -13,18 +14,11 @@ struct StabilityOptions {
   int threads = 0;                  ///< 0: as many as cores
   bool quick = false;
   bool list = false;
-  bool help = false;
-};
-
-/// Wrong usage, in one line.
-class OptionError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
 };
 
 extern const char kStabilityHelp[];
 
-/// @throws OptionError.
-StabilityOptions parseOptions(const std::vector<std::string>& arguments);
+/// What fills `options`.
+std::vector<Option> commandLine(StabilityOptions& options);
 
 }  // namespace virtual_work_dynamics

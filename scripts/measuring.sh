@@ -1,0 +1,32 @@
+# Sourced by the scripts that measure, in the repository: what they share. Set first: program (the
+# script's name), steps (how many it announces).
+build=$PWD/build/benchmark
+log=$PWD/build/benchmark.log
+export PATH=/usr/bin:$PATH PYTHONDONTWRITEBYTECODE=1
+
+step=0
+announce() {
+  step=$((step + 1))
+  echo "[$step/$steps] $* ($SECONDS s)"
+}
+
+# prepare INSTALL: packages, if INSTALL is true, and what pictures need.
+prepare() {
+  if $1; then scripts/install_dependencies.sh --build --benchmark; fi
+  /usr/bin/python3 -c 'import matplotlib' 2>/dev/null || {
+    echo "$program: Python's matplotlib is missing (Debian, Ubuntu: python3-matplotlib)" >&2
+    exit 1
+  }
+}
+
+# build_programs TARGET...: without ROS, into $build/benchmark.
+build_programs() {
+  mkdir -p "$build"
+  if ! { cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DVWD_CORE_ONLY=ON \
+      -DVWD_BUILD_BENCHMARKS=ON -DBUILD_TESTING=OFF &&
+      cmake --build "$build" --target "$@" -- -j"${JOBS:-$(nproc)}"; } >"$log" 2>&1; then
+    grep -E -A 5 'error|Error' "$log" | head -n 40 >&2 || tail -n 40 "$log" >&2
+    echo "$program: the build failed; its whole output is in $log" >&2
+    exit 1
+  fi
+}
