@@ -42,11 +42,12 @@ What is computed
                         change of momentum, relative to the sum of all terms' magnitudes
   --loop-tolerance X    how far the motion may violate closed loops, relative to the loops' size
                         and to the largest rate and acceleration (default: 1e-6)
-  --threads N           divides the rows among N threads (default: 1)
+  --threads N           divides the rows among N threads (default: 1); closed loops take one
 
 Output
   --output FILE         result as CSV (default: standard output); FILE is complete or not there
-  --check               say what the robot is and what is doubtful about it, compute nothing
+  --check               say what the robot is and what is doubtful about it, compute nothing; of
+                        closed loops with --motion: how close it comes to singular positions
   --explain             say what a sample costs and what is left out of its computation because
                         nothing that is asked for needs it; compute nothing
   --help                this text
