@@ -2,16 +2,16 @@
 """Makes closed_loops.md and its plots from FOLDER/work_precision.csv and FOLDER/closed_loops.csv;
 scripts/report.sh calls it.
 """
-import argparse
 import math
 import pathlib
 import sys
 
 import closed_loops_plots as plots
 import markdown_text as md
+from page_program import run
 from plot_style import method_name, mode_name
 from report_data import (CLOSED_LOOPS, LAGRANGE, OWN, SINGLE, SINGLE_EFFORTS, WORK_PRECISION,
-                         ClosedLoops, ReportError, WorkPrecision)
+                         ClosedLoops, WorkPrecision)
 
 PAGE = 'closed_loops.md'
 WORK_PRECISION_PLOT = 'closed_loops.png'
@@ -174,18 +174,5 @@ def write(folder):
                       for scene in data.scenes)), encoding='utf-8')
 
 
-def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('folder', metavar='FOLDER', type=pathlib.Path)
-    arguments = parser.parse_args()
-    try:
-        write(arguments.folder)
-    except (ReportError, OSError) as problem:
-        print('closed_loops_page.py: %s' % problem, file=sys.stderr)
-        return 1
-    return 0
-
-
 if __name__ == '__main__':
-    sys.exit(main())
+    sys.exit(run('closed_loops_page.py', __doc__, lambda arguments: write(arguments.folder)))

@@ -2,14 +2,13 @@
 """Makes estimator.md and its plots from FOLDER/estimator.csv, which estimator_error has written;
 scripts/report.sh calls it.
 """
-import argparse
 import pathlib
 import sys
 
 import estimator_data as ed
 import estimator_plots as plots
 import estimator_text as text
-from report_data import ReportError
+from page_program import progress, run
 
 CSV = 'estimator.csv'
 PAGE = 'estimator.md'
@@ -61,25 +60,5 @@ def write(folder):
     progress(None)
 
 
-def progress(what):
-    """One line of a terminal, which None wipes out."""
-    if sys.stderr.isatty():
-        print('\r\033[K' + (what or ''), end='', file=sys.stderr, flush=True)
-
-
-def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('folder', metavar='FOLDER', type=pathlib.Path)
-    arguments = parser.parse_args()
-    try:
-        write(arguments.folder)
-    except (ReportError, OSError) as problem:
-        progress(None)
-        print('estimator_page.py: %s' % problem, file=sys.stderr)
-        return 1
-    return 0
-
-
 if __name__ == '__main__':
-    sys.exit(main())
+    sys.exit(run('estimator_page.py', __doc__, lambda arguments: write(arguments.folder)))

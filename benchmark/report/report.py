@@ -3,7 +3,6 @@
 FOLDER holds work_precision.csv, closed_loops.csv and leave_out.csv; instructions.csv if
 instructions were counted, estimator.md if the estimator was measured.
 """
-import argparse
 import concurrent.futures
 import datetime
 import os
@@ -14,11 +13,12 @@ import comparisons
 import machine
 import markdown_text as md
 import report_pages as pages
+from page_program import progress, run
 from plot_joints import plot_joints
 from plot_leave_out import plot_leave_out
 from plot_work_precision import plot_work_precision
 from report_data import (CLOSED_LOOPS, INSTRUCTIONS, LEAVE_OUT, WORK_PRECISION, ClosedLoops,
-                         Instructions, JointCounts, LeaveOut, ReportError, WorkPrecision)
+                         Instructions, JointCounts, LeaveOut, WorkPrecision)
 
 REPOSITORY = pathlib.Path(__file__).resolve().parent.parent.parent
 REPORT = 'report.md'
@@ -112,30 +112,17 @@ def write(folder, arguments):
     progress(None)
 
 
-def progress(what):
-    """One line of a terminal, which None wipes out."""
-    if sys.stderr.isatty():
-        print('\r\033[K' + (what or ''), end='', file=sys.stderr, flush=True)
-
-
-def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('folder', metavar='FOLDER', type=pathlib.Path)
+def add_options(parser):
     parser.add_argument('--quick', action='store_true', help='say that the run was a quick one')
     parser.add_argument('--load', metavar='AVERAGE', help='load average before the measurements')
     parser.add_argument('--build', type=pathlib.Path, default=REPOSITORY / 'build' / 'benchmark',
                         help='where the programs were built (build/benchmark)')
-    arguments = parser.parse_args()
-    try:
-        write(arguments.folder, arguments)
-    except (ReportError, OSError) as problem:
-        progress(None)
-        print('report.py: %s' % problem, file=sys.stderr)
-        return 1
+
+
+def write_and_say(arguments):
+    write(arguments.folder, arguments)
     print('Report: %s' % os.path.relpath(str(arguments.folder / REPORT)))
-    return 0
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    sys.exit(run('report.py', __doc__, write_and_say, add_options))

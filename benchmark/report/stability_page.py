@@ -3,7 +3,6 @@
 FOLDER/stability_details.csv, which the program stability has written; scripts/stability.sh
 calls it.
 """
-import argparse
 import decimal
 import math
 import pathlib
@@ -11,7 +10,7 @@ import sys
 
 import markdown_text as md
 import stability_plots as plots
-from report_data import ReportError
+from page_program import progress, run
 from stability_data import DOUBLE, PRECISIONS, Stability
 
 CSV = 'stability.csv'
@@ -259,12 +258,6 @@ def page(data, quick):
                            for scene in data.scenes))
 
 
-def progress(what):
-    """One line of a terminal, which None wipes out."""
-    if sys.stderr.isatty():
-        print('\r\033[K' + (what or ''), end='', file=sys.stderr, flush=True)
-
-
 def write(folder, quick):
     data = Stability(folder / CSV, folder / DETAILS_CSV)
     for old in folder.glob('stability_*.png'):
@@ -277,20 +270,10 @@ def write(folder, quick):
     progress(None)
 
 
-def main():
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def add_options(parser):
     parser.add_argument('--quick', action='store_true', help='say that the run was a quick one')
-    parser.add_argument('folder', metavar='FOLDER', type=pathlib.Path)
-    arguments = parser.parse_args()
-    try:
-        write(arguments.folder, arguments.quick)
-    except (ReportError, OSError) as problem:
-        progress(None)
-        print('stability_page.py: %s' % problem, file=sys.stderr)
-        return 1
-    return 0
 
 
 if __name__ == '__main__':
-    sys.exit(main())
+    sys.exit(run('stability_page.py', __doc__,
+                 lambda arguments: write(arguments.folder, arguments.quick), add_options))
