@@ -224,7 +224,7 @@ int interrupted(const std::string& folder, int signal_number) {
   if (child == 0) {
     if (chdir(folder.c_str()) != 0) _exit(126);
     signal(signal_number, SIG_DFL);  // a parent in the background may have it ignored
-    execl(OFFLINE_TOOL, OFFLINE_TOOL, "--urdf", "p.urdf", "--motion", "long.csv", "--output",
+    execl(kOfflineTool, kOfflineTool, "--urdf", "p.urdf", "--motion", "long.csv", "--output",
           "r.csv", static_cast<char*>(nullptr));
     _exit(127);
   }

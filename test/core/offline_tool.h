@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "tested_build.h"
+
 namespace virtual_work_dynamics {
 
 /// Runs the built offline tool as a user would, in a folder of its own that is gone afterwards.
@@ -48,7 +50,7 @@ class OfflineTool : public testing::Test {
 
   /// Runs the tool in the folder; `arguments` and what stands `before` it are shell text.
   Run run(const std::string& arguments, const std::string& before = "") const {
-    const std::string command = "cd '" + folder_ + "' && { " + before + " '" OFFLINE_TOOL "' " +
+    const std::string command = "cd '" + folder_ + "' && { " + before + " '" + kOfflineTool + "' " +
                                 arguments + "; } >'" + folder_ + ".out' 2>'" + folder_ + ".err'";
     const int status = std::system(command.c_str());
     Run result;

@@ -12,6 +12,7 @@
 
 #include "random_cases.h"
 #include "scene_writer.h"
+#include "tested_build.h"
 #include "urdf_writer.h"
 #include "virtual_work_dynamics/error_bound.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
@@ -19,11 +20,9 @@
 namespace virtual_work_dynamics {
 
 // Sanitizers take ten times as long.
-#if defined(__SANITIZE_ADDRESS__)
-constexpr unsigned kCasesPerProperty = 500;
-#else
-constexpr unsigned kCasesPerProperty = 4000;
-#endif
+inline unsigned casesPerProperty() {
+  return kSanitized ? 500 : 4000;
+}
 
 // What results may be off, in roundings of double: 4 for every joint on the way, which is the
 // package's contract, and 2 for what a transformed case rounds anew: its constants, its gravity and
@@ -178,7 +177,7 @@ class Agreement {
 /// Checks a property on many random cases and stops at the first that fails.
 /// check(RandomCases&, Agreement&)
 template <typename Check>
-void checkProperty(unsigned first_seed, Check check, unsigned cases = kCasesPerProperty) {
+void checkProperty(unsigned first_seed, Check check, unsigned cases = casesPerProperty()) {
   Agreement agreement;
   for (unsigned seed = first_seed; seed < first_seed + cases; ++seed) {
     RandomCases random(seed);

@@ -229,7 +229,7 @@ TEST(PropertyOfRerooting, AChainMayMoveBetweenEndsThatRest) {
         a.scene = withEveryReaction(a.scene, a.mechanism);
         compareRerooted(a, last(), agreement);
       },
-      kCasesPerProperty / 5);
+      casesPerProperty() / 5);
 }
 
 }  // namespace

@@ -1,0 +1,13 @@
+#include "tested_build.h"
+
+namespace virtual_work_dynamics {
+
+const char* const kOfflineTool = OFFLINE_TOOL;
+
+#if defined(__SANITIZE_ADDRESS__)
+const bool kSanitized = true;
+#else
+const bool kSanitized = false;
+#endif
+
+}  // namespace virtual_work_dynamics
