@@ -235,14 +235,12 @@ double LoopKinematics::freeVelocity(std::size_t closure) const {
   return freeAxis(closure).dot(C.v - P.v - P.w.cross(C.o - P.o));
 }
 
-double LoopKinematics::workOf(const Step& step, std::size_t closure,
+double LoopKinematics::workOf(const Step& step, const Eigen::Vector3d& at,
                               const ClosureWrench& wrench) const {
   const JointConstants& joint = joints_[static_cast<std::size_t>(step.joint)];
   const LinkState& link = links_[static_cast<std::size_t>(step.joint) + 1];
-  const double along =
-      joint.slides
-          ? link.z.dot(wrench.force)
-          : link.z.dot(wrench.moment + (childOrigin(closure) - link.o).cross(wrench.force));
+  const double along = joint.slides ? link.z.dot(wrench.force)
+                                    : link.z.dot(wrench.moment + (at - link.o).cross(wrench.force));
   return step.sign * joint.multiplier * along;
 }
 
@@ -276,27 +274,30 @@ LoopKinematics::PointState LoopKinematics::pointOf(const Frame& frame) const {
 
 void LoopKinematics::setMotion(const Motion& motion) {
   for (std::size_t k = 0; k < joints_.size(); ++k) moveLink(k, motion);
-  for (Eigen::Index i = 0; i < conditions(); ++i) {
-    const Row& row = rows_[static_cast<std::size_t>(i)];
-    const PointState P = pointOf(frames_[row.closure].parent);
-    const PointState C = pointOf(frames_[row.closure].child);
-    const Eigen::Vector3d r = C.o - P.o, v = C.v - P.v, acceleration = C.a - P.a;
-    const Eigen::Vector3d a = axis(frames_[row.closure].parent, row.a);
-    const Eigen::Vector3d ad = P.w.cross(a), add = P.alpha.cross(a) + P.w.cross(ad);
-    if (row.kind == Kind::kAlong) {
-      rates_[i] = ad.dot(r) + a.dot(v);
-      accelerations_[i] = add.dot(r) + 2 * ad.dot(v) + a.dot(acceleration);
-    } else if (row.kind == Kind::kNormal) {
-      const Eigen::Vector3d b = axis(frames_[row.closure].child, row.b);
-      const Eigen::Vector3d bd = C.w.cross(b), bdd = C.alpha.cross(b) + C.w.cross(bd);
-      rates_[i] = ad.dot(b) + a.dot(bd);
-      accelerations_[i] = add.dot(b) + 2 * ad.dot(bd) + a.dot(bdd);
-    } else {
-      const double distance = r.norm();
-      rates_[i] = distance > 0 ? r.dot(v) / distance : 0;
-      accelerations_[i] =
-          distance > 0 ? (v.dot(v) + r.dot(acceleration) - rates_[i] * rates_[i]) / distance : 0;
-    }
+  for (std::size_t c = 0; c < frames_.size(); ++c) {
+    const PointState P = pointOf(frames_[c].parent), C = pointOf(frames_[c].child);
+    for (Eigen::Index i = firstOf(c); i < firstOf(c + 1); ++i) setRates(i, P, C);
+  }
+}
+
+void LoopKinematics::setRates(Eigen::Index i, const PointState& P, const PointState& C) {
+  const Row& row = rows_[static_cast<std::size_t>(i)];
+  const Eigen::Vector3d r = C.o - P.o, v = C.v - P.v, acceleration = C.a - P.a;
+  const Eigen::Vector3d a = axis(frames_[row.closure].parent, row.a);
+  const Eigen::Vector3d ad = P.w.cross(a), add = P.alpha.cross(a) + P.w.cross(ad);
+  if (row.kind == Kind::kAlong) {
+    rates_[i] = ad.dot(r) + a.dot(v);
+    accelerations_[i] = add.dot(r) + 2 * ad.dot(v) + a.dot(acceleration);
+  } else if (row.kind == Kind::kNormal) {
+    const Eigen::Vector3d b = axis(frames_[row.closure].child, row.b);
+    const Eigen::Vector3d bd = C.w.cross(b), bdd = C.alpha.cross(b) + C.w.cross(bd);
+    rates_[i] = ad.dot(b) + a.dot(bd);
+    accelerations_[i] = add.dot(b) + 2 * ad.dot(bd) + a.dot(bdd);
+  } else {
+    const double distance = r.norm();
+    rates_[i] = distance > 0 ? r.dot(v) / distance : 0;
+    accelerations_[i] =
+        distance > 0 ? (v.dot(v) + r.dot(acceleration) - rates_[i] * rates_[i]) / distance : 0;
   }
 }
 

@@ -65,9 +65,10 @@ class LoopKinematics {
   /// Adds the generalized force of such a wrench on the child and its opposite on the parent.
   template <typename Vector>
   void addGeneralizedForce(std::size_t closure, const ClosureWrench& wrench, Vector&& force) const {
+    const Eigen::Vector3d at = childOrigin(closure);
     for (const Step& step : frames_[closure].path) {
       const JointConstants& joint = joints_[static_cast<std::size_t>(step.joint)];
-      if (joint.coordinate >= 0) force[joint.coordinate] += workOf(step, closure, wrench);
+      if (joint.coordinate >= 0) force[joint.coordinate] += workOf(step, at, wrench);
     }
   }
 
@@ -138,8 +139,9 @@ class LoopKinematics {
   void addClosure(const Mechanism& mechanism, const Closure& closure);
   void addRows(std::size_t closure, ClosureType type);
   void moveLink(std::size_t k, const Motion& motion);
-  double workOf(const Step& step, std::size_t closure, const ClosureWrench& wrench) const;
+  double workOf(const Step& step, const Eigen::Vector3d& at, const ClosureWrench& wrench) const;
   PointState pointOf(const Frame& frame) const;
+  void setRates(Eigen::Index condition, const PointState& parent, const PointState& child);
   Eigen::Vector3d axis(const Frame& frame, int i) const;
 
   std::vector<JointConstants> joints_;
