@@ -82,25 +82,34 @@ void LoopForces::addCosts(const LoopScene& scene) {
   for (double& factor : joint_costs_) factor /= largest > 0 ? largest : 1;
 }
 
+// The generalized force of a multiplier's unit wrench is its row of the conditions' Jacobian.
 void LoopForces::setEntries() {
   for (std::size_t local = 0; local < unknowns_.of_closures.size(); ++local) {
     const LoopUnknowns::OfClosure& own = unknowns_.of_closures[local];
     Eigen::MatrixXd& entries = qr_.entriesOf(unknowns_.effort_rows.size() + local);
     for (std::size_t j = 0; j < own.columns.size(); ++j) {
       const LoopUnknowns::Column& column = own.columns[j];
+      const bool multiplies = column.condition >= 0;
       ClosureWrench& wrench = unit_wrenches_[static_cast<std::size_t>(own.first) + j];
-      wrench = column.condition < 0 ? kinematics_.unitEffort(own.closure)
-                                    : kinematics_.unitWrench(column.condition);
+      wrench = multiplies ? kinematics_.unitWrench(column.condition)
+                          : kinematics_.unitEffort(own.closure);
+      if (!multiplies) gatherForce(own, wrench);
       wrench.force *= column.unit;
       wrench.moment *= column.unit;
-      for (const int row : own.coordinates) gathered_[group_.coordinates[std::size_t(row)]] = 0;
-      kinematics_.addGeneralizedForce(own.closure, wrench, gathered_);
       for (std::size_t k = 0; k < own.coordinates.size(); ++k) {
         const std::size_t row = static_cast<std::size_t>(own.coordinates[k]);
-        entries(index(j), index(k)) = gathered_[group_.coordinates[row]] / unknowns_.row_units[row];
+        const int i = group_.coordinates[row];
+        const double force =
+            multiplies ? kinematics_.jacobian()(column.condition, i) : gathered_[i];
+        entries(index(j), index(k)) = column.unit * force / unknowns_.row_units[row];
       }
     }
   }
+}
+
+void LoopForces::gatherForce(const LoopUnknowns::OfClosure& own, const ClosureWrench& wrench) {
+  for (const int row : own.coordinates) gathered_[group_.coordinates[std::size_t(row)]] = 0;
+  kinematics_.addGeneralizedForce(own.closure, wrench, gathered_);
 }
 
 void LoopForces::setPosition() {

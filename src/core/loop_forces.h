@@ -72,6 +72,7 @@ class LoopForces {
  private:
   void addCosts(const LoopScene& scene);
   void setEntries();
+  void gatherForce(const LoopUnknowns::OfClosure& own, const ClosureWrench& wrench);
   void factorizeWhole();
   void bearLoad();
   void choose(const std::vector<Wrench>& tree_reactions);
