@@ -12,7 +12,8 @@ namespace {
 // What reflections leave of the columns of a front, relative to the longest, and is rounding.
 constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 constexpr double kWorstCondition = 1e6;
-constexpr double kFarFromTolerance = 1e-4;
+// The estimated condition number is a lower bound, so that some distance is kept.
+constexpr double kFarFromTolerance = 1e-2;
 
 Eigen::Index size(const std::vector<int>& list) {
   return static_cast<Eigen::Index>(list.size());
