@@ -106,8 +106,9 @@ class ClosedLoopDynamics {
   const std::vector<double>& closureConditions() const;
 
   /// The tree that is left when closures and springs are cut. What these exert are applied wrenches
-  /// behind the scene's own, so that Certifier and LagrangeDynamics, which know of no loops, can be
-  /// made of it. Its efforts are those of the coordinates, without the actuated closures.
+  /// behind the scene's own, so that Certifier, LagrangeDynamics and ErrorBound, which know of no
+  /// loops, can be made of it. Its efforts are those of the coordinates, without the actuated
+  /// closures.
   const Scene& tree() const;
   /// Values of the wrenches behind the scene's own, of the motion computed last, root axes.
   const std::vector<Wrench>& treeWrenches() const;

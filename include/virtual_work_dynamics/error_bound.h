@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <memory>
 #include <vector>
@@ -28,6 +29,10 @@ class ErrorBound {
   ~ErrorBound();
   ErrorBound(ErrorBound&&) noexcept;
   ErrorBound& operator=(ErrorBound&&) noexcept;
+
+  /// As Workspace::setAppliedWrench().
+  void setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
+                        const Eigen::Vector3d& torque);
 
   /// Magnitudes of one sample. Does not allocate. Fixed joints are joints like others.
   /// @param least what every number counts as at least. Rounding errors are relative down to the

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "core/input_checks.h"
 #include "core/joint_terms.h"
+#include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
 
@@ -26,6 +28,19 @@ struct LinkNorms {
   double first = 0;   // m |r_C|
   double second = 0;  // of the inertia about the link's origin
   WrenchMagnitude applied;
+};
+
+// Norms of an applied wrench.
+struct AppliedNorms {
+  std::size_t link = 0;
+  long double arm = 0;
+  WrenchMagnitude value;  // about the link's origin
+
+  void set(const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
+    const long double f = force.cast<long double>().norm();
+    const long double t = torque.cast<long double>().norm();
+    value = {static_cast<double>(f), static_cast<double>(t + arm * f)};
+  }
 };
 
 // What a link's motion adds up to.
@@ -76,12 +91,11 @@ struct ErrorBound::Impl {
     for (const Joint& joint : mechanism.joints()) joints.push_back(normsOf(joint));
     for (const Link& link : mechanism.links()) links.push_back(normsOf(link));
     for (const AppliedWrench& applied : scene.applied_wrenches) {
-      WrenchMagnitude& sum = links[linkOf(mechanism, applied)].applied;
-      const long double force = applied.force.cast<long double>().norm();
-      const long double arm = applied.at.cast<long double>().norm();
-      const long double torque = applied.torque.cast<long double>().norm();
-      sum.force += static_cast<double>(force);
-      sum.moment += static_cast<double>(torque + arm * force);
+      AppliedNorms norms;
+      norms.link = static_cast<std::size_t>(linkOf(mechanism, applied));
+      norms.arm = applied.at.cast<long double>().norm();
+      norms.set(applied.force, applied.torque);
+      applied_wrenches.push_back(norms);
     }
     motions[0].gamma = static_cast<double>(scene.gravity.cast<long double>().norm());
     measureDepths();
@@ -138,6 +152,15 @@ struct ErrorBound::Impl {
     }
   }
 
+  void addApplied() {
+    for (LinkNorms& link : links) link.applied = {};
+    for (const AppliedNorms& applied : applied_wrenches) {
+      WrenchMagnitude& sum = links[applied.link].applied;
+      sum.force += applied.value.force;
+      sum.moment += applied.value.moment;
+    }
+  }
+
   // (3.5), (3.6)
   void load(std::size_t i) {
     const LinkNorms& link = links[i];
@@ -172,6 +195,7 @@ struct ErrorBound::Impl {
   double least = 0;
   std::vector<JointNorms> joints;
   std::vector<LinkNorms> links;
+  std::vector<AppliedNorms> applied_wrenches;
   std::vector<ResolvedJointTerms> terms;
   std::vector<MotionSums> motions;  // of links
   std::vector<double> slides;       // of joints
@@ -188,12 +212,21 @@ ErrorBound::~ErrorBound() = default;
 ErrorBound::ErrorBound(ErrorBound&&) noexcept = default;
 ErrorBound& ErrorBound::operator=(ErrorBound&&) noexcept = default;
 
+void ErrorBound::setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
+                                  const Eigen::Vector3d& torque) {
+  if (index >= impl_->applied_wrenches.size()) {
+    throw SceneError("the scene has no applied wrench " + std::to_string(index));
+  }
+  impl_->applied_wrenches[index].set(force, torque);
+}
+
 void ErrorBound::compute(const Motion& motion, double least) {
   Impl& impl = *impl_;
   impl.least = least;
   requireLengths(motion, static_cast<Eigen::Index>(impl.efforts.size()));
   std::fill(impl.efforts.begin(), impl.efforts.end(), 0.0);
   for (std::size_t k = 0; k < impl.joints.size(); ++k) impl.move(k, motion);
+  impl.addApplied();
   for (std::size_t i = 0; i < impl.links.size(); ++i) impl.load(i);
   for (std::size_t k = impl.joints.size(); k-- > 0;) impl.addToParent(k);
   for (const ResolvedJointTerms& term : impl.terms) impl.addTerms(term, motion);

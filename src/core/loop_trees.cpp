@@ -16,6 +16,15 @@ Scene withoutLoops(const Scene& scene) {
 
 namespace {
 
+std::vector<std::string> withoutClosures(const Mechanism& mechanism,
+                                         const std::vector<std::string>& names) {
+  std::vector<std::string> found;
+  for (const std::string& name : names) {
+    if (!isClosure(mechanism, name)) found.push_back(name);
+  }
+  return found;
+}
+
 Scene withSprings(const Scene& scene, const PointSprings& springs) {
   Scene tree = withoutLoops(scene);
   const std::vector<AppliedWrench> ends = springs.wrenches();
@@ -42,6 +51,18 @@ Scene closedTreeScene(const Scene& scene, const PointSprings& springs) {
       tree.applied_wrenches.push_back(wrench);
     }
   }
+  return tree;
+}
+
+bool isClosure(const Mechanism& mechanism, const std::string& name) {
+  return name != kGround && mechanism.jointIndex(name) < 0;
+}
+
+Request treeRequest(const Mechanism& mechanism, const Request& request) {
+  Request tree;
+  tree.efforts = request.efforts;
+  tree.child_axes = withoutClosures(mechanism, request.child_axes);
+  tree.root_axes = withoutClosures(mechanism, request.root_axes);
   return tree;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/point_springs.h"
+#include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/scene.h"
 
 namespace virtual_work_dynamics {
@@ -18,5 +19,11 @@ Scene openTreeScene(const Scene& scene, const PointSprings& springs);
 /// For the reactions with closures. Behind the springs' wrenches each closure has two more, on its
 /// child and on its parent, at the origins of its frames.
 Scene closedTreeScene(const Scene& scene, const PointSprings& springs);
+
+/// Whether a name of a reaction is that of a closure, which the tree does not have.
+bool isClosure(const Mechanism& mechanism, const std::string& name);
+
+/// The efforts and reactions of a request that the tree has, in its order.
+Request treeRequest(const Mechanism& mechanism, const Request& request);
 
 }  // namespace virtual_work_dynamics

@@ -1,35 +1,15 @@
 #include "offline/loop_lagrange.h"
 
+#include "core/loop_trees.h"
+
 namespace virtual_work_dynamics {
 namespace {
 
-using Names = std::vector<std::string>;
-
-bool isClosure(const Mechanism& mechanism, const std::string& name) {
-  return name != kGround && mechanism.jointIndex(name) < 0;
-}
-
-Names ofTree(const Mechanism& mechanism, const Names& names) {
-  Names found;
-  for (const std::string& name : names) {
-    if (!isClosure(mechanism, name)) found.push_back(name);
-  }
-  return found;
-}
-
-std::vector<int> placesOf(const Mechanism& mechanism, const Names& names) {
+std::vector<int> placesOf(const Mechanism& mechanism, const std::vector<std::string>& names) {
   std::vector<int> places;
   int next = 0;
   for (const std::string& name : names) places.push_back(isClosure(mechanism, name) ? -1 : next++);
   return places;
-}
-
-Request treeRequest(const Mechanism& mechanism, const Request& request) {
-  Request tree;
-  tree.efforts = request.efforts;
-  tree.child_axes = ofTree(mechanism, request.child_axes);
-  tree.root_axes = ofTree(mechanism, request.root_axes);
-  return tree;
 }
 
 void merge(const std::vector<int>& places, const std::vector<Wrench>& of_tree,

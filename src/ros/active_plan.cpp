@@ -66,7 +66,11 @@ ActivePlan::ActivePlan(const Mechanism& mechanism, const Scene& scene, const Req
   if (needsClosedLoops(scene)) {
     loops = compileLoops(mechanism, scene, request, audience, checks);
     messages.setComputed(loops->results().request());
-    if (checks.certificates && !isEmpty(loops->results().request())) {
+    if (isEmpty(loops->results().request())) return;
+    if (checks.cross_check) {
+      cross_check = std::make_shared<CrossCheckSlot>(mechanism, loops->results());
+    }
+    if (checks.certificates) {
       certifier.emplace(mechanism, loops->results().tree());
       ground = Certifier::groundIndex(loops->results().request());
     }

@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "core/loop_trees.h"
+
 namespace virtual_work_dynamics {
 namespace {
 
@@ -18,14 +20,9 @@ constexpr std::chrono::milliseconds kPoll{20};
 constexpr double kSmallestSum =
     std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 
-std::vector<std::size_t> magnitudesOf(const Mechanism& mechanism,
-                                      const std::vector<std::string>& joints) {
-  std::vector<std::size_t> places;
-  for (const std::string& joint : joints) {
-    const int index = joint == kGround ? -1 : mechanism.jointIndex(joint);
-    places.push_back(static_cast<std::size_t>(index + 1));
-  }
-  return places;
+Request withEfforts(Request request) {
+  request.efforts = true;
+  return request;
 }
 
 double relative(double difference, double sum) {
@@ -61,19 +58,43 @@ void yieldToOthers() {
 
 CrossCheckSlot::CrossCheckSlot(const Mechanism& mechanism, const Scene& scene,
                                const Request& request)
+    : CrossCheckSlot(mechanism, scene, request, request, 0) {}
+
+CrossCheckSlot::CrossCheckSlot(const Mechanism& mechanism, const ClosedLoopDynamics& loops)
+    : CrossCheckSlot(mechanism, loops.tree(), loops.request(),
+                     withEfforts(treeRequest(mechanism, loops.request())),
+                     loops.treeWrenches().size()) {}
+
+CrossCheckSlot::CrossCheckSlot(const Mechanism& mechanism, const Scene& tree,
+                               const Request& request, const Request& compared,
+                               std::size_t tree_wrenches)
     : coordinates_(mechanism.coordinateNames()),
-      child_magnitudes_(magnitudesOf(mechanism, request.child_axes)),
-      root_magnitudes_(magnitudesOf(mechanism, request.root_axes)),
-      lagrange_(mechanism, scene, request),
-      bound_(mechanism, scene),
+      child_compared_(comparedOf(mechanism, request.child_axes)),
+      root_compared_(comparedOf(mechanism, request.root_axes)),
+      own_wrenches_(tree.applied_wrenches.size() - tree_wrenches),
+      lagrange_(mechanism, tree, compared),
+      bound_(mechanism, tree),
       motion_(lagrange_.coordinates()),
-      effort_(request.efforts ? lagrange_.coordinates() : 0),
+      effort_(compared.efforts ? lagrange_.coordinates() : 0),
       child_axes_(request.child_axes.size()),
-      root_axes_(request.root_axes.size()) {}
+      root_axes_(request.root_axes.size()),
+      tree_wrenches_(tree_wrenches) {}
+
+std::vector<CrossCheckSlot::Compared> CrossCheckSlot::comparedOf(
+    const Mechanism& mechanism, const std::vector<std::string>& joints) {
+  std::vector<Compared> compared;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (isClosure(mechanism, joints[i])) continue;
+    const int index = joints[i] == kGround ? -1 : mechanism.jointIndex(joints[i]);
+    compared.push_back({i, static_cast<std::size_t>(index + 1)});
+  }
+  return compared;
+}
 
 bool CrossCheckSlot::offer(const Motion& motion, const Eigen::VectorXd& effort,
                            const std::vector<Wrench>& child_axes,
-                           const std::vector<Wrench>& root_axes) {
+                           const std::vector<Wrench>& root_axes,
+                           const std::vector<Wrench>& tree_wrenches) {
   State state = state_.load(std::memory_order_relaxed);
   if (state == State::kChecking) return false;
   if (state == State::kEmpty) offered_ = 0;
@@ -84,9 +105,10 @@ bool CrossCheckSlot::offer(const Motion& motion, const Eigen::VectorXd& effort,
     return false;
   }
   motion_ = motion;
-  effort_ = effort;
+  effort_ = effort.head(effort_.size());  // behind them those of closures
   child_axes_ = child_axes;
   root_axes_ = root_axes;
+  tree_wrenches_ = tree_wrenches;
   state_.store(State::kFull, std::memory_order_release);
   return true;
 }
@@ -96,16 +118,24 @@ std::optional<CrossCheckSlot::Finding> CrossCheckSlot::check() {
   if (!state_.compare_exchange_strong(state, State::kChecking, std::memory_order_acquire)) {
     return std::nullopt;
   }
+  applyTreeWrenches();
   lagrange_.compute(motion_);
   bound_.compute(motion_);
   const Request& request = lagrange_.request();
   Finding finding;
   compareEfforts(finding);
-  compareWrenches(child_axes_, lagrange_.childAxes(), request.child_axes, child_magnitudes_,
-                  finding);
-  compareWrenches(root_axes_, lagrange_.rootAxes(), request.root_axes, root_magnitudes_, finding);
+  compareWrenches(child_axes_, lagrange_.childAxes(), request.child_axes, child_compared_, finding);
+  compareWrenches(root_axes_, lagrange_.rootAxes(), request.root_axes, root_compared_, finding);
   state_.store(State::kEmpty, std::memory_order_release);
   return finding;
+}
+
+void CrossCheckSlot::applyTreeWrenches() {
+  for (std::size_t i = 0; i < tree_wrenches_.size(); ++i) {
+    const Wrench& wrench = tree_wrenches_[i];
+    lagrange_.setAppliedWrench(own_wrenches_ + i, wrench.force, wrench.torque);
+    bound_.setAppliedWrench(own_wrenches_ + i, wrench.force, wrench.torque);
+  }
 }
 
 void CrossCheckSlot::compareEfforts(Finding& finding) const {
@@ -120,12 +150,13 @@ void CrossCheckSlot::compareEfforts(Finding& finding) const {
 void CrossCheckSlot::compareWrenches(const std::vector<Wrench>& results,
                                      const std::vector<Wrench>& others,
                                      const std::vector<std::string>& joints,
-                                     const std::vector<std::size_t>& magnitudes,
+                                     const std::vector<Compared>& compared,
                                      Finding& finding) const {
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    const WrenchMagnitude& sum = bound_.wrenches()[magnitudes[i]];
-    const double force = distance(results[i].force, others[i].force);
-    const double moment = distance(results[i].torque, others[i].torque);
+  for (std::size_t i = 0; i < compared.size(); ++i) {
+    const WrenchMagnitude& sum = bound_.wrenches()[compared[i].magnitude];
+    const Wrench& result = results[compared[i].result];
+    const double force = distance(result.force, others[i].force);
+    const double moment = distance(result.torque, others[i].torque);
     keepLarger(relative(force, sum.force), "force at ", joints[i], finding);
     keepLarger(relative(moment, sum.moment), "moment at ", joints[i], finding);
   }

@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "virtual_work_dynamics/closed_loop_dynamics.h"
 #include "virtual_work_dynamics/error_bound.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/lagrange_dynamics.h"
@@ -36,10 +37,17 @@ class CrossCheckSlot {
   /// @throws SceneError as InverseDynamics does.
   CrossCheckSlot(const Mechanism& mechanism, const Scene& scene, const Request& request);
 
+  /// Of a mechanism with closed loops: its tree, with the wrenches that the loops were solved for
+  /// applied to it. Reactions of closures, which are these wrenches, are not compared; all efforts
+  /// are: that those of passive joints vanish says that the wrenches are a solution.
+  CrossCheckSlot(const Mechanism& mechanism, const ClosedLoopDynamics& loops);
+
   /// Computing thread: copies the sample in place of the one before if its turn has come, and says
   /// whether it has. Motion and results are of the plan's sizes.
+  /// @param tree_wrenches with closed loops, of ClosedLoopDynamics
   bool offer(const Motion& motion, const Eigen::VectorXd& effort,
-             const std::vector<Wrench>& child_axes, const std::vector<Wrench>& root_axes);
+             const std::vector<Wrench>& child_axes, const std::vector<Wrench>& root_axes,
+             const std::vector<Wrench>& tree_wrenches = {});
 
   /// Any thread: true while a sample waits to be checked.
   bool full() const { return state_.load(std::memory_order_acquire) == State::kFull; }
@@ -50,14 +58,26 @@ class CrossCheckSlot {
  private:
   enum class State { kEmpty, kWriting, kFull, kChecking };
 
+  // A reaction of the request that Lagrange's equations give as well.
+  struct Compared {
+    std::size_t result = 0;     // place in the request
+    std::size_t magnitude = 0;  // place in ErrorBound::wrenches()
+  };
+
+  CrossCheckSlot(const Mechanism& mechanism, const Scene& tree, const Request& request,
+                 const Request& compared, std::size_t tree_wrenches);
+  static std::vector<Compared> comparedOf(const Mechanism& mechanism,
+                                          const std::vector<std::string>& joints);
+  void applyTreeWrenches();
   void compareEfforts(Finding& finding) const;
   void compareWrenches(const std::vector<Wrench>& results, const std::vector<Wrench>& others,
                        const std::vector<std::string>& joints,
-                       const std::vector<std::size_t>& magnitudes, Finding& finding) const;
+                       const std::vector<Compared>& compared, Finding& finding) const;
 
   const std::vector<std::string> coordinates_;
-  std::vector<std::size_t> child_magnitudes_;  // places in ErrorBound::wrenches()
-  std::vector<std::size_t> root_magnitudes_;
+  // In the order of Lagrange's equations' request.
+  const std::vector<Compared> child_compared_, root_compared_;
+  const std::size_t own_wrenches_;  // of the scene, before those of the tree
   LagrangeDynamics<long double> lagrange_;
   ErrorBound bound_;
 
@@ -69,6 +89,7 @@ class CrossCheckSlot {
   Eigen::VectorXd effort_;
   std::vector<Wrench> child_axes_;
   std::vector<Wrench> root_axes_;
+  std::vector<Wrench> tree_wrenches_;
 };
 
 /// Checks now and then a sample of the plan in use against the paper's other formalism, in a thread

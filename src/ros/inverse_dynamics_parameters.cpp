@@ -105,17 +105,6 @@ LoopLimits readLoopLimits(PrivateParameters& parameters) {
   return limits;
 }
 
-void refuseCrossCheckOfLoops(const InverseDynamicsParameters& parameters) {
-  const SelfCheckSettings& checks = parameters.self_check;
-  if (!needsClosedLoops(parameters.scene)) return;
-  if (checks.cross_check_rate > 0) {
-    throw parameterError(
-        "cross_check_rate",
-        numberText(checks.cross_check_rate) +
-            " is for open chains; the scene has closures, springs or passive joints");
-  }
-}
-
 }  // namespace
 
 InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& private_node) {
@@ -136,7 +125,6 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   const YAML::Node scene = xmlRpcToYaml(parameters.raw("scene"), "scene");
   parameters.refuseUnknown();
   result.scene = readScene(scene);
-  refuseCrossCheckOfLoops(result);
   readRobotDescription(private_node, result);
   return result;
 }

@@ -116,8 +116,13 @@ void SampleComputation::check(ActivePlan& plan) {
 
 // Singular positions need not bear the load.
 void SampleComputation::checkLoops(ActivePlan& plan) {
-  if (!plan.certifier || plan.loops->singular()) return;
+  if (plan.loops->singular()) return;
   const ClosedLoopDynamics& results = plan.loops->results();
+  if (plan.cross_check) {
+    plan.cross_check->offer(motion_, results.effort(), results.childAxes(), results.rootAxes(),
+                            results.treeWrenches());
+  }
+  if (!plan.certifier) return;
   results.applyTo(*plan.certifier);
   tree_effort_ = results.effort().head(tree_effort_.size());
   const Wrench& ground = results.childAxes()[plan.ground];

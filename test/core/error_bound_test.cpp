@@ -145,6 +145,39 @@ TEST(ErrorBound, CountsAppliedWrenches) {
   expectNear(bound.wrenches()[1].moment, 2 * (7 + 2 * 5) + 0.4 * 2 * 5);
 }
 
+TEST(ErrorBound, CountsAppliedWrenchesAsTheyAreSet) {
+  const Mechanism mechanism = turningSlide().build();
+  Scene scene;
+  scene.applied_wrenches.resize(2);
+  scene.applied_wrenches[0].link = "link_1";
+  scene.applied_wrenches[0].force << 9, 9, 9;
+  scene.applied_wrenches[1].link = "link_2";
+  scene.applied_wrenches[1].at << 0, 0, 2;
+  ErrorBound set(mechanism, scene);
+  set.setAppliedWrench(0, {0, 0, 1}, {0, 8, 0});
+  set.setAppliedWrench(1, {3, 0, 4}, {-7, 0, 0});
+  scene.applied_wrenches[0].force << 0, 0, 1;
+  scene.applied_wrenches[0].torque << 0, 8, 0;
+  scene.applied_wrenches[1].force << 3, 0, 4;
+  scene.applied_wrenches[1].torque << -7, 0, 0;
+  ErrorBound compiled(mechanism, scene);
+  for (ErrorBound* bound : {&set, &compiled}) {
+    bound->compute(someMotion());
+    bound->compute(someMotion());  // is not added twice
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(set.wrenches()[i].force, compiled.wrenches()[i].force);
+    EXPECT_EQ(set.wrenches()[i].moment, compiled.wrenches()[i].moment);
+  }
+  EXPECT_EQ(set.efforts(), compiled.efforts());
+  scene.applied_wrenches.clear();
+  ErrorBound without(mechanism, scene);
+  without.compute(someMotion());
+  expectNear(set.wrenches()[2].force, without.wrenches()[2].force + 5);
+  expectNear(set.wrenches()[2].moment, without.wrenches()[2].moment + 7 + 2 * 5);
+  EXPECT_THROW(set.setAppliedWrench(2, {0, 0, 0}, {0, 0, 0}), SceneError);
+}
+
 TEST(ErrorBound, CountsJointTermsAndGears) {
   RobotBuilder builder = turningSlide();
   builder.add(JointType::kRevolute, 2, Vector3l::UnitX(), Matrix3l::Identity(), {0, 0, 0});

@@ -244,6 +244,41 @@ TEST_F(LoopPlans, AreCertifiedOutOfSingularPositions) {
   }
 }
 
+TEST_F(LoopPlans, AreCrossCheckedOutOfSingularPositions) {
+  Audience only_effort, only_wrenches, only_determinacy;
+  only_effort.effort = true;
+  only_wrenches.wrenches = {3};
+  only_determinacy.determinacy = true;
+  const auto compileChecked = [&](const Audience& audience) {
+    return std::make_unique<ActivePlan>(mechanism, scene, requestFor(audience, reactions, true),
+                                        audience, "", PlanChecks{true, false});
+  };
+  EXPECT_FALSE(compileChecked(Audience())->cross_check);
+  for (const Audience& audience : {everything(), only_effort, only_wrenches, only_determinacy}) {
+    const auto plan = compileChecked(audience);
+    ASSERT_TRUE(plan->cross_check);
+    Motion violating = SliderCrank::motion(0.7, 1.5, -2);
+    violating.q[2] += 0.01;
+    violating.qd[1] += 0.1;
+    for (const Motion& motion : {SliderCrank::motion(0.7, 1.5, -2), violating}) {
+      ASSERT_EQ(compute(*plan, motion), Outcome::kDone);
+      const auto finding = plan->cross_check->check();
+      ASSERT_TRUE(finding);
+      EXPECT_LE(finding->largest, kSound);
+      EXPECT_FALSE(finding->where.empty());
+    }
+    ASSERT_EQ(compute(*plan, SliderCrank::motion(0, 1.5, 0)), Outcome::kDone);
+    EXPECT_FALSE(plan->cross_check->full());
+    samples.motion() = violating;
+    const AllocationGuard guard;
+    const Outcome outcome = samples.compute(*plan, 1);
+    const std::size_t allocations = guard.allocations();
+    EXPECT_EQ(outcome, Outcome::kDone);
+    EXPECT_EQ(allocations, 0u);
+    EXPECT_TRUE(plan->cross_check->full());
+  }
+}
+
 class LoopPlansOfTheCrank : public LoopPlans {
  protected:
   LoopPlansOfTheCrank() : LoopPlans("joint_1") {}

@@ -52,8 +52,9 @@ class LoopMotions(LoopTest):
         self.assertLess(float(values['residual, largest (relative)']), 1e-9)
         self.assertEqual((values['rank'], values['redundant constraints']), ('3', '3'))
 
-    def test_certificates(self):
-        self.start('reaction/wrist_pin', parameters={'certificates': True})
+    def test_certificates_and_cross_check(self):
+        self.start('reaction/wrist_pin', 'reactions',
+                   parameters={'certificates': True, 'cross_check_rate': 1000})
         stamps = [EPOCH + STEP * i for i in range(30)]
         for ns in stamps:
             q, qd, _ = CRANK(ns)
@@ -61,9 +62,14 @@ class LoopMotions(LoopTest):
         self.assertStamps(self.recorders['reaction/wrist_pin'].wait(22), stamps[LAG:-LAG])
         kinds = ['certificate: %s (largest, relative)' % kind
                  for kind in ('power', 'ground force', 'ground moment')]
+        kinds.append('cross-check, largest difference (relative)')
         values = self.node.diagnostics(lambda values: all(kind in values for kind in kinds),
-                                       'the certificates')
+                                       'certificates and a cross-check')
         self.assertEqual(values['certificates'], 'on')
+        self.assertEqual(values['cross-check'], 'up to 1000 a second')
+        self.assertGreater(float(values[kinds[-1]]), 0)
+        self.assertRegex(values['cross-check, where'],
+                         '^(effort of|force at|moment at) (%s)$' % '|'.join(JOINTS + ['ground']))
         for kind in kinds:
             self.assertLess(float(values[kind]), SOUND, kind)
         for status in self.node.statuses():

@@ -169,8 +169,6 @@ BAD_PARAMETERS = {
                                          ["'pin' cannot be assembled", 'open by 1 m']),
     'actuated_joints_too_few': ({'scene': {'actuated': ['hinge']}}, ["'wrist'"]),
     'actuated_joint_that_is_unknown': (loop(actuated=['knee']), ["'knee'"]),
-    'cross_check_of_closed_loops': (dict(loop(), cross_check_rate=10),
-                                    ['~cross_check_rate: 10 is for open chains']),
     'period_zero': ({'diagnostic_period': 0}, ['~diagnostic_period', '0 s']),
     'negative_threshold': ({'late_threshold': -1.0}, ['~late_threshold', '-1 s']),
 }
