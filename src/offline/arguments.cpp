@@ -42,7 +42,7 @@ What is computed
                         change of momentum, relative to the sum of all terms' magnitudes
   --loop-tolerance X    how far the motion may violate closed loops, relative to the loops' size
                         and to the largest rate and acceleration (default: 1e-6)
-  --threads N           divides the rows among N threads (default: 1); closed loops take one
+  --threads N           divides the rows among N threads (default: 1)
 
 Output
   --output FILE         result as CSV (default: standard output); FILE is complete or not there

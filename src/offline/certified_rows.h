@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "offline/loop_sample.h"
 #include "virtual_work_dynamics/certificates.h"
-#include "virtual_work_dynamics/closed_loop_dynamics.h"
 
 namespace virtual_work_dynamics {
 
@@ -28,17 +28,18 @@ class CertifiedRows {
     cells.insert(cells.end(), {found.power, found.ground_force, found.ground_moment});
   }
 
-  /// Of a mechanism with closed loops, whose tree() this was made of. Singular positions, which
+  /// Of a mechanism with closed loops, of whose tree this was made. Singular positions, which
   /// need not bear the load, are not certified.
   template <typename Results>
-  void check(const Motion& motion, const ClosedLoopDynamics& loops, const Results& results,
-             std::size_t line, std::vector<double>& cells) {
-    if (loops.determinacy().free_motions > 0) {
+  void check(const LoopSample& loops, const Results& results, std::size_t line,
+             std::vector<double>& cells) {
+    if (loops.singular()) {
       ++singular_;
       cells.insert(cells.end(), 3, std::numeric_limits<double>::quiet_NaN());
       return;
     }
     loops.applyTo(certifier_);
+    const Motion& motion = loops.motion();
     const Certificates found = certifier_.check(motion, results.effort().head(motion.q.size()),
                                                 results.childAxes()[ground_]);
     note(found, line);

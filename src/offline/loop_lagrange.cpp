@@ -28,11 +28,11 @@ LoopLagrange::LoopLagrange(const Mechanism& mechanism, const ClosedLoopDynamics&
       child_axes_(child_places_.size()),
       root_axes_(root_places_.size()) {}
 
-void LoopLagrange::compute(const Motion& motion, const ClosedLoopDynamics& loops) {
+void LoopLagrange::compute(const LoopSample& loops) {
   loops.applyTo(lagrange_);
-  lagrange_.compute(motion);
+  lagrange_.compute(loops.motion());
   effort_ = loops.effort();
-  if (loops.request().efforts) effort_.head(motion.q.size()) = lagrange_.effort();
+  if (lagrange_.request().efforts) effort_.head(lagrange_.coordinates()) = lagrange_.effort();
   merge(child_places_, lagrange_.childAxes(), loops.childAxes(), child_axes_);
   merge(root_places_, lagrange_.rootAxes(), loops.rootAxes(), root_axes_);
 }

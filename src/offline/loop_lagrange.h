@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "offline/loop_sample.h"
 #include "virtual_work_dynamics/closed_loop_dynamics.h"
 #include "virtual_work_dynamics/lagrange_dynamics.h"
 
@@ -19,8 +20,8 @@ class LoopLagrange {
   /// Of the same request.
   LoopLagrange(const Mechanism& mechanism, const ClosedLoopDynamics& loops);
 
-  /// @param loops computed for the same motion
-  void compute(const Motion& motion, const ClosedLoopDynamics& loops);
+  /// Of the same motion.
+  void compute(const LoopSample& loops);
 
   // In the order of the request; efforts of actuated closures behind those of coordinates.
   const Eigen::VectorXd& effort() const { return effort_; }

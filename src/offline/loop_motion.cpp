@@ -79,7 +79,6 @@ LoopMotion::LoopMotion(const std::string& path, const Mechanism& mechanism, cons
     : closures_(namesOf(scene.closures)),
       tolerance_(tolerance),
       file_(readMotion(path, mechanism, Choice(path, mechanism, dynamics))),
-      motion_(dynamics.coordinates()),
       completed_(dynamics.coordinates()),
       follower_(mechanism, dynamics) {
   const Names& all = mechanism.coordinateNames();
@@ -103,44 +102,37 @@ LoopMotion::LoopMotion(const std::string& path, const Mechanism& mechanism, cons
   }
 }
 
-void LoopMotion::compute(std::size_t row, ClosedLoopDynamics& dynamics) {
-  take(row);
-  if (positions_follow_ || velocities_follow_ || accelerations_follow_) {
-    completePassive(row, dynamics);
-  }
-  dynamics.compute(motion_);
-  checkLoops(row, dynamics);
-}
-
-void LoopMotion::take(std::size_t row) {
+void LoopMotion::take(std::size_t row, Motion& motion) const {
   const MotionTable& table = file_.table;
   const auto index = static_cast<Eigen::Index>(row);
   for (std::size_t i = 0; i < coordinates_.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    motion_.q[coordinates_[i]] = table.positions(index, column);
-    motion_.qd[coordinates_[i]] = table.velocities(index, column);
-    motion_.qdd[coordinates_[i]] = table.accelerations(index, column);
+    motion.q[coordinates_[i]] = table.positions(index, column);
+    motion.qd[coordinates_[i]] = table.velocities(index, column);
+    motion.qdd[coordinates_[i]] = table.accelerations(index, column);
   }
 }
 
-void LoopMotion::completePassive(std::size_t row, ClosedLoopDynamics& dynamics) {
-  completed_ = motion_;
+void LoopMotion::complete(std::size_t row, ClosedLoopDynamics& dynamics, Motion& motion) {
+  take(row, motion);
+  if (!completes()) return;
+  completed_ = motion;
   const bool closes =
       positions_follow_ ? follower_.complete(completed_, dynamics) : dynamics.complete(completed_);
   if (!closes) throwOpen(row, dynamics);
-  if (positions_follow_) motion_.q = completed_.q;
-  if (velocities_follow_) motion_.qd = completed_.qd;
-  if (accelerations_follow_) motion_.qdd = completed_.qdd;
+  if (positions_follow_) motion.q = completed_.q;
+  if (velocities_follow_) motion.qd = completed_.qd;
+  if (accelerations_follow_) motion.qdd = completed_.qdd;
 }
 
-void LoopMotion::checkLoops(std::size_t row, const ClosedLoopDynamics& dynamics) const {
+void LoopMotion::check(std::size_t row, const LoopSample& computed) const {
   for (std::size_t i = 0; i < closures_.size(); ++i) {
     for (const Level& level : kLevels) {
-      const double relative = dynamics.relativeResiduals()[i].*level.residual;
+      const double relative = computed.relativeResiduals()[i].*level.residual;
       if (relative <= tolerance_) continue;
       std::ostringstream text;
       text << file_.at(row) << ": the " << level.name << " violate closure '" << closures_[i]
-           << "' by " << dynamics.residuals()[i].*level.residual << " " << level.unit << ", "
+           << "' by " << computed.residuals()[i].*level.residual << " " << level.unit << ", "
            << relative << " relative; the tolerance is " << tolerance_;
       throw FileError(text.str());
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/loop_follower.h"
+#include "offline/loop_sample.h"
 #include "offline/motion_file.h"
 #include "virtual_work_dynamics/closed_loop_dynamics.h"
 
@@ -23,18 +24,20 @@ class LoopMotion {
              const ClosedLoopDynamics& dynamics, double tolerance);
 
   const MotionFile& file() const { return file_; }
-  /// Of all coordinates, of the row computed last.
-  const Motion& motion() const { return motion_; }
 
-  /// Computes a row. Positions that it lacks are searched for from those of the row computed
-  /// before, of the first row from the assembly.
-  /// @throws FileError naming line, closure and amount when a loop is not closed.
-  void compute(std::size_t row, ClosedLoopDynamics& dynamics);
+  /// Whether anything in its rows follows from the closures.
+  bool completes() const {
+    return positions_follow_ || velocities_follow_ || accelerations_follow_;
+  }
+  /// The motion of all coordinates in a row. Positions that it lacks are searched for from those of
+  /// the row completed before, of the first row from the assembly.
+  /// @throws FileError naming line, closure and amount when the loops cannot be closed.
+  void complete(std::size_t row, ClosedLoopDynamics& dynamics, Motion& motion);
+  /// @throws FileError naming line, closure and amount when the row, computed, violates a loop.
+  void check(std::size_t row, const LoopSample& computed) const;
 
  private:
-  void take(std::size_t row);
-  void completePassive(std::size_t row, ClosedLoopDynamics& dynamics);
-  void checkLoops(std::size_t row, const ClosedLoopDynamics& dynamics) const;
+  void take(std::size_t row, Motion& motion) const;
   [[noreturn]] void throwOpen(std::size_t row, ClosedLoopDynamics& dynamics) const;
 
   std::vector<std::string> closures_;
@@ -43,7 +46,6 @@ class LoopMotion {
   std::vector<Eigen::Index> coordinates_;  // of the file's columns
   // What of the passive joints follows from the closures.
   bool positions_follow_ = false, velocities_follow_ = false, accelerations_follow_ = false;
-  Motion motion_;
   Motion completed_;
   LoopFollower follower_;
 };

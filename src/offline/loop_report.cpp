@@ -122,7 +122,7 @@ void printLoops(std::ostream& out, const Mechanism& mechanism, const Scene& scen
   printCount(out, "conditions of the closures", conditions);
   printCount(out, "redundant constraints", found.redundant_constraints);
   printCount(out, "redundancy, unknown forces less rank", found.redundancy);
-  if (inSingularPosition(dynamics)) {
+  if (found.free_motions > 0) {
     printCount(out, "a singular position, free motions", found.free_motions);
   }
   printUndetermined(out, mechanism, dynamics);

@@ -8,8 +8,8 @@
 namespace virtual_work_dynamics {
 namespace {
 
-const std::vector<Determined>& flagsOf(const ClosedLoopDynamics& dynamics, bool child_axes) {
-  return child_axes ? dynamics.childAxesDetermined() : dynamics.rootAxesDetermined();
+const std::vector<Determined>& flagsOf(const LoopSample& sample, bool child_axes) {
+  return child_axes ? sample.childAxesDetermined() : sample.rootAxesDetermined();
 }
 
 }  // namespace
@@ -38,27 +38,23 @@ std::vector<std::string> loopColumns(const Columns& results, const std::vector<C
   return columns;
 }
 
-void appendLoopCells(const ClosedLoopDynamics& dynamics, const Columns& results, bool child_axes,
+void appendLoopCells(const LoopSample& sample, const Columns& results, bool child_axes,
                      std::vector<double>& cells) {
   for (std::size_t i = 0; i < results.efforts.size(); ++i) {
-    cells.push_back(dynamics.effortDetermined()[i] ? 1 : 0);
+    cells.push_back(sample.effortDetermined()[i] ? 1 : 0);
   }
   for (std::size_t i = 0; i < results.reactions.size(); ++i) {
-    for (const bool flag : flagsOf(dynamics, child_axes)[i]) cells.push_back(flag ? 1 : 0);
+    for (const bool flag : flagsOf(sample, child_axes)[i]) cells.push_back(flag ? 1 : 0);
   }
-  const std::vector<ClosureResidual>& residuals = dynamics.residuals();
+  const std::vector<ClosureResidual>& residuals = sample.residuals();
   for (const ClosureResidual& residual : residuals) cells.push_back(residual.position);
   for (const ClosureResidual& residual : residuals) cells.push_back(residual.velocity);
   for (const ClosureResidual& residual : residuals) cells.push_back(residual.acceleration);
 }
 
-bool inSingularPosition(const ClosedLoopDynamics& dynamics) {
-  return dynamics.determinacy().free_motions > 0;
-}
-
-void Conditions::note(std::size_t row, const ClosedLoopDynamics& dynamics) {
-  const double condition = dynamics.determinacy().condition;
-  if (inSingularPosition(dynamics)) return;
+void Conditions::note(std::size_t row, const LoopSample& sample) {
+  const double condition = sample.determinacy().condition;
+  if (sample.singular()) return;
   if (condition > kCloseToSingular) ++close_;
   if (condition <= largest_) return;
   largest_ = condition;
@@ -74,13 +70,13 @@ std::string Conditions::worst(const MotionFile& file) const {
   return text.str();
 }
 
-void leaveOutUndetermined(const ClosedLoopDynamics& dynamics, bool child_axes,
-                          Eigen::VectorXd& effort, std::vector<Wrench>& reactions) {
+void leaveOutUndetermined(const LoopSample& sample, bool child_axes, Eigen::VectorXd& effort,
+                          std::vector<Wrench>& reactions) {
   constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   for (Eigen::Index i = 0; i < effort.size(); ++i) {
-    if (!dynamics.effortDetermined()[static_cast<std::size_t>(i)]) effort[i] = kNothing;
+    if (!sample.effortDetermined()[static_cast<std::size_t>(i)]) effort[i] = kNothing;
   }
-  const std::vector<Determined>& flags = flagsOf(dynamics, child_axes);
+  const std::vector<Determined>& flags = flagsOf(sample, child_axes);
   for (std::size_t i = 0; i < reactions.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       const auto j = static_cast<std::size_t>(axis);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "offline/loop_sample.h"
 #include "offline/motion_file.h"
 #include "offline/result_writer.h"
 #include "virtual_work_dynamics/closed_loop_dynamics.h"
@@ -19,20 +20,15 @@ std::vector<std::string> namesOfEfforts(const Mechanism& mechanism,
 /// determined, and how far each closure is violated.
 std::vector<std::string> loopColumns(const Columns& results, const std::vector<Closure>& closures);
 
-/// Their cells, of the sample computed last.
+/// Their cells.
 /// @param results flags of these are appended; more than these may have been computed
-void appendLoopCells(const ClosedLoopDynamics& dynamics, const Columns& results, bool child_axes,
+void appendLoopCells(const LoopSample& sample, const Columns& results, bool child_axes,
                      std::vector<double>& cells);
-
-/// Whether the sample computed last is in a singular position: actuated joints and closures do not
-/// hold the mechanism there.
-bool inSingularPosition(const ClosedLoopDynamics& dynamics);
 
 /// How close rows come to singular positions.
 class Conditions {
  public:
-  /// Takes note of the sample computed last.
-  void note(std::size_t row, const ClosedLoopDynamics& dynamics);
+  void note(std::size_t row, const LoopSample& sample);
 
   /// "condition 12.3 at worst, line 7, at 0.5 s"
   std::string worst(const MotionFile& file) const;
@@ -46,7 +42,7 @@ class Conditions {
 };
 
 /// Makes NaN of what is not determined.
-void leaveOutUndetermined(const ClosedLoopDynamics& dynamics, bool child_axes,
-                          Eigen::VectorXd& effort, std::vector<Wrench>& reactions);
+void leaveOutUndetermined(const LoopSample& sample, bool child_axes, Eigen::VectorXd& effort,
+                          std::vector<Wrench>& reactions);
 
 }  // namespace virtual_work_dynamics

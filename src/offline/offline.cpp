@@ -8,6 +8,7 @@
 
 #include "offline/certified_rows.h"
 #include "offline/check_report.h"
+#include "offline/loop_computation.h"
 #include "offline/loop_lagrange.h"
 #include "offline/loop_motion.h"
 #include "offline/loop_report.h"
@@ -70,15 +71,10 @@ Columns columnsOf(const Names& with_efforts, const Request& written, const Argum
   return columns;
 }
 
-// What the command line asks for and mechanisms with loops do not have, or the other way round.
+// What the command line asks for and open chains do not have.
 void refuseByLoops(const Arguments& arguments, bool loops) {
-  if (!loops) {
-    if (arguments.loop_tolerance) throw UsageError("--loop-tolerance: the scene has no closures");
-    return;
-  }
-  if (arguments.threads != 1) {
-    throw UsageError("--threads: closed loops are solved in one thread, not in " +
-                     std::to_string(arguments.threads));
+  if (arguments.loop_tolerance && !loops) {
+    throw UsageError("--loop-tolerance: the scene has no closures");
   }
 }
 
@@ -116,16 +112,15 @@ void compute(LagrangeDynamics<long double>& dynamics, Rows& rows) {
 }
 
 // `lagrange`: null for virtual work.
-void compute(LoopMotion& motion, ClosedLoopDynamics& dynamics, LoopLagrange* lagrange, Rows& rows) {
-  for (std::size_t i = 0; i < rows.count(); ++i) {
-    motion.compute(i, dynamics);
+void compute(LoopComputation& computation, LoopLagrange* lagrange, Rows& rows) {
+  computation.run([&](std::size_t row, const LoopSample& sample) {
     if (lagrange) {
-      lagrange->compute(motion.motion(), dynamics);
-      rows.write(i, motion.motion(), dynamics, *lagrange);
+      lagrange->compute(sample);
+      rows.write(row, sample, *lagrange);
     } else {
-      rows.write(i, motion.motion(), dynamics, dynamics);
+      rows.write(row, sample, sample);
     }
-  }
+  });
 }
 
 void printReactions(const Request& request) {
@@ -163,10 +158,8 @@ void checkLoops(const Arguments& arguments, const Mechanism& mechanism, const Sc
   LoopMotion motion(arguments.motion, mechanism, scene, dynamics,
                     arguments.loop_tolerance.value_or(kLoopTolerance));
   Conditions conditions;
-  for (std::size_t i = 0; i < motion.file().lines.size(); ++i) {
-    motion.compute(i, dynamics);
-    conditions.note(i, dynamics);
-  }
+  LoopComputation(mechanism, scene, dynamics, motion, arguments.threads)
+      .run([&](std::size_t row, const LoopSample& sample) { conditions.note(row, sample); });
   printMotion(motion.file());
   printNames(std::cout, "closed loops", {conditions.worst(motion.file())});
 }
@@ -253,9 +246,9 @@ void computeLoops(const Arguments& arguments, const Mechanism& mechanism, const 
   addCertificates(arguments, columns);
   LoopMotion motion(arguments.motion, mechanism, scene, dynamics,
                     arguments.loop_tolerance.value_or(kLoopTolerance));
-  writeResult(
-      arguments, motion.file(), columns, certified ? &*certified : nullptr,
-      [&](Rows& rows) { compute(motion, dynamics, lagrange ? &*lagrange : nullptr, rows); });
+  LoopComputation computation(mechanism, scene, dynamics, motion, arguments.threads);
+  writeResult(arguments, motion.file(), columns, certified ? &*certified : nullptr,
+              [&](Rows& rows) { compute(computation, lagrange ? &*lagrange : nullptr, rows); });
 }
 
 }  // namespace

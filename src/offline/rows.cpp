@@ -27,8 +27,8 @@ const Motion& Rows::motion(std::size_t row) {
   return motion_;
 }
 
-void Rows::takeLoops(std::size_t row, const ClosedLoopDynamics& loops) {
-  if (inSingularPosition(loops)) {
+void Rows::takeLoops(std::size_t row, const LoopSample& loops) {
+  if (loops.singular()) {
     if (++singular_ == 1) first_singular_line_ = file_.lines[row];
     leaveOutUndetermined(loops, child_axes_, effort_, reactions_);
   }

@@ -10,10 +10,10 @@
 
 #include "offline/certified_rows.h"
 #include "offline/loop_rows.h"
+#include "offline/loop_sample.h"
 #include "offline/motion_file.h"
 #include "offline/progress.h"
 #include "offline/result_writer.h"
-#include "virtual_work_dynamics/closed_loop_dynamics.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 
 namespace virtual_work_dynamics {
@@ -42,11 +42,10 @@ class Rows {
 
   /// Of a mechanism with closed loops: its own results, or those of another formalism.
   template <typename Results>
-  void write(std::size_t row, const Motion& motion, const ClosedLoopDynamics& loops,
-             const Results& results) {
+  void write(std::size_t row, const LoopSample& loops, const Results& results) {
     take(row, results.effort(), child_axes_ ? results.childAxes() : results.rootAxes());
     takeLoops(row, loops);
-    if (certified_) certified_->check(motion, loops, results, file_.lines[row], more_);
+    if (certified_) certified_->check(loops, results, file_.lines[row], more_);
     put(row);
   }
 
@@ -56,7 +55,7 @@ class Rows {
  private:
   // Those that are written; certificates' own come behind them.
   void take(std::size_t row, const Eigen::VectorXd& effort, const std::vector<Wrench>& reactions);
-  void takeLoops(std::size_t row, const ClosedLoopDynamics& loops);
+  void takeLoops(std::size_t row, const LoopSample& loops);
   void put(std::size_t row);
 
   const MotionFile& file_;

@@ -52,6 +52,7 @@ set(core_test_files
   test/core/offline_loops_checks_test.cpp
   test/core/offline_loops_errors_test.cpp
   test/core/offline_loops_test.cpp
+  test/core/offline_loops_threads_test.cpp
   test/core/offline_plan_test.cpp
   test/core/offline_test.cpp
   test/core/plan_merging_test.cpp

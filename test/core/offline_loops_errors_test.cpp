@@ -90,8 +90,6 @@ TEST_F(OfflineLoops, TheDriveAloneDoesNotSayHowTheOthersLeaveASingularPosition) 
 TEST_F(OfflineLoops, WhatLoopsDoNotHaveIsRefused) {
   write("m.csv", kDriveMotion);
   const std::string start = "--scene s.yaml --motion m.csv ";
-  EXPECT_EQ(failure(start + "--threads 2", 2),
-            "--threads: closed loops are solved in one thread, not in 2");
   EXPECT_EQ(failure("--motion m.csv --loop-tolerance 1e-3", 2),
             "--loop-tolerance: the scene has no closures");
   for (const std::string text : {"0", "-1", "nan", "tight"}) {
