@@ -110,8 +110,8 @@ core_links_no_ros() {
 # Weak and unique symbols are those that the linker may take from any object.
 kernels_share_no_code() {
   local objects
-  mapfile -t objects < <(cd "$package_build/CMakeFiles/virtual_work_dynamics.dir" &&
-    find "$PWD" -path '*core/kernel/*.o' -o -path '*core/momentum/avx2*.o')
+  mapfile -t objects < <(find "$package_build"/CMakeFiles/virtual_work_dynamics{,_vectors}.dir \
+    -path '*core/kernel/*.o' -o -path '*core/momentum/avx2*.o')
   [[ ${#objects[@]} -ge 4 ]] || { echo "only ${#objects[@]} objects of kernels"; return 1; }
   printf '%s\n' "${objects[@]}"
   ! nm --demangle "${objects[@]}" | grep -E '^[0-9a-f]+ [WVu] '
