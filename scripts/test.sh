@@ -8,8 +8,8 @@ Usage: scripts/test.sh [--no-install]
 
 Builds with warnings as errors and runs: unit tests, tests through ROS, the core's tests under the
 address and undefined-behaviour sanitizers, the measurements' agreement with other libraries, the
-format check, catkin_lint, and checks that the core library links nothing of ROS and that nothing
-compiled for special instructions can serve elsewhere. Each check counts like a test. Results are in
+format check, the rules of the folders, tests of scripts, catkin_lint, and checks that the core
+library links nothing of ROS and that nothing compiled for special instructions can serve elsewhere. Each check counts like a test. Results are in
 build/test_results/.
   --no-install  do not install packages first
 END
@@ -111,10 +111,17 @@ core_links_no_ros() {
 kernels_share_no_code() {
   local objects
   mapfile -t objects < <(find "$package_build"/CMakeFiles/virtual_work_dynamics{,_vectors}.dir \
-    -path '*core/kernel/*.o' -o -path '*core/momentum/avx2*.o')
+    -path '*tree/kernel/*.o' -not -name 'kernel_choice*' -o -path '*witness/momentum/avx2*.o')
   [[ ${#objects[@]} -ge 4 ]] || { echo "only ${#objects[@]} objects of kernels"; return 1; }
   printf '%s\n' "${objects[@]}"
   ! nm --demangle "${objects[@]}" | grep -E '^[0-9a-f]+ [WVu] '
+}
+
+scripts_tests() {
+  local test
+  for test in test/scripts/*_test.py; do
+    PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 "$test" || return 1
+  done
 }
 
 # Ignored: find_package(catkin) behind an option, which counts as out of order; scripts, which are run
@@ -142,6 +149,8 @@ if check build_without_warnings build; then
   check contenders_agree contenders_agree || true
 fi
 check format format || true
+check architecture scripts/architecture.py || true
+check scripts scripts_tests || true
 check catkin_lint lint || true
 
 mkdir -p "$workspace/build/test_results"

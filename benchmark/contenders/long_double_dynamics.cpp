@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "core/aligned_memory.h"
-#include "core/kernel/joint_angles.h"
-#include "core/kernel/scratch.h"
-#include "core/plan.h"
+#include "base/aligned_memory.h"
+#include "tree/kernel/joint_angles.h"
+#include "tree/kernel/scratch.h"
+#include "tree/plan.h"
 
 namespace virtual_work_dynamics {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/loop_trees.h"
+#include "loops/cut_tree.h"
 #include "virtual_work_dynamics/error_bound.h"
 
 namespace virtual_work_dynamics {

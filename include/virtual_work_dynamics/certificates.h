@@ -4,7 +4,11 @@
 #include <cstddef>
 #include <memory>
 
-#include "virtual_work_dynamics/inverse_dynamics.h"
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/motion.h"
+#include "virtual_work_dynamics/request.h"
+#include "virtual_work_dynamics/results.h"
+#include "virtual_work_dynamics/scene.h"
 
 namespace virtual_work_dynamics {
 

@@ -1,39 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "virtual_work_dynamics/inverse_dynamics.h"
+#include "virtual_work_dynamics/request.h"
+#include "virtual_work_dynamics/results.h"
 
 namespace virtual_work_dynamics {
-
-/// How far a motion violates the conditions of one closure: the norm of those that are lengths or
-/// of those that are directions, whichever is the larger number.
-struct ClosureResidual {
-  double position = 0;      ///< m or rad
-  double velocity = 0;      ///< m/s or rad/s
-  double acceleration = 0;  ///< m/s^2 or rad/s^2
-};
-
-/// What rigid-body mechanics determines at one position, by the null space of [S^T A^T].
-struct Determinacy {
-  int rank = 0;                   ///< of [S^T A^T]
-  int redundant_constraints = 0;  ///< conditions less the rank of A
-  int redundancy = 0;             ///< unknowns less rank: redundant constraints and over-actuation
-  int free_motions = 0;           ///< that no actuated joint and no closure holds
-  double gap = 0;                 ///< between the entries that count for the rank and the others
-  double condition = 0;           ///< estimated, of what is determined
-};
-
-/// Close to a singular position, for practical purposes: forces may be as many times the load, and
-/// positions that are wrong by 1e-4 rad change them by as much as they are.
-constexpr double kCloseToSingular = 1e4;
-
-/// Six flags of a wrench: fx fy fz tx ty tz.
-using Determined = std::array<bool, 6>;
 
 /// Inverse dynamics of a mechanism with closures (3.1)-(3.4): the tree by InverseDynamics, its
 /// loops by multipliers, tau_tree = S^T tau + A^T lambda, and the reactions by (3.8) with the

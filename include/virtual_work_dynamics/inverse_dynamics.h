@@ -1,46 +1,18 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "virtual_work_dynamics/instruction_set.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/plan_summary.h"
+#include "virtual_work_dynamics/request.h"
+#include "virtual_work_dynamics/results.h"
 #include "virtual_work_dynamics/scene.h"
 
 namespace virtual_work_dynamics {
-
-/// Force and moment that the parent exerts on the child, moment about the joint origin O_k.
-struct Wrench {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m
-};
-
-/// Pose of a joint frame (the child link's frame) in the root link.
-struct Pose {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< m
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< R_0K
-};
-
-/// Velocity of a joint frame in root axes.
-struct Twist {
-  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< of the point O_k, m/s
-  Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< rad/s
-};
-
-/// What a consumer wants computed; what it does not name costs nothing. Names are joints or
-/// "ground"; the order is the order of the results.
-struct Request {
-  bool efforts = true;
-  std::vector<std::string> child_axes;  ///< reactions in the child link's axes
-  std::vector<std::string> root_axes;   ///< reactions in root axes, (4.3)
-  bool poses = false;                   ///< poses of the `root_axes` joints
-  bool twists = false;                  ///< twists of the `root_axes` joints
-};
 
 class Workspace;
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <sstream>
 
-#include "virtual_work_dynamics/number_text.h"
+#include "base/number_text.h"
 
 namespace virtual_work_dynamics {
 namespace {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/worker_threads.h"
+#include "base/worker_threads.h"
 #include "offline/loop_motion.h"
 #include "offline/loop_sample.h"
 #include "virtual_work_dynamics/closed_loop_dynamics.h"

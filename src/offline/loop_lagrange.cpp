@@ -1,6 +1,6 @@
 #include "offline/loop_lagrange.h"
 
-#include "core/loop_trees.h"
+#include "loops/cut_tree.h"
 
 namespace virtual_work_dynamics {
 namespace {

@@ -4,8 +4,8 @@
 #include <iostream>
 #include <sstream>
 
+#include "base/number_text.h"
 #include "virtual_work_dynamics/error.h"
-#include "virtual_work_dynamics/number_text.h"
 
 namespace virtual_work_dynamics {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/loop_follower.h"
+#include "loops/follower.h"
 #include "offline/loop_sample.h"
 #include "offline/motion_file.h"
 #include "virtual_work_dynamics/closed_loop_dynamics.h"

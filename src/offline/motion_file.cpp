@@ -7,9 +7,9 @@
 #include <sstream>
 #include <utility>
 
+#include "base/number_text.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/motion_completion.h"
-#include "virtual_work_dynamics/number_text.h"
 
 namespace virtual_work_dynamics {
 namespace {

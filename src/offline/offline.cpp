@@ -6,6 +6,7 @@
 #include <iterator>
 #include <optional>
 
+#include "base/number_text.h"
 #include "offline/certified_rows.h"
 #include "offline/check_report.h"
 #include "offline/loop_computation.h"
@@ -17,11 +18,10 @@
 #include "offline/output_file.h"
 #include "offline/result_writer.h"
 #include "offline/rows.h"
+#include "tree/sample_block.h"
 #include "virtual_work_dynamics/closed_loop_dynamics.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/lagrange_dynamics.h"
-#include "virtual_work_dynamics/number_text.h"
-#include "virtual_work_dynamics/sample_block.h"
 #include "virtual_work_dynamics/scene_reader.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 

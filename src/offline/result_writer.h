@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "offline/output_file.h"
-#include "virtual_work_dynamics/inverse_dynamics.h"
+#include "virtual_work_dynamics/results.h"
 
 namespace virtual_work_dynamics {
 

@@ -9,9 +9,9 @@
 #include "ros/cross_check.h"
 #include "ros/loop_plan.h"
 #include "ros/output_messages.h"
+#include "tree/sample_block.h"
 #include "virtual_work_dynamics/certificates.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
-#include "virtual_work_dynamics/sample_block.h"
 
 namespace virtual_work_dynamics {
 

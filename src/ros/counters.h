@@ -6,8 +6,8 @@
 #include <mutex>
 #include <string>
 
+#include "base/run_time_histogram.h"
 #include "ros/rejection.h"
-#include "virtual_work_dynamics/run_time_histogram.h"
 
 namespace virtual_work_dynamics {
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/loop_trees.h"
+#include "loops/cut_tree.h"
 
 namespace virtual_work_dynamics {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "virtual_work_dynamics/number_text.h"
+#include "base/number_text.h"
 
 namespace virtual_work_dynamics {
 namespace {

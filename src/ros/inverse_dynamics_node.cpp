@@ -9,8 +9,8 @@
 #include <memory>
 #include <utility>
 
+#include "base/number_text.h"
 #include "ros/message_text.h"
-#include "virtual_work_dynamics/number_text.h"
 
 namespace virtual_work_dynamics {
 namespace {

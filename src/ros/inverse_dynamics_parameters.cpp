@@ -2,10 +2,10 @@
 
 #include <ros/node_handle.h>
 
+#include "base/number_text.h"
 #include "ros/private_parameters.h"
 #include "ros/trajectory_queue.h"
 #include "ros/xmlrpc_to_yaml.h"
-#include "virtual_work_dynamics/number_text.h"
 #include "virtual_work_dynamics/scene_reader.h"
 
 namespace virtual_work_dynamics {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "ros/joint_lookup.h"
 #include "ros/message_text.h"
-#include "virtual_work_dynamics/number_text.h"
 
 namespace virtual_work_dynamics {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/loop_follower.h"
+#include "loops/follower.h"
 #include "ros/rejection.h"
 #include "ros/trajectory_conversion.h"
 #include "virtual_work_dynamics/closed_loop_dynamics.h"

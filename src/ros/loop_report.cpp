@@ -6,9 +6,9 @@
 #include <cstdio>
 #include <utility>
 
+#include "base/number_text.h"
 #include "ros/message_text.h"
 #include "ros/output_messages.h"
-#include "virtual_work_dynamics/number_text.h"
 
 namespace virtual_work_dynamics {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "virtual_work_dynamics/number_text.h"
+#include "base/number_text.h"
 
 namespace virtual_work_dynamics {
 namespace {

@@ -2,13 +2,13 @@
 
 #include <ros/console.h>
 
+#include "base/number_text.h"
 #include "ros/closure_frames.h"
 #include "ros/loop_report.h"
 #include "ros/message_text.h"
 #include "ros/private_parameters.h"
 #include "ros/topic_names.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
-#include "virtual_work_dynamics/number_text.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {

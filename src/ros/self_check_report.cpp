@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string>
 
-#include "virtual_work_dynamics/number_text.h"
+#include "base/number_text.h"
 
 namespace virtual_work_dynamics {
 namespace {

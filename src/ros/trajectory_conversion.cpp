@@ -6,10 +6,10 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/number_text.h"
 #include "ros/joint_lookup.h"
 #include "ros/message_text.h"
 #include "virtual_work_dynamics/error.h"
-#include "virtual_work_dynamics/number_text.h"
 #include "virtual_work_dynamics/spline.h"
 
 namespace virtual_work_dynamics {

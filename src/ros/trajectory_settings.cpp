@@ -3,10 +3,10 @@
 #include <cmath>
 #include <set>
 
+#include "base/number_text.h"
 #include "ros/message_text.h"
 #include "ros/sample_times.h"
 #include "virtual_work_dynamics/motion_csv.h"
-#include "virtual_work_dynamics/number_text.h"
 
 namespace virtual_work_dynamics {
 namespace {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "allocation_guard.h"
+#include "base/run_time_histogram.h"
 #include "four_bar.h"
 #include "sample_robots.h"
 #include "virtual_work_dynamics/block.h"
@@ -14,7 +15,6 @@
 #include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/lagrange_dynamics.h"
 #include "virtual_work_dynamics/motion_estimator.h"
-#include "virtual_work_dynamics/run_time_histogram.h"
 #include "virtual_work_dynamics/spline.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "core/plan.h"
 #include "newton_euler_oracle.h"
 #include "plain_results.h"
 #include "robot_builder.h"
 #include "sample_robots.h"
+#include "tree/plan.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "closed_loop_results.h"
-#include "core/loop_completion.h"
 #include "four_bar.h"
+#include "loops/completion.h"
 #include "robot_builder.h"
 #include "slider_crank.h"
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "closed_loop_results.h"
-#include "core/loop_groups.h"
 #include "four_bar.h"
+#include "loops/groups.h"
 #include "slider_crank.h"
 
 namespace virtual_work_dynamics {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "algebra/least_norms.h"
 #include "closed_loop_results.h"
-#include "core/least_norms.h"
 #include "robot_builder.h"
 
 namespace virtual_work_dynamics {

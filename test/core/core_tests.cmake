@@ -126,7 +126,7 @@ set(sanitizers "-fsanitize=address,undefined -fno-sanitize-recover=all")
 set(sanitized_library ${PROJECT_NAME}_sanitized)
 set(sanitized_tool offline_tool_of_sanitized_tests)  # what has "test" in its name is not installed
 add_library(${sanitized_library} SHARED ${core_files})
-add_executable(${sanitized_tool} ${offline_files})
+add_executable(${sanitized_tool} src/inverse_dynamics_offline_main.cpp ${offline_files})
 vwd_link_core(${sanitized_library} ${sanitized_tool})
 add_executable(sanitized_core_tests
   $<TARGET_OBJECTS:core_test_objects> ${core_test_files_of_build})

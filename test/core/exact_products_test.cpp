@@ -1,4 +1,4 @@
-#include "core/exact_products.h"
+#include "tree/exact_products.h"
 
 #include <gtest/gtest.h>
 

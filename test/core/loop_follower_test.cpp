@@ -1,9 +1,8 @@
-#include "core/loop_follower.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "loops/follower.h"
 #include "slider_crank.h"
 
 namespace virtual_work_dynamics {

@@ -1,5 +1,3 @@
-#include "core/loop_kinematics.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -7,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "loops/kinematics.h"
 #include "robot_builder.h"
 
 namespace virtual_work_dynamics {

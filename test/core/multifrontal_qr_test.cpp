@@ -1,4 +1,4 @@
-#include "core/multifrontal_qr.h"
+#include "algebra/multifrontal_qr.h"
 
 #include <gtest/gtest.h>
 

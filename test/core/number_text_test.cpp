@@ -1,4 +1,4 @@
-#include "virtual_work_dynamics/number_text.h"
+#include "base/number_text.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "core/number_text_portable.h"
+#include "base/number_text_portable.h"
 
 namespace virtual_work_dynamics {
 namespace {

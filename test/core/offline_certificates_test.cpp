@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/number_text.h"
 #include "offline_tool.h"
-#include "virtual_work_dynamics/number_text.h"
 
 namespace virtual_work_dynamics {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "base/number_text.h"
 #include "offline_tool.h"
-#include "virtual_work_dynamics/number_text.h"
 
 namespace virtual_work_dynamics {
 

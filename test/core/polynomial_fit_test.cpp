@@ -1,4 +1,4 @@
-#include "virtual_work_dynamics/polynomial_fit.h"
+#include "motion/polynomial_fit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/rank_factorization.h"
+#include "algebra/rank_factorization.h"
 
 #include <gtest/gtest.h>
 

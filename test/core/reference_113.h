@@ -51,7 +51,7 @@ inline bool isFinite(Real113 x) {
 
 #ifdef VWD_HAS_REAL113
 
-#include "core/joint_terms.h"
+#include "scene/joint_terms.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/scene.h"

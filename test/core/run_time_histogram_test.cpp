@@ -1,4 +1,4 @@
-#include "virtual_work_dynamics/run_time_histogram.h"
+#include "base/run_time_histogram.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "virtual_work_dynamics/sample_block.h"
+#include "tree/sample_block.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 
 #include <string>
 
+#include "base/number_text.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
-#include "virtual_work_dynamics/number_text.h"
 #include "virtual_work_dynamics/scene.h"
 
 namespace virtual_work_dynamics {

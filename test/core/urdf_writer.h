@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include "base/number_text.h"
 #include "virtual_work_dynamics/mechanism.h"
-#include "virtual_work_dynamics/number_text.h"
 
 namespace virtual_work_dynamics {
 

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace virtual_work_dynamics {
+
+/// What a consumer wants computed; what it does not name costs nothing. Names are joints or
+/// "ground"; the order is the order of the results.
+struct Request {
+  bool efforts = true;
+  std::vector<std::string> child_axes;  ///< reactions in the child link's axes
+  std::vector<std::string> root_axes;   ///< reactions in root axes, (4.3)
+  bool poses = false;                   ///< poses of the `root_axes` joints
+  bool twists = false;                  ///< twists of the `root_axes` joints
+};
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,99 @@
+#include "algebra/rank_factorization.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace virtual_work_dynamics {
+
+RankFactorization::RankFactorization(Eigen::Index most_rows, Eigen::Index most_columns)
+    : R_(most_columns, most_rows),
+      Q_(most_columns, most_columns),
+      factors_(std::min(most_rows, most_columns)),
+      pivots_(static_cast<std::size_t>(most_rows)),
+      work_(factors_.size()) {}
+
+void RankFactorization::factorize(const Matrix& G, double relative, double absolute) {
+  rows_ = G.rows();
+  columns_ = G.cols();
+  auto R = R_.topLeftCorner(columns_, rows_);
+  R = G.transpose();
+  std::iota(pivots_.begin(), pivots_.begin() + rows_, 0);
+  rank_ = 0;
+  double threshold = 0;
+  for (Eigen::Index step = 0; step < steps(); ++step) {
+    // Norms are computed anew: downdated ones lose the digits that the rank is told by.
+    Eigen::Index pivot = step;
+    double norm = -1;
+    for (Eigen::Index j = step; j < rows_; ++j) {
+      const double candidate = R.col(j).tail(columns_ - step).norm();
+      if (candidate > norm) {
+        norm = candidate;
+        pivot = j;
+      }
+    }
+    if (step == 0) threshold = std::max(relative * norm, absolute);
+    R.col(step).swap(R.col(pivot));
+    std::swap(pivots_[static_cast<std::size_t>(step)], pivots_[static_cast<std::size_t>(pivot)]);
+    reflect(step);
+    if (norm > threshold) rank_ = step + 1;
+  }
+  accumulate();
+}
+
+// H = 1 - factor v v^T with v = (1, below the diagonal) turns the rest of the column into its norm.
+void RankFactorization::reflect(Eigen::Index step) {
+  const Eigen::Index below = columns_ - step - 1;
+  auto tail = R_.col(step).segment(step + 1, below);
+  const double head = R_(step, step);
+  const double norm = std::hypot(head, tail.norm());
+  factors_[step] = 0;
+  if (norm == 0) return;
+  const double diagonal = head > 0 ? -norm : norm;
+  factors_[step] = (diagonal - head) / diagonal;
+  tail /= head - diagonal;
+  R_(step, step) = diagonal;
+  for (Eigen::Index j = step + 1; j < rows_; ++j) {
+    auto column = R_.col(j).segment(step + 1, below);
+    const double along = factors_[step] * (R_(step, j) + tail.dot(column));
+    R_(step, j) -= along;
+    column -= along * tail;
+  }
+}
+
+// Q = H_1 H_2 ... from the last on.
+void RankFactorization::accumulate() {
+  Q_.topLeftCorner(columns_, columns_).setIdentity();
+  for (Eigen::Index step = steps(); step-- > 0;) {
+    const Eigen::Index below = columns_ - step - 1;
+    const auto tail = R_.col(step).segment(step + 1, below);
+    for (Eigen::Index j = step; j < columns_; ++j) {
+      auto column = Q_.col(j).segment(step + 1, below);
+      const double along = factors_[step] * (Q_(step, j) + tail.dot(column));
+      Q_(step, j) -= along;
+      column -= along * tail;
+    }
+  }
+}
+
+double RankFactorization::gap() const {
+  if (rank_ == 0 || rank_ == steps()) return std::numeric_limits<double>::infinity();
+  return std::abs(R_(rank_ - 1, rank_ - 1)) / std::abs(R_(rank_, rank_));
+}
+
+double RankFactorization::condition() const {
+  return rank_ == 0 ? 1 : std::abs(R_(0, 0)) / std::abs(R_(rank_ - 1, rank_ - 1));
+}
+
+// G^T P = Q (R11 R12; 0 0), so that x = Q1 y with R11^T y = the independent rows of P^T b.
+void RankFactorization::solve(const Vector& b, Eigen::Ref<Eigen::VectorXd> x) const {
+  for (Eigen::Index i = 0; i < rank_; ++i) {
+    const double sum = b[pivots_[static_cast<std::size_t>(i)]];
+    work_[i] = (sum - R_.col(i).head(i).dot(work_.head(i))) / R_(i, i);
+  }
+  x.setZero();
+  for (Eigen::Index i = 0; i < rank_; ++i) x += work_[i] * Q_.col(i).head(columns_);
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,9 +1,0 @@
-#include "core/momentum/momentum_sums.h"
-
-namespace virtual_work_dynamics {
-
-const Momentum* baselineMomentum() {
-  return &kMomentum;
-}
-
-}  // namespace virtual_work_dynamics

@@ -1,0 +1,117 @@
+#include "loops/assembly.h"
+
+#include <cmath>
+#include <string>
+
+#include "base/number_text.h"
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+
+namespace {
+
+// How far coordinates are moved to leave a singular position, rad or of the length.
+constexpr double kDisplacement = 0.01;
+// Ends of a rod that are closer, over the length of the loops, give it no direction.
+constexpr double kCoincide = 1e-9;
+// Angles that are smaller beside the distances that remain are not worth a word.
+constexpr double kMatters = 1e-3;
+
+std::string names(const Mechanism& mechanism, const std::vector<std::size_t>& coordinates) {
+  std::string text;
+  for (const std::size_t i : coordinates) {
+    text += (text.empty() ? "'" : ", '") + mechanism.coordinateNames()[i] + "'";
+  }
+  return text;
+}
+
+[[noreturn]] void refuseOpen(const Scene& scene, const LoopKinematics& kinematics, double length) {
+  std::size_t worst = 0;
+  LoopKinematics::Norms largest{0, 0};
+  for (std::size_t c = 0; c < scene.closures.size(); ++c) {
+    const LoopKinematics::Norms norms = kinematics.normsOf(c, kinematics.phi());
+    if (norms.lengths / length + norms.directions <=
+        largest.lengths / length + largest.directions) {
+      continue;
+    }
+    largest = norms;
+    worst = c;
+  }
+  std::string open = numberText(largest.lengths) + " m";
+  if (largest.directions > largest.lengths / length * kMatters) {
+    open += " and " + numberText(largest.directions) + " rad";
+  }
+  throw SceneError("closures: '" + scene.closures[worst].name +
+                   "' cannot be assembled from the given start: it stays open by " + open);
+}
+
+// Coordinates that no actuated joint and no closure holds at the present position.
+std::vector<std::size_t> unheld(const LoopScene& loops, std::vector<LoopForces>& forces) {
+  std::vector<bool> free;
+  for (const bool actuated : loops.actuated) free.push_back(!actuated);
+  for (LoopForces& group : forces) {
+    group.setPosition();
+    const std::vector<int>& coordinates = group.group().coordinates;
+    for (std::size_t row = 0; row < coordinates.size(); ++row) {
+      free[static_cast<std::size_t>(coordinates[row])] =
+          group.isFree(static_cast<Eigen::Index>(row));
+    }
+  }
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    if (free[i]) indices.push_back(i);
+  }
+  return indices;
+}
+
+}  // namespace
+
+Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopCompletion& completion,
+                         LoopKinematics& kinematics) {
+  Eigen::VectorXd q = loops.start;
+  kinematics.setPosition(q);
+  std::vector<bool> given = loops.actuated;
+  const std::vector<bool> none(given.size(), false);
+  if (completion.rank(kinematics, given) < completion.rank(kinematics, none)) given = none;
+  if (!completion.close(kinematics, q, given)) refuseOpen(scene, kinematics, completion.length());
+  for (std::size_t c = 0; c < scene.closures.size(); ++c) {
+    if (kinematics.reversed(c)) {
+      throw SceneError("closures: '" + scene.closures[c].name +
+                       "' is assembled the wrong way round: its frames are half a turn apart");
+    }
+    if (scene.closures[c].type == ClosureType::kDistance &&
+        (kinematics.parentOrigin(c) - kinematics.childOrigin(c)).norm() <=
+            kCoincide * completion.length()) {
+      throw SceneError("closures: '" + scene.closures[c].name +
+                       "': its ends coincide in the assembly");
+    }
+  }
+  kinematics.adoptLengths();
+  kinematics.setPosition(q);
+  return q;
+}
+
+void requireHeld(const Mechanism& mechanism, const LoopScene& loops,
+                 const Eigen::VectorXd& assembly, LoopCompletion& completion,
+                 LoopKinematics& kinematics, std::vector<LoopForces>& forces) {
+  if (unheld(loops, forces).empty()) return;
+  Eigen::VectorXd q = assembly;
+  const double length = forces.empty() ? 1 : forces.front().length();
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const int joint = mechanism.coordinates()[static_cast<std::size_t>(i)];
+    const bool slides =
+        mechanism.joints()[static_cast<std::size_t>(joint)].type == JointType::kPrismatic;
+    // Unequal steps, as a symmetrical displacement can lead from one singular position to another.
+    const double step = kDisplacement * (1 + 0.37 * std::sin(1.0 + 2.1 * static_cast<double>(i)));
+    q[i] += slides ? step * length : step;
+  }
+  completion.close(kinematics, q, std::vector<bool>(loops.actuated.size(), false));
+  const std::vector<std::size_t> free = unheld(loops, forces);
+  if (!free.empty()) {
+    throw SceneError("actuated: too few for the degrees of freedom: nothing holds the motion of " +
+                     names(mechanism, free));
+  }
+  kinematics.setPosition(assembly);
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "loops/completion.h"
+#include "loops/forces.h"
+#include "loops/kinematics.h"
+#include "scene/resolved_loops.h"
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/scene.h"
+
+namespace virtual_work_dynamics {
+
+/// Closes the loops from the scene's start and leaves `kinematics` there. Actuated coordinates stay
+/// where they start unless there are more of them than degrees of freedom.
+/// @throws SceneError naming the closure that stays open furthest, and by how much.
+Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopCompletion& completion,
+                         LoopKinematics& kinematics);
+
+/// Checks that every motion of the mechanism is held by an actuated joint, at the assembly or at a
+/// position close to it, so that a singular assembly is let pass; `kinematics` returns to the
+/// assembly.
+/// @throws SceneError naming the coordinates that nothing holds.
+void requireHeld(const Mechanism& mechanism, const LoopScene& loops,
+                 const Eigen::VectorXd& assembly, LoopCompletion& completion,
+                 LoopKinematics& kinematics, std::vector<LoopForces>& forces);
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,299 @@
+#include "loops/completion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace virtual_work_dynamics {
+
+namespace {
+
+// Of steps, for loops that are closed to the rank's tolerance: where frames fit no better, no step
+// goes on, and near singular positions half a step often does.
+constexpr int kHalvingsWhenClosed = 4;
+// Misfits over the length below which a loop counts as closed, as it does below the tolerance of
+// the rank; Newton's method goes on until rounding stops it, or nothing but rounding is left of
+// each condition.
+constexpr double kClosed = 1e-12;
+constexpr double kExact = std::numeric_limits<double>::epsilon();
+// Misfits of a condition below which a step that does not lessen them was stopped by rounding.
+constexpr double kRounding = 20 * kExact;
+// A step turns nothing further than this, so that an almost singular position throws nothing away.
+constexpr double kLongestStep = 0.5;
+// What of velocities and accelerations may contradict the conditions, of the largest term.
+constexpr double kConsistent = 1e-8;
+
+// A position found by Newton's method is good to the square root of rounding where the conditions
+// are singular, so that their Jacobian, singular in truth, shows a condition number of some 1e8
+// there.
+constexpr double kSharpest = 1e7;
+
+Eigen::Index conditionsOf(const LoopKinematics& kinematics, std::size_t closure) {
+  return kinematics.firstOf(closure + 1) - kinematics.firstOf(closure);
+}
+
+Eigen::Index mostCoordinates(const std::vector<LoopGroup>& groups) {
+  std::size_t most = 0;
+  for (const LoopGroup& group : groups) most = std::max(most, group.coordinates.size());
+  return static_cast<Eigen::Index>(most);
+}
+
+// No closure has more than six conditions.
+Eigen::Index mostConditions(const std::vector<LoopGroup>& groups) {
+  std::size_t most = 0;
+  for (const LoopGroup& group : groups) most = std::max(most, group.closures.size());
+  return static_cast<Eigen::Index>(6 * most);
+}
+
+std::vector<RowBlock> conditionBlocks(const LoopGroup& group, const LoopKinematics& kinematics) {
+  std::vector<RowBlock> blocks;
+  for (std::size_t local = 0; local < group.closures.size(); ++local) {
+    blocks.push_back({conditionsOf(kinematics, group.closures[local]), group.moved[local]});
+  }
+  return blocks;
+}
+
+}  // namespace
+
+constexpr LoopCompletion::Search LoopCompletion::kFromAnywhere;
+constexpr LoopCompletion::Search LoopCompletion::kFromCloseBy;
+
+LoopCompletion::System::System(const LoopGroup& own, const LoopKinematics& kinematics)
+    : group(own),
+      qr(conditionBlocks(own, kinematics), static_cast<int>(own.coordinates.size())),
+      wanted(own.coordinates.size()) {}
+
+LoopCompletion::LoopCompletion(const Mechanism& mechanism, const LoopKinematics& kinematics,
+                               const std::vector<LoopGroup>& groups, double rank_tolerance,
+                               double length)
+    : rank_tolerance_(rank_tolerance),
+      length_(length),
+      A_(mostConditions(groups), mostCoordinates(groups)),
+      factorization_(A_.rows(), A_.cols()),
+      columns_(static_cast<std::size_t>(A_.cols())),
+      right_(A_.rows()),
+      packed_(A_.cols()),
+      found_(A_.cols()),
+      misses_(A_.rows()) {
+  for (const int k : mechanism.coordinates()) {
+    slides_.push_back(mechanism.joints()[static_cast<std::size_t>(k)].type ==
+                      JointType::kPrismatic);
+  }
+  in_loop_.resize(slides_.size());
+  for (const LoopGroup& group : groups) {
+    systems_.emplace_back(group, kinematics);
+    for (const int i : group.coordinates) in_loop_[static_cast<std::size_t>(i)] = true;
+  }
+  step_.setZero(static_cast<Eigen::Index>(slides_.size()));
+  tried_ = step_;
+}
+
+double LoopCompletion::rowScale(const LoopKinematics& kinematics, Eigen::Index condition) const {
+  return kinematics.turns(condition) ? 1 : 1 / length_;
+}
+
+double LoopCompletion::columnScale(int coordinate) const {
+  return slides_[static_cast<std::size_t>(coordinate)] ? length_ : 1;
+}
+
+void LoopCompletion::factorize(const LoopKinematics& kinematics, const std::vector<bool>& given) {
+  for (System& system : systems_) {
+    const LoopGroup& group = system.group;
+    for (std::size_t i = 0; i < group.coordinates.size(); ++i) {
+      system.wanted[i] = !given[static_cast<std::size_t>(group.coordinates[i])];
+    }
+    for (std::size_t local = 0; local < group.closures.size(); ++local) {
+      const std::size_t c = group.closures[local];
+      Eigen::MatrixXd& entries = system.qr.entriesOf(local);
+      for (std::size_t k = 0; k < group.moved[local].size(); ++k) {
+        const int coordinate = group.coordinates[static_cast<std::size_t>(group.moved[local][k])];
+        for (Eigen::Index i = 0; i < entries.rows(); ++i) {
+          const Eigen::Index condition = kinematics.firstOf(c) + i;
+          entries(i, static_cast<Eigen::Index>(k)) = rowScale(kinematics, condition) *
+                                                     kinematics.jacobian()(condition, coordinate) *
+                                                     columnScale(coordinate);
+        }
+      }
+    }
+    system.qr.setPresent(system.wanted);
+    system.sound = system.qr.factorize(MultifrontalQr::sureCondition(rank_tolerance_));
+  }
+}
+
+void LoopCompletion::factorizeWhole(const System& system) {
+  const MultifrontalQr& qr = system.qr;
+  column_count_ = 0;
+  for (std::size_t i = 0; i < system.wanted.size(); ++i) {
+    columns_[i] = system.wanted[i] ? static_cast<int>(column_count_++) : -1;
+  }
+  auto A = A_.topLeftCorner(qr.rows(), column_count_);
+  A.setZero();
+  for (std::size_t b = 0; b < qr.blocks(); ++b) {
+    const Eigen::MatrixXd& entries = qr.entriesOf(b);
+    for (Eigen::Index k = 0; k < entries.cols(); ++k) {
+      const int column = columns_[static_cast<std::size_t>(qr.columnsOf(b)[std::size_t(k)])];
+      if (column >= 0) A.col(column).segment(qr.firstOf(b), entries.rows()) = entries.col(k);
+    }
+  }
+  factorization_.factorize(A, rank_tolerance_);
+}
+
+Eigen::Index LoopCompletion::rank(const LoopKinematics& kinematics,
+                                  const std::vector<bool>& given) {
+  Eigen::Index sum = 0;
+  factorize(kinematics, given);
+  for (const System& system : systems_) {
+    if (system.sound) {
+      sum += std::count(system.wanted.begin(), system.wanted.end(), true);
+    } else {
+      factorizeWhole(system);
+      sum += factorization_.rank();
+    }
+  }
+  return sum;
+}
+
+void LoopCompletion::setRight(const LoopKinematics& kinematics, const System& system,
+                              const Eigen::VectorXd& conditions) {
+  for (std::size_t local = 0; local < system.group.closures.size(); ++local) {
+    const std::size_t c = system.group.closures[local];
+    for (Eigen::Index i = 0; i < conditionsOf(kinematics, c); ++i) {
+      const Eigen::Index condition = kinematics.firstOf(c) + i;
+      right_[system.qr.firstOf(local) + i] =
+          -rowScale(kinematics, condition) * conditions[condition];
+    }
+  }
+}
+
+// Sets the coordinates found, by those of the group; zero for given ones. False when the conditions
+// do not determine them well.
+bool LoopCompletion::solve(System& system) {
+  auto found = found_.head(system.qr.columns());
+  const auto right = right_.head(system.qr.rows());
+  if (system.sound) {
+    system.qr.leastSquares(right, found);
+    return true;
+  }
+  factorizeWhole(system);
+  auto packed = packed_.head(column_count_);
+  factorization_.solve(right, packed);
+  for (Eigen::Index i = 0; i < found.size(); ++i) {
+    const int column = columns_[static_cast<std::size_t>(i)];
+    found[i] = column >= 0 ? packed[column] : 0;
+  }
+  return factorization_.redundancy() == 0 && factorization_.condition() <= kSharpest;
+}
+
+// The largest violation of a condition by what solve() found.
+double LoopCompletion::misses(const System& system) {
+  const MultifrontalQr& qr = system.qr;
+  auto misses = misses_.head(qr.rows());
+  misses = -right_.head(qr.rows());
+  for (std::size_t b = 0; b < qr.blocks(); ++b) {
+    const Eigen::MatrixXd& entries = qr.entriesOf(b);
+    for (Eigen::Index k = 0; k < entries.cols(); ++k) {
+      misses.segment(qr.firstOf(b), entries.rows()) +=
+          found_[qr.columnsOf(b)[std::size_t(k)]] * entries.col(k);
+    }
+  }
+  return misses.cwiseAbs().maxCoeff();
+}
+
+double LoopCompletion::misfit(const LoopKinematics& kinematics) const {
+  double sum = 0;
+  for (Eigen::Index i = 0; i < kinematics.conditions(); ++i) {
+    const double scaled = rowScale(kinematics, i) * kinematics.phi()[i];
+    sum += scaled * scaled;
+  }
+  return std::sqrt(sum);
+}
+
+double LoopCompletion::largest(const Eigen::VectorXd& rates) const {
+  double most = 0;
+  for (std::size_t i = 0; i < slides_.size(); ++i) {
+    const double rate = rates[static_cast<Eigen::Index>(i)];
+    most = std::max(most, std::abs(rate) / columnScale(static_cast<int>(i)));
+  }
+  return most;
+}
+
+void LoopCompletion::newtonStep(const LoopKinematics& kinematics, const std::vector<bool>& given) {
+  step_.setZero();
+  factorize(kinematics, given);
+  for (System& system : systems_) {
+    setRight(kinematics, system, kinematics.phi());
+    solve(system);
+    const auto found = found_.head(system.qr.columns());
+    const double longest = found.cwiseAbs().maxCoeff();
+    const double damping = longest > kLongestStep ? kLongestStep / longest : 1;
+    for (std::size_t i = 0; i < system.group.coordinates.size(); ++i) {
+      const int coordinate = system.group.coordinates[i];
+      step_[coordinate] = damping * columnScale(coordinate) * found[static_cast<Eigen::Index>(i)];
+    }
+  }
+}
+
+bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
+                           const std::vector<bool>& given, const Search& search) {
+  kinematics.setPosition(q);
+  double now = misfit(kinematics);
+  const double closed = std::max(kClosed, rank_tolerance_);
+  const double root = std::sqrt(static_cast<double>(kinematics.conditions()));
+  const double exact = kExact * root, rounding = kRounding * root;
+  for (steps_ = 0; steps_ < search.most_steps && now > exact && std::isfinite(now); ++steps_) {
+    newtonStep(kinematics, given);
+    double factor = 1, then = now;
+    const int halvings = now <= closed ? kHalvingsWhenClosed : search.most_halvings;
+    for (int halving = 0; halving < halvings; ++halving, factor /= 2) {
+      tried_ = q + factor * step_;
+      kinematics.setPosition(tried_);
+      then = misfit(kinematics);
+      if (then < now || now <= rounding) break;
+    }
+    if (!(then < now)) {
+      kinematics.setPosition(q);
+      break;
+    }
+    q = tried_;
+    const bool stalled = then > search.stalled * now && then > closed;
+    now = then;
+    if (stalled) break;
+  }
+  return now <= closed;
+}
+
+// Solves A_p u = -rates for the entries of `unknown` that are not given.
+bool LoopCompletion::solveRates(const LoopKinematics& kinematics, const Eigen::VectorXd& rates,
+                                double size, Eigen::VectorXd& unknown) {
+  for (System& system : systems_) {
+    setRight(kinematics, system, rates);
+    if (!solve(system) || !(misses(system) <= kConsistent * size)) return false;
+    for (std::size_t i = 0; i < system.group.coordinates.size(); ++i) {
+      if (!system.wanted[i]) continue;
+      const int coordinate = system.group.coordinates[i];
+      unknown[coordinate] = columnScale(coordinate) * found_[static_cast<Eigen::Index>(i)];
+    }
+  }
+  return true;
+}
+
+bool LoopCompletion::complete(LoopKinematics& kinematics, Motion& motion,
+                              const std::vector<bool>& given, const Search& search) {
+  if (!close(kinematics, motion.q, given, search)) return false;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (given[i]) continue;
+    if (!in_loop_[i]) return false;
+    motion.qd[static_cast<Eigen::Index>(i)] = 0;
+    motion.qdd[static_cast<Eigen::Index>(i)] = 0;
+  }
+  factorize(kinematics, given);
+  kinematics.setMotion(motion);
+  const double given_rate = largest(motion.qd);
+  if (!solveRates(kinematics, kinematics.rates(), given_rate, motion.qd)) return false;
+  kinematics.setMotion(motion);
+  const double rate = largest(motion.qd);
+  const double size = std::max(largest(motion.qdd), rate * rate);
+  return solveRates(kinematics, kinematics.accelerations(), size, motion.qdd);
+}
+
+}  // namespace virtual_work_dynamics

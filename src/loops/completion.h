@@ -1,0 +1,90 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "algebra/multifrontal_qr.h"
+#include "algebra/rank_factorization.h"
+#include "loops/groups.h"
+#include "loops/kinematics.h"
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/motion.h"
+
+namespace virtual_work_dynamics {
+
+/// Finds the coordinates that a motion does not give from the conditions of the loops: positions by
+/// Newton's method, velocities by A_p qd_p = -A_g qd_g, accelerations by A_p qdd_p = -(A_g qdd_g +
+/// Ad qd), p: to be found, g: given. Far from singular positions the cost grows with the number of
+/// loops; elsewhere with the cube of those that share coordinates. Nothing after construction
+/// allocates.
+class LoopCompletion {
+ public:
+  /// `length` compares lengths with angles.
+  LoopCompletion(const Mechanism& mechanism, const LoopKinematics& kinematics,
+                 const std::vector<LoopGroup>& groups, double rank_tolerance, double length);
+
+  /// How far a search goes before it fails: from anywhere, as for an assembly, or from a position
+  /// close by, so that what cannot be closed costs little more than what can.
+  struct Search {
+    int most_steps;
+    int most_halvings;  ///< of a step
+    double stalled;     ///< what must remain of the misfit, at least, for the search to end
+  };
+  static constexpr Search kFromAnywhere{200, 30, 1};
+  static constexpr Search kFromCloseBy{40, 8, 0.9};
+
+  /// Closes the loops by moving the coordinates that are not given, from where they are; leaves
+  /// `kinematics` there. False when that fails, with `q` at the best position met.
+  bool close(LoopKinematics& kinematics, Eigen::VectorXd& q, const std::vector<bool>& given,
+             const Search& search = kFromAnywhere);
+
+  double length() const { return length_; }
+  /// How many steps close() took.
+  int steps() const { return steps_; }
+
+  /// Does the same and finds velocities and accelerations, too. False also when the conditions
+  /// cannot be met by any, or do not determine them, as in singular positions and outside loops.
+  bool complete(LoopKinematics& kinematics, Motion& motion, const std::vector<bool>& given,
+                const Search& search = kFromAnywhere);
+
+  /// Rank of the conditions' Jacobian for the coordinates not given, all groups together.
+  Eigen::Index rank(const LoopKinematics& kinematics, const std::vector<bool>& given);
+
+ private:
+  // The conditions' Jacobian of one group of loops, lengths over the length.
+  struct System {
+    System(const LoopGroup& group, const LoopKinematics& kinematics);
+    LoopGroup group;
+    MultifrontalQr qr;  // of the columns to be found
+    std::vector<bool> wanted;
+    bool sound = false;  // whether qr is a factorization
+  };
+  void factorize(const LoopKinematics& kinematics, const std::vector<bool>& given);
+  void factorizeWhole(const System& system);
+  void setRight(const LoopKinematics& kinematics, const System& system,
+                const Eigen::VectorXd& conditions);
+  bool solve(System& system);
+  double misses(const System& system);
+  double misfit(const LoopKinematics& kinematics) const;
+  double largest(const Eigen::VectorXd& rates) const;  // lengths over the length
+  void newtonStep(const LoopKinematics& kinematics, const std::vector<bool>& given);
+  bool solveRates(const LoopKinematics& kinematics, const Eigen::VectorXd& rates, double size,
+                  Eigen::VectorXd& unknown);
+  double rowScale(const LoopKinematics& kinematics, Eigen::Index condition) const;
+  double columnScale(int coordinate) const;
+
+  std::vector<System> systems_;
+  std::vector<bool> slides_, in_loop_;  // by coordinate
+  double rank_tolerance_;
+  double length_;
+  int steps_ = 0;
+  // Of the group in work; its conditions and the coordinates to be found come first.
+  Eigen::MatrixXd A_;  // where the columns are not surely independent
+  RankFactorization factorization_;
+  std::vector<int> columns_;
+  Eigen::Index column_count_ = 0;
+  Eigen::VectorXd right_, packed_, found_, misses_;
+  Eigen::VectorXd step_, tried_;  // by coordinate
+};
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,69 @@
+#include "loops/cut_tree.h"
+
+namespace virtual_work_dynamics {
+
+Scene withoutLoops(const Scene& scene) {
+  Scene tree = scene;
+  tree.closures.clear();
+  tree.springs.clear();
+  tree.actuated.reset();
+  tree.assembly.clear();
+  tree.redundancy = {};
+  tree.reactions = ReactionSelection::kNone;
+  tree.reaction_names.clear();
+  return tree;
+}
+
+namespace {
+
+std::vector<std::string> withoutClosures(const Mechanism& mechanism,
+                                         const std::vector<std::string>& names) {
+  std::vector<std::string> found;
+  for (const std::string& name : names) {
+    if (!isClosure(mechanism, name)) found.push_back(name);
+  }
+  return found;
+}
+
+Scene withSprings(const Scene& scene, const PointSprings& springs) {
+  Scene tree = withoutLoops(scene);
+  const std::vector<AppliedWrench> ends = springs.wrenches();
+  tree.applied_wrenches.insert(tree.applied_wrenches.end(), ends.begin(), ends.end());
+  return tree;
+}
+
+}  // namespace
+
+Scene openTreeScene(const Scene& scene, const PointSprings& springs) {
+  Scene tree = withSprings(scene, springs);
+  tree.include_active = true;
+  return tree;
+}
+
+Scene closedTreeScene(const Scene& scene, const PointSprings& springs) {
+  Scene tree = withSprings(scene, springs);
+  for (const Closure& closure : scene.closures) {
+    for (const LinkFrame* frame : {&closure.child, &closure.parent}) {
+      AppliedWrench wrench;
+      wrench.link = frame->link;
+      wrench.at = frame->xyz;
+      wrench.axes = Axes::kRoot;
+      tree.applied_wrenches.push_back(wrench);
+    }
+  }
+  return tree;
+}
+
+bool isClosure(const Mechanism& mechanism, const std::string& name) {
+  return name != kGround && mechanism.jointIndex(name) < 0;
+}
+
+Request treeRequest(const Mechanism& mechanism, const Request& request) {
+  Request tree;
+  tree.efforts = request.efforts;
+  tree.child_axes = withoutClosures(mechanism, request.child_axes);
+  tree.root_axes = withoutClosures(mechanism, request.root_axes);
+  return tree;
+}
+
+}  // namespace virtual_work_dynamics

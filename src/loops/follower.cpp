@@ -1,0 +1,107 @@
+#include "loops/follower.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace virtual_work_dynamics {
+namespace {
+
+// A position that is searched for from another, with no joint turned farther than this, rad, is on
+// the same branch as that; shorter than any way from one branch to another but near singular ones.
+constexpr double kFar = 0.3;
+// Shortest pieces of a way that may end where the loops cannot be closed, as it happens at singular
+// positions, before the rest of the way is given up.
+constexpr int kMostFailures = 4;
+constexpr double kTurn = 6.283185307179586476925286766559;
+
+bool wraps(const Mechanism& mechanism, const Joint& wanted) {
+  const auto& joints = mechanism.joints();
+  return wanted.type == JointType::kContinuous &&
+         std::none_of(joints.begin(), joints.end(), [&](const Joint& joint) {
+           return joint.mimics && joint.coordinate == wanted.coordinate;
+         });
+}
+
+}  // namespace
+
+// How often a way is halved at most; whole turns between two positions come down to a tenth of
+// kFar.
+constexpr int LoopFollower::kHalvings;
+constexpr int LoopFollower::kMostSearches;
+
+LoopFollower::LoopFollower(const Mechanism& mechanism, const ClosedLoopDynamics& dynamics)
+    : completed_(dynamics.coordinates()), before_(dynamics.assembly()), closed_(before_) {
+  for (std::size_t i = 0; i < mechanism.coordinates().size(); ++i) {
+    const Joint& joint = mechanism.joints()[static_cast<std::size_t>(mechanism.coordinates()[i])];
+    const auto index = static_cast<Eigen::Index>(i);
+    if (joint.type != JointType::kPrismatic) turning_.push_back(index);
+    if (!dynamics.actuated()[i]) continue;
+    given_.push_back(index);
+    wraps_.push_back(wraps(mechanism, joint));
+  }
+  targets_.fill(closed_);
+}
+
+bool LoopFollower::complete(Motion& motion, ClosedLoopDynamics& dynamics) {
+  before_ = closed_;
+  setNearest(motion);
+  searches_ = failures_ = 0;
+  bool closes = follow(motion, kHalvings, dynamics);
+  // From where the way ends: the caller wants to know how far the loops stay open at the position
+  // itself. Where they close after all, the way there led through a gap.
+  if (givenUp()) closes = search(motion, targets_[kHalvings], dynamics);
+  closed_ = closes ? completed_.q : before_;
+  // What was given stays as it is, with its whole turns.
+  for (const Eigen::Index i : given_) completed_.q[i] = motion.q[i];
+  motion = completed_;
+  return closes;
+}
+
+// What the motion gives, without the whole turns by which drivers wrap: the way back over a whole
+// turn may pass singular positions.
+void LoopFollower::setNearest(const Motion& motion) {
+  Eigen::VectorXd& nearest = targets_[kHalvings];
+  nearest = closed_;
+  for (std::size_t i = 0; i < given_.size(); ++i) {
+    double& position = nearest[given_[i]];
+    const double turns = wraps_[i] ? std::round((motion.q[given_[i]] - position) / kTurn) : 0;
+    position = motion.q[given_[i]] - kTurn * turns;
+  }
+}
+
+// Brings what the motion gives to the target, and the passive joints along.
+bool LoopFollower::follow(const Motion& motion, int halvings, ClosedLoopDynamics& dynamics) {
+  const auto place = static_cast<std::size_t>(halvings);
+  if (givenUp()) return false;
+  const bool closes = search(motion, targets_[place], dynamics);
+  if (halvings > 0 && (!closes || turnsFar(closed_, completed_.q))) {
+    targets_[place - 1] = (closed_ + targets_[place]) / 2;
+    follow(motion, halvings - 1, dynamics);  // a position in between may be singular
+    targets_[place - 1] = targets_[place];
+    return follow(motion, halvings - 1, dynamics);
+  }
+  if (closes) closed_ = completed_.q;
+  if (!closes) ++failures_;
+  return closes;
+}
+
+// From the position that was found last.
+bool LoopFollower::search(const Motion& motion, const Eigen::VectorXd& target,
+                          ClosedLoopDynamics& dynamics) {
+  ++searches_;
+  completed_ = motion;
+  completed_.q = closed_;
+  for (const Eigen::Index i : given_) completed_.q[i] = target[i];
+  return dynamics.completeFromCloseBy(completed_);
+}
+
+bool LoopFollower::givenUp() const {
+  return failures_ >= kMostFailures || searches_ >= kMostSearches - 1;
+}
+
+bool LoopFollower::turnsFar(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const {
+  return std::any_of(turning_.begin(), turning_.end(),
+                     [&](Eigen::Index i) { return std::abs(to[i] - from[i]) > kFar; });
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,327 @@
+#include "loops/forces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace virtual_work_dynamics {
+
+namespace {
+
+// What of the load may point along a free motion and count as rounding, of the whole load.
+constexpr double kBorne = 1e-9;
+// Entries of a free motion, a unit vector, below which a coordinate does not take part in it.
+constexpr double kTakesPart = 1e-6;
+// Efforts in a change, a unit vector, that are rounding.
+constexpr double kNoEffort = 1e-10;
+// A change by less, of a unit vector, leaves a component determined.
+constexpr double kOpen = 1e-8;
+
+Eigen::Index index(std::size_t i) {
+  return static_cast<Eigen::Index>(i);
+}
+
+// Costs are of all unknowns, or of whole reactions.
+Eigen::Index mostCosts(const LoopGroup& group, Eigen::Index unknowns) {
+  return std::max(unknowns, index(6 * (group.closures.size() + group.joints.size())));
+}
+
+}  // namespace
+
+LoopForces::LoopForces(const Mechanism& mechanism, const LoopKinematics& kinematics,
+                       const LoopScene& scene, const LoopGroup& group, double length)
+    : kinematics_(kinematics),
+      group_(group),
+      unknowns_(mechanism, kinematics, scene, group, length),
+      rank_tolerance_(scene.rank_tolerance),
+      length_(length),
+      unit_wrenches_(static_cast<std::size_t>(unknowns_.count)),
+      qr_(unknowns_.rowBlocks(), static_cast<int>(group.coordinates.size())),
+      G_(qr_.columns(), qr_.rows()),
+      G_transposed_(G_.cols(), G_.rows()),
+      factorization_(G_.rows(), G_.cols()),
+      transposed_(G_.cols(), G_.rows()),
+      norms_(G_.cols(), mostCosts(group, G_.cols())),
+      load_(G_.rows()),
+      gathered_(scene.start.size()),
+      directions_(G_.cols(), G_.cols() + G_.rows()) {
+  addCosts(scene);
+  for (std::size_t j = 0; j < unknowns_.effort_rows.size(); ++j) {
+    const std::size_t row = static_cast<std::size_t>(unknowns_.effort_rows[j]);
+    qr_.entriesOf(j)(0, 0) = unknowns_.efforts[j].unit / unknowns_.row_units[row];
+  }
+  for (State* state : {&solution_, &change_}) {
+    state->x.setZero(G_.cols());
+    state->closures.resize(group_.closures.size());
+    touchAll(*state);
+  }
+}
+
+void LoopForces::addCosts(const LoopScene& scene) {
+  for (const std::size_t c : group_.closures) {
+    const double factor = scene.policy == RedundancyPolicy::kStiffness
+                              ? 1 / std::sqrt(scene.closure_stiffness[c])
+                              : scene.policy == RedundancyPolicy::kZeroAt && scene.zero_at[c];
+    closure_costs_.push_back(factor);
+    if (factor > 0) cost_rows_ += 6;
+  }
+  for (const LoopGroup::CrossedJoint& crossed : group_.joints) {
+    const double factor =
+        scene.policy == RedundancyPolicy::kStiffness && crossed.moves
+            ? 1 / std::sqrt(scene.joint_stiffness[static_cast<std::size_t>(crossed.joint)])
+            : 0;
+    joint_costs_.push_back(factor);
+    if (factor > 0) cost_rows_ += 6;
+  }
+  // Only their ratios matter: the largest is made one, as costs are compared with unit vectors.
+  double largest = 0;
+  for (const double factor : closure_costs_) largest = std::max(largest, factor);
+  for (const double factor : joint_costs_) largest = std::max(largest, factor);
+  for (double& factor : closure_costs_) factor /= largest > 0 ? largest : 1;
+  for (double& factor : joint_costs_) factor /= largest > 0 ? largest : 1;
+}
+
+// The generalized force of a multiplier's unit wrench is its row of the conditions' Jacobian.
+void LoopForces::setEntries() {
+  for (std::size_t local = 0; local < unknowns_.of_closures.size(); ++local) {
+    const LoopUnknowns::OfClosure& own = unknowns_.of_closures[local];
+    Eigen::MatrixXd& entries = qr_.entriesOf(unknowns_.effort_rows.size() + local);
+    for (std::size_t j = 0; j < own.columns.size(); ++j) {
+      const LoopUnknowns::Column& column = own.columns[j];
+      const bool multiplies = column.condition >= 0;
+      ClosureWrench& wrench = unit_wrenches_[static_cast<std::size_t>(own.first) + j];
+      wrench = multiplies ? kinematics_.unitWrench(column.condition)
+                          : kinematics_.unitEffort(own.closure);
+      if (!multiplies) gatherForce(own, wrench);
+      wrench.force *= column.unit;
+      wrench.moment *= column.unit;
+      for (std::size_t k = 0; k < own.coordinates.size(); ++k) {
+        const std::size_t row = static_cast<std::size_t>(own.coordinates[k]);
+        const int i = group_.coordinates[row];
+        const double force =
+            multiplies ? kinematics_.jacobian()(column.condition, i) : gathered_[i];
+        entries(index(j), index(k)) = column.unit * force / unknowns_.row_units[row];
+      }
+    }
+  }
+}
+
+void LoopForces::gatherForce(const LoopUnknowns::OfClosure& own, const ClosureWrench& wrench) {
+  for (const int row : own.coordinates) gathered_[group_.coordinates[std::size_t(row)]] = 0;
+  kinematics_.addGeneralizedForce(own.closure, wrench, gathered_);
+}
+
+void LoopForces::setPosition() {
+  setEntries();
+  sound_ = qr_.factorize(MultifrontalQr::sureCondition(rank_tolerance_));
+  if (!sound_) factorizeWhole();
+}
+
+void LoopForces::factorizeWhole() {
+  G_.setZero();
+  for (std::size_t b = 0; b < qr_.blocks(); ++b) {
+    const Eigen::MatrixXd& entries = qr_.entriesOf(b);
+    for (Eigen::Index k = 0; k < entries.cols(); ++k) {
+      G_.row(qr_.columnsOf(b)[std::size_t(k)]).segment(qr_.firstOf(b), entries.rows()) =
+          entries.col(k).transpose();
+    }
+  }
+  factorization_.factorize(G_, rank_tolerance_);
+  if (rank() == coordinates()) return;
+  G_transposed_ = G_.transpose();
+  transposed_.factorize(G_transposed_, rank_tolerance_);
+}
+
+double LoopForces::gap() const {
+  return sound_ ? std::numeric_limits<double>::infinity() : factorization_.gap();
+}
+
+bool LoopForces::isFree(Eigen::Index local) const {
+  return rank() < coordinates() && transposed_.nullSpace().row(local).norm() > kTakesPart;
+}
+
+void LoopForces::solve(const Eigen::VectorXd& tree_effort,
+                       const std::vector<Wrench>& tree_reactions) {
+  for (Eigen::Index row = 0; row < G_.rows(); ++row) {
+    load_[row] =
+        tree_effort[group_.coordinates[std::size_t(row)]] / unknowns_.row_units[std::size_t(row)];
+  }
+  bearLoad();
+  if (sound_) {
+    qr_.leastNorm(load_, solution_.x);
+    direction_count_ = index(qr_.nullity());
+  } else {
+    factorization_.solve(load_, solution_.x);
+    direction_count_ = factorization_.redundancy();
+    directions_.leftCols(direction_count_) = factorization_.nullSpace();
+  }
+  choose(tree_reactions);
+  setClosures(solution_);
+  if (!bears_) addOpenLoads();
+}
+
+// Takes from the load what points along a free motion: nothing bears it.
+void LoopForces::bearLoad() {
+  bears_ = true;
+  if (rank() == coordinates()) return;
+  const double load = load_.norm();
+  for (Eigen::Index j = 0; j < transposed_.redundancy(); ++j) {
+    const auto motion = transposed_.nullSpace().col(j);
+    const double along = motion.dot(load_);
+    load_ -= along * motion;
+    if (!(std::abs(along) <= kBorne * load)) bears_ = false;
+  }
+}
+
+// What a unit load on a coordinate that takes part in a free motion changes; loads of coordinates
+// that depend on others follow and add nothing new.
+void LoopForces::addOpenLoads() {
+  touchAll(change_);
+  for (Eigen::Index row = 0; row < coordinates(); ++row) {
+    if (!isFree(row)) continue;
+    load_.setZero();
+    load_[row] = 1;
+    factorization_.solve(load_, change_.x);
+    const double norm = change_.x.norm();
+    if (norm > 0) directions_.col(direction_count_++) = change_.x / norm;
+  }
+}
+
+void LoopForces::choose(const std::vector<Wrench>& tree_reactions) {
+  redundant_constraints_ = direction_count_;
+  startNorms();
+  if (norms_.open() == 0) return;
+  const Eigen::Index efforts = index(unknowns_.efforts.size());
+  for (Eigen::Index j = 0; j < efforts; ++j) {
+    const Eigen::Index unknown = unknowns_.efforts[std::size_t(j)].unknown;
+    norms_.costs(efforts).row(j) = norms_.space().row(unknown);
+    norms_.costOfSolution(efforts)[j] = solution_.x[unknown];
+  }
+  redundant_constraints_ -= norms_.reduce(efforts, solution_.x);
+  if (norms_.open() > 0 && cost_rows_ > 0) {
+    setClosures(solution_);
+    putCosts(solution_, &tree_reactions, norms_.costOfSolution(cost_rows_));
+    touchAll(change_);
+    for (Eigen::Index j = 0; j < norms_.open(); ++j) {
+      change_.x = norms_.space().col(j);
+      setClosures(change_);
+      putCosts(change_, nullptr, norms_.costs(cost_rows_).col(j));
+    }
+    norms_.reduce(cost_rows_, solution_.x);
+  }
+  norms_.finish(solution_.x);
+}
+
+// Of the changes that are open, all that the wishes of choose() concern.
+void LoopForces::startNorms() {
+  if (!sound_) return norms_.start(factorization_.nullSpace());
+  Eigen::Index count = 0;
+  for (Eigen::Index i = 0; i < direction_count_; ++i) {
+    const State& change = direction(i);
+    const auto moves = [&](std::size_t effort) {
+      return std::abs(change.x[unknowns_.efforts[effort].unknown]) > kNoEffort;
+    };
+    if (cost_rows_ > 0 ||
+        std::any_of(change.touched_efforts.begin(), change.touched_efforts.end(), moves)) {
+      directions_.col(count++) = change.x;
+    }
+  }
+  norms_.start(directions_.leftCols(count));
+}
+
+void LoopForces::putCosts(const State& state, const std::vector<Wrench>* tree_reactions,
+                          Eigen::Ref<Eigen::VectorXd> costs) const {
+  Eigen::Index row = 0;
+  const auto put = [&](const ClosureWrench& wrench, double factor) {
+    costs.segment<3>(row) = factor * wrench.force;
+    costs.segment<3>(row + 3) = factor / length_ * wrench.moment;
+    row += 6;
+  };
+  for (std::size_t c = 0; c < closure_costs_.size(); ++c) {
+    if (closure_costs_[c] > 0) put(state.closures[c], closure_costs_[c]);
+  }
+  for (std::size_t k = 0; k < joint_costs_.size(); ++k) {
+    if (joint_costs_[k] == 0) continue;
+    ClosureWrench wrench = jointWrench(group_.joints[k], state);
+    if (tree_reactions) {
+      const Wrench& own = (*tree_reactions)[static_cast<std::size_t>(group_.joints[k].joint)];
+      wrench.force += own.force;
+      wrench.moment += own.torque;
+    }
+    put(wrench, joint_costs_[k]);
+  }
+}
+
+double LoopForces::leastChange() const {
+  const double steps = static_cast<double>(G_.rows() + G_.cols());
+  return std::max(kOpen, steps * std::numeric_limits<double>::epsilon() * condition());
+}
+
+const LoopForces::State& LoopForces::direction(Eigen::Index i) {
+  if (!sound_) {
+    change_.x = directions_.col(i);
+    touchAll(change_);
+    setClosures(change_);
+    return change_;
+  }
+  for (const std::size_t effort : change_.touched_efforts) {
+    change_.x[unknowns_.efforts[effort].unknown] = 0;
+  }
+  for (const std::size_t local : change_.touched_closures) {
+    const LoopUnknowns::OfClosure& own = unknowns_.of_closures[local];
+    change_.x.segment(own.first, index(own.columns.size())).setZero();
+    change_.closures[local] = {};
+  }
+  qr_.nullVector(static_cast<std::size_t>(i), change_.x);
+  change_.touched_efforts.clear();
+  change_.touched_closures.clear();
+  for (const std::size_t block : qr_.touched()) {
+    if (block < unknowns_.effort_rows.size()) {
+      change_.touched_efforts.push_back(block);
+      continue;
+    }
+    const std::size_t local = block - unknowns_.effort_rows.size();
+    const int effort = unknowns_.of_closures[local].effort;
+    change_.touched_closures.push_back(local);
+    if (effort >= 0) change_.touched_efforts.push_back(static_cast<std::size_t>(effort));
+  }
+  setClosures(change_);
+  return change_;
+}
+
+void LoopForces::touchAll(State& state) const {
+  state.touched_efforts.resize(efforts().size());
+  std::iota(state.touched_efforts.begin(), state.touched_efforts.end(), 0);
+  state.touched_closures.resize(group_.closures.size());
+  std::iota(state.touched_closures.begin(), state.touched_closures.end(), 0);
+}
+
+void LoopForces::setClosures(State& state) const {
+  for (const std::size_t local : state.touched_closures) {
+    const LoopUnknowns::OfClosure& own = unknowns_.of_closures[local];
+    ClosureWrench sum;
+    for (Eigen::Index j = own.first; j < own.first + index(own.columns.size()); ++j) {
+      sum.force += state.x[j] * unit_wrenches_[std::size_t(j)].force;
+      sum.moment += state.x[j] * unit_wrenches_[std::size_t(j)].moment;
+    }
+    state.closures[local] = sum;
+  }
+}
+
+// Where a closure bears a link, the joints behind that link need not.
+ClosureWrench LoopForces::jointWrench(const LoopGroup::CrossedJoint& crossed,
+                                      const State& state) const {
+  ClosureWrench sum;
+  const Eigen::Vector3d& origin = kinematics_.originOf(crossed.joint + 1);
+  for (const LoopGroup::Passage& passage : crossed.passages) {
+    const ClosureWrench& wrench = state.closures[passage.closure];
+    const Eigen::Vector3d lever =
+        kinematics_.childOrigin(group_.closures[passage.closure]) - origin;
+    sum.force -= passage.sign * wrench.force;
+    sum.moment -= passage.sign * (wrench.moment + lever.cross(wrench.force));
+  }
+  return sum;
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "algebra/least_norms.h"
+#include "algebra/multifrontal_qr.h"
+#include "algebra/rank_factorization.h"
+#include "loops/groups.h"
+#include "loops/kinematics.h"
+#include "loops/unknowns.h"
+#include "scene/resolved_loops.h"
+#include "virtual_work_dynamics/mechanism.h"
+
+namespace virtual_work_dynamics {
+
+/// Efforts and closures' wrenches of one group of loops, (3.1)-(3.4): S^T tau + A^T lambda =
+/// tau_tree, G x = b, with x the efforts of actuated coordinates, those of actuated closures, and
+/// the multipliers. Everything is made a force by a length, so that rank and least norms do not
+/// depend on units. Far from singular positions G is factorised loop by loop, at a cost that grows
+/// with their number; where the condition number leaves a doubt about the rank, as a whole. Nothing
+/// after construction allocates.
+class LoopForces {
+ public:
+  /// All must outlive it.
+  LoopForces(const Mechanism& mechanism, const LoopKinematics& kinematics, const LoopScene& scene,
+             const LoopGroup& group, double length);
+
+  /// Finds rank and null space at the position of the kinematics.
+  void setPosition();
+  /// Solves for the efforts of the tree, joint terms included. What rigid-body mechanics leaves
+  /// open follows the scene's policy: first the efforts of least weighted norm, then the reactions.
+  /// @param tree_reactions by joint, without the closures, root axes; the policy kStiffness needs
+  ///   those of the group's joints.
+  void solve(const Eigen::VectorXd& tree_effort, const std::vector<Wrench>& tree_reactions);
+
+  const LoopGroup& group() const { return group_; }
+  Eigen::Index coordinates() const { return G_.rows(); }
+  Eigen::Index unknowns() const { return G_.cols(); }
+  Eigen::Index rank() const { return sound_ ? coordinates() : factorization_.rank(); }
+  double gap() const;
+  double condition() const { return sound_ ? qr_.condition() : factorization_.condition(); }
+  /// Dimension of the multipliers that load no coordinate. Known after solve().
+  Eigen::Index redundantConstraints() const { return redundant_constraints_; }
+  /// Whether a coordinate of the group takes part in a motion that nothing holds.
+  bool isFree(Eigen::Index local) const;
+
+  /// The solution, or a change of it that mechanics leaves open.
+  struct State {
+    Eigen::VectorXd x;
+    std::vector<ClosureWrench> closures;
+    /// Which of the group's closures and of efforts() it can change; the others are zero.
+    std::vector<std::size_t> touched_closures, touched_efforts;
+  };
+  const State& solution() const { return solution_; }
+  /// Unit vectors that span the changes, all moments over the length. In a singular position that
+  /// cannot bear the load, these include all that shifting the load between the coordinates that
+  /// move freely would change.
+  Eigen::Index directions() const { return direction_count_; }
+  /// Valid until it is called again.
+  const State& direction(Eigen::Index i);
+  double length() const { return length_; }
+  /// A component is determined when no direction changes it by more than this. Near a singular
+  /// position directions are known to rounding errors times the condition only, as results are.
+  double leastChange() const;
+
+  const std::vector<LoopUnknowns::Effort>& efforts() const { return unknowns_.efforts; }
+
+  /// What a state adds to the wrench of a crossed joint, about the joint's origin. Root axes.
+  ClosureWrench jointWrench(const LoopGroup::CrossedJoint& joint, const State& state) const;
+
+ private:
+  void addCosts(const LoopScene& scene);
+  void setEntries();
+  void gatherForce(const LoopUnknowns::OfClosure& own, const ClosureWrench& wrench);
+  void factorizeWhole();
+  void bearLoad();
+  void choose(const std::vector<Wrench>& tree_reactions);
+  void startNorms();
+  void addOpenLoads();
+  void putCosts(const State& state, const std::vector<Wrench>* tree_reactions,
+                Eigen::Ref<Eigen::VectorXd> costs) const;
+  void touchAll(State& state) const;
+  void setClosures(State& state) const;
+
+  const LoopKinematics& kinematics_;
+  LoopGroup group_;
+  LoopUnknowns unknowns_;
+  double rank_tolerance_, length_;
+  std::vector<ClosureWrench> unit_wrenches_;  // by unknown
+  // Factors of reactions whose squares the policy keeps small; zero where it does not care.
+  std::vector<double> closure_costs_, joint_costs_;
+  Eigen::Index cost_rows_ = 0;
+
+  MultifrontalQr qr_;  // of the transpose of G
+  bool sound_ = true;  // whether that is a factorization; if not, the next two are
+  Eigen::MatrixXd G_, G_transposed_;
+  RankFactorization factorization_, transposed_;
+  LeastNorms norms_;
+  Eigen::VectorXd load_, gathered_;
+  bool bears_ = true;  // whether the load is in the range of G
+  Eigen::Index redundant_constraints_ = 0;
+  Eigen::Index direction_count_ = 0;
+  Eigen::MatrixXd directions_;
+  State solution_, change_;
+};
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "loops/kinematics.h"
+#include "virtual_work_dynamics/mechanism.h"
+
+namespace virtual_work_dynamics {
+
+/// Loops that share coordinates, and so must be solved together.
+struct LoopGroup {
+  std::vector<int> coordinates;
+  std::vector<std::size_t> closures;
+  std::vector<std::vector<int>> moved;  ///< by closure: which of `coordinates` its wrench moves
+  /// Joints between the links of its closures, and how each closure's wrench passes through.
+  struct Passage {
+    std::size_t closure;  ///< index into `closures`
+    double sign;          ///< LoopKinematics::Step::sign
+  };
+  struct CrossedJoint {
+    int joint;
+    bool moves;
+    std::vector<Passage> passages;
+  };
+  std::vector<CrossedJoint> joints;
+};
+
+/// All groups; coordinates in no loop are in none. A group's loops do not feel those of others, so
+/// the cost of many small groups grows with their number and not with its cube.
+std::vector<LoopGroup> loopGroups(const Mechanism& mechanism, const LoopKinematics& kinematics,
+                                  std::size_t closures);
+
+/// A characteristic size, m: the largest distance between two origins of joints and closure frames
+/// that lie on a loop, at the present position; 1 where there are none.
+double loopLength(const std::vector<LoopGroup>& groups, const LoopKinematics& kinematics);
+
+}  // namespace virtual_work_dynamics

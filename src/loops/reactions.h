@@ -1,0 +1,78 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "loops/forces.h"
+#include "loops/kinematics.h"
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/results.h"
+#include "virtual_work_dynamics/scene.h"
+
+namespace virtual_work_dynamics {
+
+/// A list of requested reactions: those of the tree and of closures put together in the request's
+/// order, and which of their components are determined. Nothing after construction allocates.
+class LoopReactions {
+ public:
+  /// @param axes in which they are reported
+  /// @throws SceneError for a name that is no joint and no closure, or that is given twice.
+  LoopReactions(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
+                const std::vector<LoopForces>& forces, const std::vector<std::string>& names,
+                Axes axes);
+
+  /// The names that are not closures', in their order.
+  const std::vector<std::string>& treeNames() const { return tree_names_; }
+
+  /// @param tree of treeNames(); `closures` by closure
+  void setValues(const LoopKinematics& kinematics, const std::vector<Wrench>& tree,
+                 const std::vector<ClosureWrench>& closures);
+  /// Poses and twists, likewise; those of closures are their child frames'.
+  void setPoses(const LoopKinematics& kinematics, const std::vector<Pose>& tree,
+                std::vector<Pose>& poses) const;
+  void setTwists(const LoopKinematics& kinematics, const std::vector<Twist>& tree,
+                 std::vector<Twist>& twists) const;
+
+  /// Flags follow from the changes that mechanics leaves open: call reset(), addChange() with each
+  /// of the changes of each group, then setFlags().
+  void reset();
+  void addChange(const LoopKinematics& kinematics, std::size_t group, const LoopForces& forces,
+                 const LoopForces::State& change);
+  void setFlags();
+
+  const std::vector<Wrench>& values() const { return values_; }
+  const std::vector<Determined>& determined() const { return determined_; }
+
+ private:
+  struct Item {
+    int joint = -1;       ///< -1: ground, or a closure
+    int closure = -1;     ///< -1: of the tree
+    bool slides = false;  ///< what moves along its axis, not about it
+    bool drops_active = false;
+  };
+  /// An item that a group of loops can change.
+  struct Change {
+    std::size_t item;
+    const LoopGroup::CrossedJoint* crossed;  ///< null: a closure
+    std::size_t closure;                     ///< index into the group's
+    std::size_t counted = 0;                 ///< the addChange() that took it in last
+  };
+  void addItem(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
+               const std::string& name);
+  void addChanges(const std::vector<LoopForces>& forces);
+  ClosureWrench reported(const LoopKinematics& kinematics, const Item& item,
+                         ClosureWrench wrench) const;
+
+  bool child_axes_;
+  std::vector<Item> items_;
+  std::vector<std::string> tree_names_;
+  std::vector<std::vector<Change>> changes_;  // by group
+  // By group and by its closures: those of these that the closure's wrench is part of.
+  std::vector<std::vector<std::vector<std::size_t>>> changes_of_;
+  std::size_t calls_ = 0;  // of addChange()
+  std::vector<Wrench> values_;
+  std::vector<std::array<double, 6>> freedoms_;  // sums of squares, of the least
+  std::vector<Determined> determined_;
+};
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,43 @@
+#include "loops/residuals.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace virtual_work_dynamics {
+
+LoopResiduals::LoopResiduals(const Mechanism& mechanism, std::size_t closures, double length)
+    : length_(length), values_(closures), relative_(closures) {
+  for (const int joint : mechanism.coordinates()) {
+    const bool slides =
+        mechanism.joints()[static_cast<std::size_t>(joint)].type == JointType::kPrismatic;
+    units_.push_back(slides ? length : 1);
+  }
+}
+
+void LoopResiduals::set(LoopKinematics& kinematics, const Motion& motion) {
+  kinematics.setMotion(motion);
+  // A second is what makes rates comparable where nearly nothing moves.
+  const double rate = std::max(1.0, largest(motion.qd));
+  const double acceleration = std::max({1.0, largest(motion.qdd), rate * rate});
+  for (std::size_t c = 0; c < values_.size(); ++c) {
+    const auto set = [&](double ClosureResidual::*level, const Eigen::VectorXd& conditions,
+                         double scale) {
+      const LoopKinematics::Norms norms = kinematics.normsOf(c, conditions);
+      values_[c].*level = std::max(norms.lengths, norms.directions);
+      relative_[c].*level = std::max(norms.lengths / length_, norms.directions) / scale;
+    };
+    set(&ClosureResidual::position, kinematics.phi(), 1);
+    set(&ClosureResidual::velocity, kinematics.rates(), rate);
+    set(&ClosureResidual::acceleration, kinematics.accelerations(), acceleration);
+  }
+}
+
+double LoopResiduals::largest(const Eigen::VectorXd& rates) const {
+  double value = 0;
+  for (std::size_t i = 0; i < units_.size(); ++i) {
+    value = std::max(value, std::abs(rates[static_cast<Eigen::Index>(i)]) / units_[i]);
+  }
+  return value;
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "loops/kinematics.h"
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/motion.h"
+#include "virtual_work_dynamics/results.h"
+
+namespace virtual_work_dynamics {
+
+/// How far a motion violates each closure, as it stands and relative. Nothing after construction
+/// allocates.
+class LoopResiduals {
+ public:
+  /// `length` of the loops, m.
+  LoopResiduals(const Mechanism& mechanism, std::size_t closures, double length);
+
+  /// Of a motion at the position of `kinematics`.
+  void set(LoopKinematics& kinematics, const Motion& motion);
+
+  const std::vector<ClosureResidual>& values() const { return values_; }
+  const std::vector<ClosureResidual>& relative() const { return relative_; }
+
+ private:
+  double largest(const Eigen::VectorXd& rates) const;
+
+  std::vector<double> units_;  // by coordinate: 1 or the length
+  double length_;
+  std::vector<ClosureResidual> values_, relative_;
+};
+
+}  // namespace virtual_work_dynamics

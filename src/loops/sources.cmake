@@ -1,0 +1,13 @@
+vwd_core(
+  assembly.cpp
+  closed_loop_dynamics.cpp
+  completion.cpp
+  cut_tree.cpp
+  follower.cpp
+  forces.cpp
+  groups.cpp
+  kinematics.cpp
+  point_springs.cpp
+  reactions.cpp
+  residuals.cpp
+  unknowns.cpp)

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "algebra/elimination_order.h"
+#include "loops/groups.h"
+#include "loops/kinematics.h"
+#include "scene/resolved_loops.h"
+#include "virtual_work_dynamics/mechanism.h"
+
+namespace virtual_work_dynamics {
+
+/// The unknowns x of G x = b for one group of loops, in units that make all of them forces: efforts
+/// of actuated coordinates, then of each closure its multipliers and its effort, if it is actuated.
+struct LoopUnknowns {
+  LoopUnknowns(const Mechanism& mechanism, const LoopKinematics& kinematics, const LoopScene& scene,
+               const LoopGroup& group, double length);
+
+  /// Efforts of actuated coordinates, one unknown each, then those of actuated closures.
+  struct Effort {
+    std::size_t index;     ///< into ClosedLoopDynamics::effort()
+    double unit;           ///< N m or N for an entry of x of one
+    Eigen::Index unknown;  ///< index of that entry
+  };
+  struct Column {
+    Eigen::Index condition;  ///< -1: the effort along the free axis
+    double unit;             ///< wrench for an entry of x of one, of the unit wrench
+  };
+  struct OfClosure {
+    std::size_t closure;
+    Eigen::Index first;            ///< of its unknowns
+    std::vector<Column> columns;   ///< of its unknowns
+    int effort = -1;               ///< into efforts; -1: it is not actuated
+    std::vector<int> coordinates;  ///< which its wrench moves, as the group counts them
+  };
+
+  Eigen::Index count = 0;
+  std::vector<Effort> efforts;
+  std::vector<int> effort_rows;        ///< of actuated coordinates, as the group counts them
+  std::vector<OfClosure> of_closures;  ///< as the group counts them
+  std::vector<double> row_units;       ///< N m or N for an entry of b of one
+
+  /// The transpose of G: a block of one entry for each actuated coordinate, then one for each
+  /// closure.
+  std::vector<RowBlock> rowBlocks() const;
+};
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,286 @@
+#include "virtual_work_dynamics/motion_csv.h"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "base/number_text.h"
+#include "base/text_file.h"
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+constexpr char kTime[] = "time";
+constexpr std::array<const char*, 3> kKinds{"position", "velocity", "acceleration"};
+constexpr std::size_t kLongestQuote = 40;
+
+bool isBlank(char c) {
+  return c == ' ' || c == '\t' || c == '\r';
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+// Text from the file for a message of one line: cut short, without control characters.
+std::string quoted(std::string_view text) {
+  std::string result = "'";
+  for (const char c : text.substr(0, kLongestQuote)) {
+    result += static_cast<unsigned char>(c) < ' ' || c == '\x7f' ? '?' : c;
+  }
+  return result + (text.size() > kLongestQuote ? "...'" : "'");
+}
+
+// The lines of a text that hold something: neither blank nor a comment.
+class Lines {
+ public:
+  Lines(std::string_view text, const std::string& name) : rest_(text), name_(name) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (rest_.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
+      rest_.remove_prefix(kByteOrderMark.size());
+    }
+  }
+
+  // Goes to the next line; false at the end. Rows after a blank line are refused: two files written
+  // into one look like that.
+  bool next(bool blanks_may_stand_before) {
+    std::size_t blank_line = 0;
+    while (!rest_.empty()) {
+      const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+      line_ = trimmed(rest_.substr(0, end));
+      rest_.remove_prefix(std::min(end + 1, rest_.size()));
+      ++number_;
+      if (line_.empty()) {
+        if (blank_line == 0) blank_line = number_;
+      } else if (line_.front() != '#') {
+        if (blank_line == 0 || blanks_may_stand_before) return true;
+        throw FileError(name_ + ": line " + std::to_string(blank_line) + " is blank, but line " +
+                        std::to_string(number_) + " follows");
+      }
+    }
+    return false;
+  }
+
+  std::string_view text() const { return line_; }
+  std::size_t number() const { return number_; }
+
+ private:
+  std::string_view rest_;
+  const std::string& name_;
+  std::string_view line_;
+  std::size_t number_ = 0;
+};
+
+// Calls `use(column index, cell)` for every cell of a line and returns their number.
+template <typename Use>
+std::size_t forEachCell(std::string_view line, Use use) {
+  std::size_t count = 0;
+  while (true) {
+    const std::size_t comma = line.find(',');
+    use(count++, trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return count;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+// Reads one CSV text into a table: first the header, which says where each column goes, then rows.
+class CsvReader {
+ public:
+  CsvReader(std::string_view text, const std::string& name) : lines_(text, name), name_(name) {}
+
+  MotionTable read(const std::vector<std::string>& joints, std::vector<std::string>* unused,
+                   std::vector<std::size_t>* line_numbers) {
+    return read(
+        [&](const std::vector<std::string>& with_positions) {
+          if (joints.empty() && with_positions.empty() && header_.size() > 1) {
+            throw FileError(atHeader() + ": no column position.<joint>");
+          }
+          return joints.empty() ? with_positions : joints;
+        },
+        unused, line_numbers);
+  }
+
+  MotionTable read(const JointChoice& choose, std::vector<std::string>* unused,
+                   std::vector<std::size_t>* line_numbers) {
+    readHeader();
+    table_.joints = choose(jointsWithPositions());
+    assignColumns();
+    if (unused != nullptr) {
+      unused->clear();
+      for (std::size_t column = 0; column < header_.size(); ++column) {
+        if (target_of_column_[column] < 0) unused->push_back(header_[column]);
+      }
+    }
+    std::vector<std::size_t> numbers;
+    const std::vector<double> values = readRows(numbers);
+    fillTable(values);
+    if (line_numbers != nullptr) *line_numbers = std::move(numbers);
+    return std::move(table_);
+  }
+
+ private:
+  std::string atLine(std::size_t line) const { return name_ + ": line " + std::to_string(line); }
+  std::string atHeader() const { return atLine(header_line_); }
+  std::string atCell(std::size_t line, std::size_t column) const {
+    return atLine(line) + ", column " + std::to_string(column + 1);
+  }
+
+  void readHeader() {
+    if (!lines_.next(true)) {
+      throw FileError(name_ + (lines_.number() == 0 ? ": the file is empty"
+                                                    : ": no header, only comments or blank lines"));
+    }
+    header_line_ = lines_.number();
+    forEachCell(lines_.text(), [this](std::size_t column, std::string_view cell) {
+      std::string column_name(cell);
+      checkKind(column, column_name);
+      const auto inserted = column_of_name_.emplace(column_name, column);
+      if (!inserted.second) {
+        throw FileError(atCell(header_line_, column) + ": " + quoted(cell) +
+                        " stands already in column " + std::to_string(inserted.first->second + 1));
+      }
+      header_.push_back(std::move(column_name));
+    });
+  }
+
+  void checkKind(std::size_t column, const std::string& column_name) const {
+    if (column_name == kTime) return;
+    const std::size_t point = column_name.find('.');
+    const std::string kind = column_name.substr(0, point);
+    const bool known = std::find(kKinds.begin(), kKinds.end(), kind) != kKinds.end();
+    if (known && point != std::string::npos && point + 1 < column_name.size()) return;
+    throw FileError(atCell(header_line_, column) + ": " + quoted(column_name) +
+                    " is none of time, position.<joint>, velocity.<joint>, acceleration.<joint>");
+  }
+
+  std::vector<std::string> jointsWithPositions() const {
+    const std::string prefix = std::string(kKinds[0]) + ".";
+    std::vector<std::string> joints;
+    for (const std::string& column_name : header_) {
+      if (column_name.compare(0, prefix.size(), prefix) == 0) {
+        joints.push_back(column_name.substr(prefix.size()));
+      }
+    }
+    return joints;
+  }
+
+  // Decides for each column where its value goes in a row of targets: the time, then each kind that
+  // is given, joint by joint; -1: nowhere.
+  void assignColumns() {
+    target_of_column_.assign(header_.size(), -1);
+    assign(kTime, 0);
+    int target = 1;
+    for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+      const auto columnName = [&](const std::string& joint) {
+        return std::string(kKinds[kind]) + "." + joint;
+      };
+      const bool wanted = std::any_of(
+          table_.joints.begin(), table_.joints.end(),
+          [&](const std::string& joint) { return column_of_name_.count(columnName(joint)) > 0; });
+      has_kind_[kind] = kind == 0 || wanted;
+      if (!has_kind_[kind]) continue;
+      const char* why = kind == 0 ? "" : ", though other joints have one: give all or none";
+      for (const std::string& joint : table_.joints) assign(columnName(joint), target++, why);
+    }
+    targets_ = static_cast<std::size_t>(target);
+  }
+
+  void assign(const std::string& column_name, int target, const char* why = "") {
+    const auto found = column_of_name_.find(column_name);
+    if (found == column_of_name_.end()) {
+      throw FileError(atHeader() + ": column '" + column_name + "' is missing" + why);
+    }
+    target_of_column_[found->second] = target;
+  }
+
+  std::vector<double> readRows(std::vector<std::size_t>& line_numbers) {
+    std::vector<double> values;
+    std::string number;
+    while (lines_.next(false)) {
+      const std::size_t row_start = values.size();
+      values.resize(row_start + targets_);
+      const auto readCell = [&](std::size_t column, std::string_view cell) {
+        if (column >= header_.size() || target_of_column_[column] < 0) return;
+        number.assign(cell.data(), cell.size());
+        double& value = values[row_start + static_cast<std::size_t>(target_of_column_[column])];
+        if (!parseNumber(number, value)) throwNoNumber(column, cell);
+      };
+      // Counted first: in a row with a cell too few, the numbers behind it are in wrong columns.
+      const auto commas = std::count(lines_.text().begin(), lines_.text().end(), ',');
+      const std::size_t cells = static_cast<std::size_t>(commas) + 1;
+      if (cells != header_.size()) {
+        throw FileError(atLine(lines_.number()) + ": " + std::to_string(header_.size()) +
+                        " cells expected as in the header, " + std::to_string(cells) + " found");
+      }
+      forEachCell(lines_.text(), readCell);
+      line_numbers.push_back(lines_.number());
+    }
+    if (values.empty()) throw FileError(name_ + ": no rows after the header");
+    return values;
+  }
+
+  [[noreturn]] void throwNoNumber(std::size_t column, std::string_view cell) const {
+    throw FileError(atCell(lines_.number(), column) + " (" + header_[column] + "): " +
+                    (cell.empty() ? "the cell is empty" : quoted(cell) + " is no finite number"));
+  }
+
+  void fillTable(const std::vector<double>& values) {
+    using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const Eigen::Map<const RowMajor> rows(values.data(),
+                                          static_cast<Eigen::Index>(values.size() / targets_),
+                                          static_cast<Eigen::Index>(targets_));
+    const auto joints = static_cast<Eigen::Index>(table_.joints.size());
+    table_.times.resize(static_cast<std::size_t>(rows.rows()));
+    for (Eigen::Index row = 0; row < rows.rows(); ++row) {
+      table_.times[static_cast<std::size_t>(row)] = rows(row, 0);
+    }
+    Eigen::Index start = 1;
+    Eigen::MatrixXd* const matrices[] = {&table_.positions, &table_.velocities,
+                                         &table_.accelerations};
+    for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+      if (!has_kind_[kind]) continue;
+      *matrices[kind] = rows.middleCols(start, joints);
+      start += joints;
+    }
+  }
+
+  Lines lines_;
+  const std::string& name_;
+  std::size_t header_line_ = 0;
+  std::vector<std::string> header_;
+  std::map<std::string, std::size_t> column_of_name_;
+  std::vector<int> target_of_column_;
+  std::size_t targets_ = 0;
+  std::array<bool, kKinds.size()> has_kind_{};
+  MotionTable table_;
+};
+
+}  // namespace
+
+MotionTable readMotionCsv(const std::string& path, const std::vector<std::string>& joints,
+                          std::vector<std::string>* unused, std::vector<std::size_t>* lines) {
+  const std::string text = readTextFile(path);
+  return CsvReader(text, path).read(joints, unused, lines);
+}
+
+MotionTable readMotionCsv(const std::string& path, const JointChoice& choose,
+                          std::vector<std::string>* unused, std::vector<std::size_t>* lines) {
+  const std::string text = readTextFile(path);
+  return CsvReader(text, path).read(choose, unused, lines);
+}
+
+MotionTable readMotionCsv(std::istream& stream, const std::string& name,
+                          const std::vector<std::string>& joints, std::vector<std::string>* unused,
+                          std::vector<std::size_t>* lines) {
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (stream.bad()) throw FileError(name + ": cannot be read");
+  return CsvReader(text, name).read(joints, unused, lines);
+}
+
+}  // namespace virtual_work_dynamics

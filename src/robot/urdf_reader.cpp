@@ -1,0 +1,326 @@
+#include "virtual_work_dynamics/urdf_reader.h"
+
+#include <console_bridge/console.h>
+#include <urdf_model/model.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <mutex>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "base/number_text.h"
+#include "base/text_file.h"
+#include "robot/inertia_doubts.h"
+#include "robot/urdf_angles.h"
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+
+namespace {
+
+// How far an axis may be from unit length before the user is told.
+constexpr long double kUnitTolerance = 1e-6L;
+
+// urdfdom tells what is wrong through console_bridge only; this keeps it for the error message.
+class CapturedConsole : public console_bridge::OutputHandler {
+ public:
+  CapturedConsole() { console_bridge::useOutputHandler(this); }
+  ~CapturedConsole() override { console_bridge::restorePreviousOutputHandler(); }
+  CapturedConsole(const CapturedConsole&) = delete;
+  CapturedConsole& operator=(const CapturedConsole&) = delete;
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR) return;
+    std::string line = text;
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    lines_.push_back(line);
+  }
+  const std::vector<std::string>& lines() const { return lines_; }
+
+ private:
+  std::vector<std::string> lines_;
+};
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : "; ") + line;
+  return text;
+}
+
+struct Parsed {
+  urdf::ModelInterfaceSharedPtr model;
+  std::vector<std::string> complaints;  // what urdfdom disliked and went on without
+};
+
+Parsed parse(const std::string& text) {
+  static std::mutex console_mutex;  // console_bridge has one handler for the whole process
+  const std::lock_guard<std::mutex> lock(console_mutex);
+  CapturedConsole console;
+  Parsed parsed;
+  try {
+    parsed.model = urdf::parseURDF(text);
+  } catch (const std::exception& error) {
+    throw UrdfError(std::string("robot description is broken: ") + error.what());
+  }
+  parsed.complaints = console.lines();
+  // urdfdom drops a mass or inertia that it cannot read, and reports success.
+  const bool inertial_lost =
+      std::any_of(parsed.complaints.begin(), parsed.complaints.end(), [](const std::string& line) {
+        return line.rfind("Could not parse inertial element", 0) == 0;
+      });
+  if (!parsed.model || !parsed.model->getRoot() || inertial_lost) {
+    throw UrdfError("robot description is broken: " +
+                    (parsed.complaints.empty() ? "no root link" : joined(parsed.complaints)));
+  }
+  return parsed;
+}
+
+Vector3l toEigen(const urdf::Vector3& v) {
+  return Vector3l(v.x, v.y, v.z);
+}
+
+std::string numbersText(const urdf::Vector3& v) {
+  std::ostringstream text;
+  text << "(" << v.x << ", " << v.y << ", " << v.z << ")";
+  return text.str();
+}
+
+Matrix3l rotationIn(const std::map<std::string, Matrix3l>& rotations, const std::string& name) {
+  const auto found = rotations.find(name);
+  return found == rotations.end() ? Matrix3l(Matrix3l::Identity()) : found->second;
+}
+
+// Walks urdfdom's model depth first and collects links and joints in the Mechanism's order.
+class Reader {
+ public:
+  explicit Reader(const std::string& text) : angles_(readUrdfAngles(text)) {
+    Parsed parsed = parse(text);
+    model_ = std::move(parsed.model);
+    for (const std::string& line : parsed.complaints) doubts_.push_back({line});
+  }
+
+  // urdfdom's links own their children: a loop of links would never be freed.
+  ~Reader() {
+    for (const auto& entry : model_->links_) entry.second->child_links.clear();
+  }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  Mechanism read() {
+    checkParents();
+    walk();
+    checkReached();
+    resolveMimics();
+    for (Doubt& doubt : inertiaDoubts(links_, joints_)) doubts_.push_back(std::move(doubt));
+    return Mechanism(model_->getName(), std::move(links_), std::move(joints_), std::move(doubts_));
+  }
+
+ private:
+  // urdfdom lets a link have two parents and computes with neither.
+  void checkParents() const {
+    std::map<std::string, std::string> joint_of;  // by child link
+    for (const auto& [name, joint] : model_->joints_) {
+      const auto [known, is_new] = joint_of.emplace(joint->child_link_name, name);
+      if (!is_new) {
+        throw UrdfError("link '" + known->first + "': is the child of two joints, '" +
+                        known->second + "' and '" + name + "'");
+      }
+    }
+  }
+
+  // Links that are one another's parents hang on no root, and urdfdom is content with that.
+  void checkReached() const {
+    if (links_.size() == model_->links_.size()) return;
+    for (const auto& entry : model_->links_) {
+      const std::string& name = entry.first;
+      if (std::none_of(links_.begin(), links_.end(),
+                       [&](const Link& link) { return link.name == name; })) {
+        throw UrdfError("link '" + name +
+                        "': its parents form a loop that never reaches the root '" +
+                        links_.front().name + "'");
+      }
+    }
+  }
+
+  // Depth first, children by joint name. No recursion: a chain may be as long as memory allows.
+  void walk() {
+    std::vector<std::pair<const urdf::Joint*, int>> pending;  // joint, its parent link
+    const auto addLink = [&](const urdf::Link& source, int parent_joint) {
+      const int index = static_cast<int>(links_.size());
+      links_.push_back(link(source, parent_joint));
+      auto children = source.child_joints;
+      std::sort(children.begin(), children.end(),
+                [](const auto& a, const auto& b) { return a->name > b->name; });
+      for (const auto& child : children) pending.emplace_back(child.get(), index);
+    };
+    addLink(*model_->getRoot(), -1);
+    while (!pending.empty()) {
+      const auto [joint, parent_link] = pending.back();
+      pending.pop_back();
+      addJoint(*joint, parent_link);
+      addLink(*model_->getLink(joint->child_link_name), static_cast<int>(joints_.size()) - 1);
+    }
+  }
+
+  Link link(const urdf::Link& source, int parent_joint) const {
+    Link link;
+    link.name = source.name;
+    link.parent_joint = parent_joint;
+    if (!source.inertial) return link;
+    const urdf::Inertial& inertial = *source.inertial;
+    if (!std::isfinite(inertial.mass) || inertial.mass < 0) {
+      throw UrdfError("link '" + source.name + "': mass " + numberText(inertial.mass) +
+                      " kg is negative or not finite");
+    }
+    Matrix3l inertia;
+    inertia << inertial.ixx, inertial.ixy, inertial.ixz,  //
+        inertial.ixy, inertial.iyy, inertial.iyz,         //
+        inertial.ixz, inertial.iyz, inertial.izz;
+    link.mass = inertial.mass;
+    link.p_KoCm_K = toEigen(inertial.origin.position);
+    if (!inertia.allFinite() || !link.p_KoCm_K.allFinite()) {
+      throw UrdfError("link '" + source.name + "': inertia or centre of mass is not finite");
+    }
+    const Matrix3l R = rotationIn(angles_.inertial_origins, source.name);
+    link.inertia_Cm_K = R * inertia * R.transpose();
+    return link;
+  }
+
+  void addJoint(const urdf::Joint& source, int parent_link) {
+    if (source.name == kGround) {
+      throw UrdfError("joint 'ground': the name is reserved for the wrench of ground on the root");
+    }
+    if (source.name.empty()) {
+      throw UrdfError("joint of link '" + source.child_link_name + "': its name is empty");
+    }
+    Joint joint;
+    joint.name = source.name;
+    joint.type = typeOf(source);
+    joint.parent_link = parent_link;
+    joint.child_link = static_cast<int>(joints_.size()) + 1;
+    joint.p_PoKo_P = toEigen(source.parent_to_joint_origin_transform.position);
+    joint.R_PK = rotationIn(angles_.joint_origins, source.name);
+    if (!joint.p_PoKo_P.allFinite()) {
+      throw UrdfError("joint '" + source.name + "': origin is not finite");
+    }
+    if (joint.type != JointType::kFixed) {
+      joint.axis_K = axisOf(source);
+      readDynamics(source, joint);
+      if (!source.mimic) joint.coordinate = coordinates_++;
+    } else if (source.mimic) {
+      doubts_.push_back({"joint '" + source.name + "': is fixed, its <mimic> has no meaning"});
+    }
+    joints_.push_back(joint);
+  }
+
+  static void readDynamics(const urdf::Joint& source, Joint& joint) {
+    if (!source.dynamics) return;
+    joint.damping = source.dynamics->damping;
+    joint.friction = source.dynamics->friction;
+    if (!std::isfinite(joint.damping) || !std::isfinite(joint.friction)) {
+      throw UrdfError("joint '" + source.name + "': damping or friction is not finite");
+    }
+  }
+
+  static JointType typeOf(const urdf::Joint& source) {
+    switch (source.type) {
+      case urdf::Joint::REVOLUTE:
+        return JointType::kRevolute;
+      case urdf::Joint::CONTINUOUS:
+        return JointType::kContinuous;
+      case urdf::Joint::PRISMATIC:
+        return JointType::kPrismatic;
+      case urdf::Joint::FIXED:
+        return JointType::kFixed;
+      case urdf::Joint::FLOATING:
+        throw UrdfError("joint '" + source.name + "': floating joints are not supported yet");
+      case urdf::Joint::PLANAR:
+        throw UrdfError("joint '" + source.name + "': planar joints are not supported yet");
+      default:
+        throw UrdfError("joint '" + source.name + "': unknown joint type");
+    }
+  }
+
+  Vector3l axisOf(const urdf::Joint& source) {
+    const Vector3l axis = toEigen(source.axis);
+    const long double length = axis.norm();
+    if (!std::isfinite(length) || length == 0) {
+      throw UrdfError("joint '" + source.name + "': axis " + numbersText(source.axis) +
+                      " has no direction");
+    }
+    if (std::abs(length - 1) > kUnitTolerance) {
+      doubts_.push_back({"joint '" + source.name + "': axis " + numbersText(source.axis) +
+                         " is not of unit length, its direction is used"});
+    }
+    return axis / length;
+  }
+
+  // Follows every mimic joint to the coordinate that moves it in the end.
+  void resolveMimics() {
+    for (Joint& joint : joints_) {
+      std::size_t steps = 0;
+      for (const urdf::JointMimic* mimic = mimicOf(joint); mimic;) {
+        if (++steps > joints_.size()) {
+          throw UrdfError("joint '" + joint.name + "': its <mimic> leads in a cycle");
+        }
+        const Joint& master = masterOf(joint, mimic->joint_name);
+        joint.mimics = true;
+        joint.offset += joint.multiplier * mimic->offset;
+        joint.multiplier *= mimic->multiplier;
+        joint.coordinate = master.coordinate;
+        mimic = mimicOf(master);
+      }
+      if (!std::isfinite(joint.multiplier) || !std::isfinite(joint.offset)) {
+        throw UrdfError("joint '" + joint.name + "': mimic multiplier or offset is not finite");
+      }
+    }
+  }
+
+  const urdf::JointMimic* mimicOf(const Joint& joint) const {
+    if (joint.type == JointType::kFixed) return nullptr;
+    return model_->getJoint(joint.name)->mimic.get();
+  }
+
+  const Joint& masterOf(const Joint& joint, const std::string& name) const {
+    const auto found = std::find_if(joints_.begin(), joints_.end(),
+                                    [&](const Joint& other) { return other.name == name; });
+    if (found == joints_.end()) {
+      throw UrdfError("joint '" + joint.name + "': mimics unknown joint '" + name + "'");
+    }
+    if (found->type == JointType::kFixed) {
+      throw UrdfError("joint '" + joint.name + "': mimics fixed joint '" + name + "'");
+    }
+    return *found;
+  }
+
+  urdf::ModelInterfaceSharedPtr model_;
+  UrdfAngles angles_;
+  std::vector<Link> links_;
+  std::vector<Joint> joints_;
+  std::vector<Doubt> doubts_;
+  int coordinates_ = 0;
+};
+
+}  // namespace
+
+Mechanism readUrdf(const std::string& urdf) {
+  if (urdf.find_first_not_of(" \t\r\n") == std::string::npos) {
+    throw UrdfError("robot description is empty");
+  }
+  return Reader(urdf).read();
+}
+
+Mechanism readUrdfFile(const std::string& path) {
+  const std::string text = readTextFile(path);
+  try {
+    return readUrdf(text);
+  } catch (const UrdfError& error) {
+    throw UrdfError(path + ": " + error.what());
+  }
+}
+
+}  // namespace virtual_work_dynamics

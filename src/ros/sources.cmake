@@ -1,0 +1,32 @@
+set(ros_files)
+foreach(file
+    active_plan.cpp
+    closure_frames.cpp
+    counters.cpp
+    cross_check.cpp
+    determinacy_message.cpp
+    diagnostics.cpp
+    inverse_dynamics_node.cpp
+    inverse_dynamics_parameters.cpp
+    joint_state_conversion.cpp
+    joint_watch.cpp
+    loop_completer.cpp
+    loop_plan.cpp
+    loop_record.cpp
+    loop_report.cpp
+    loop_samples.cpp
+    output_messages.cpp
+    output_topics.cpp
+    plan_switch.cpp
+    private_parameters.cpp
+    robot_task.cpp
+    sample_computation.cpp
+    sample_times.cpp
+    self_check_report.cpp
+    topic_names.cpp
+    trajectory_conversion.cpp
+    trajectory_publisher.cpp
+    trajectory_settings.cpp
+    xmlrpc_to_yaml.cpp)
+  list(APPEND ros_files ${CMAKE_CURRENT_LIST_DIR}/${file})
+endforeach()

@@ -1,0 +1,107 @@
+#include "virtual_work_dynamics/scene_reader.h"
+
+#include "base/text_file.h"
+#include "scene/closure_reader.h"
+#include "scene/yaml_values.h"
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+
+namespace {
+
+const Names kSceneKeys = {"gravity",        "motion",           "reactions", "include_active",
+                          "strict_inertia", "applied_wrenches", "joints",    "use_urdf_dynamics"};
+const Names kWrenchKeys = {"link", "at", "axes", "force", "torque"};
+const Names kJointKeys = {"name",    "stiffness",        "rest",         "damping",
+                          "coulomb", "coulomb_velocity", "rotor_inertia"};
+
+void readReactions(const YAML::Node& node, Scene& scene) {
+  if (node.IsSequence()) {
+    scene.reactions = ReactionSelection::kNamed;
+    scene.reaction_names = readNames(node, "reactions", "joint names");
+    return;
+  }
+  const std::string text = scalarText(node, "reactions", "all, none or a list of joint names");
+  if (text != "all" && text != "none") {
+    failAt("reactions", "'" + text + "' is neither all, none nor a list of joint names");
+  }
+  scene.reactions = text == "all" ? ReactionSelection::kAll : ReactionSelection::kNone;
+}
+
+AppliedWrench readAppliedWrench(const YAML::Node& node, const std::string& where) {
+  AppliedWrench wrench;
+  readMap(node, where, kWrenchKeys, [&](const auto& key, const auto& value, const auto& path) {
+    if (key == "link") wrench.link = scalarText(value, path, "a link's name");
+    if (key == "at") wrench.at = readVector3(value, path);
+    if (key == "axes") {
+      wrench.axes = readWord(value, path, {"link", "root"}) == 0 ? Axes::kLink : Axes::kRoot;
+    }
+    if (key == "force") wrench.force = readVector3(value, path);
+    if (key == "torque") wrench.torque = readVector3(value, path);
+  });
+  if (wrench.link.empty()) failAt(where, "names no link");
+  return wrench;
+}
+
+JointTerms readJointTerms(const YAML::Node& node, const std::string& where) {
+  JointTerms terms;
+  readMap(node, where, kJointKeys, [&](const auto& key, const auto& value, const auto& path) {
+    if (key == "name") {
+      terms.joint = scalarText(value, path, "a joint's name");
+      return;
+    }
+    const double number = readNumber(value, path);
+    if (key == "stiffness") terms.stiffness = number;
+    if (key == "rest") terms.rest = number;
+    if (key == "damping") terms.damping = number;
+    if (key == "coulomb") terms.coulomb = number;
+    if (key == "coulomb_velocity") terms.coulomb_velocity = number;
+    if (key == "rotor_inertia") terms.rotor_inertia = number;
+  });
+  if (terms.joint.empty()) failAt(where, "names no joint");
+  return terms;
+}
+
+void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
+  if (readLoopEntry(key, value, scene)) return;
+  if (!contains(kSceneKeys, key)) failAt(key, "unknown key");
+  if (key == "gravity") scene.gravity = readVector3(value, key);
+  if (key == "motion") scene.static_motion = readWord(value, key, {"full", "static"}) == 1;
+  if (key == "reactions") readReactions(value, scene);
+  if (key == "include_active") scene.include_active = readBool(value, key);
+  if (key == "strict_inertia") scene.strict_inertia = readBool(value, key);
+  if (key == "applied_wrenches") scene.applied_wrenches = readList(value, key, readAppliedWrench);
+  if (key == "joints") scene.joints = readList(value, key, readJointTerms);
+  if (key == "use_urdf_dynamics") scene.use_urdf_dynamics = readBool(value, key);
+}
+
+}  // namespace
+
+Scene readScene(const YAML::Node& node) {
+  Scene scene;
+  if (!node || node.IsNull()) return scene;
+  if (!node.IsMap()) throw SceneError("scene: expected a map of keys");
+  forEachEntry(node, "", [&](const std::string& key, const YAML::Node& value) {
+    readEntry(key, value, scene);
+  });
+  return scene;
+}
+
+Scene readSceneFile(const std::string& path) {
+  const std::string text = readTextFile(path);
+  YAML::Node node;
+  try {
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1) throw SceneError(path + ": holds more than one YAML document");
+    if (!documents.empty()) node = documents.front();
+  } catch (const YAML::Exception& error) {
+    throw FileError(path + ": is no YAML: " + error.what());
+  }
+  try {
+    return readScene(node);
+  } catch (const SceneError& error) {
+    throw SceneError(path + ": " + error.what());
+  }
+}
+
+}  // namespace virtual_work_dynamics

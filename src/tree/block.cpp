@@ -1,0 +1,237 @@
+#include "virtual_work_dynamics/block.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "base/aligned_memory.h"
+#include "base/worker_threads.h"
+#include "tree/applied_values.h"
+#include "tree/compiled_plan.h"
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+
+namespace {
+
+constexpr int kArrays = 8;  // three of a MotionBlock, five of a ResultBlock
+constexpr int kInputs = 3;
+
+/// The arrays of a block, and how many numbers of each belong to a sample.
+template <typename Real>
+struct BlockArrays {
+  std::size_t samples;
+  BlockLayout layout;
+  const Real* inputs[kInputs];
+  Real* outputs[kArrays - kInputs];
+};
+
+int checkedThreads(int threads) {
+  if (threads < 1) {
+    throw Error("blocks: " + std::to_string(threads) + " threads; at least 1 is needed");
+  }
+  return threads;
+}
+
+}  // namespace
+
+template <typename Real>
+struct BlockInverseDynamics<Real>::Impl {
+  Impl(const InverseDynamics::Impl& from, int thread_count, InstructionSet set)
+      : request(from.request),
+        plan(roundPlan<Real>(from.exact)),
+        view(viewOf(plan)),
+        instruction_set(set),
+        kernel(kernelFor<Real>(set)),
+        width(static_cast<std::size_t>(kernel.width)),
+        applied(plan),
+        workers(checkedThreads(thread_count)) {
+    const std::size_t coordinates = static_cast<std::size_t>(plan.coordinates);
+    const std::size_t in_root_axes = plan.root_axes.size();
+    const std::size_t numbers[kArrays] = {coordinates,
+                                          coordinates,
+                                          coordinates,
+                                          request.efforts ? coordinates : 0,
+                                          6 * plan.child_axes.size(),
+                                          6 * in_root_axes,
+                                          request.poses ? 12 * in_root_axes : 0,
+                                          request.twists ? 6 * in_root_axes : 0};
+    std::copy(std::begin(numbers), std::end(numbers), columns);
+    const bool outputs[] = {request.efforts, !plan.child_axes.empty(), in_root_axes > 0,
+                            request.poses, request.twists};
+    std::copy(std::begin(outputs), std::end(outputs), requested);
+    std::size_t tile_size = width * width * sizeof(Real);  // behind the last, see toColumns()
+    for (const std::size_t count : columns) tile_size += count * width * sizeof(Real);
+    for (int i = 0; i < thread_count; ++i) {
+      scratch.emplace_back(kernel.scratchSize(view));
+      kernel.prepare(view, scratch.back().get());
+      tiles.emplace_back(tile_size);
+    }
+  }
+
+  void check(const BlockArrays<Real>& arrays) const {
+    static const char* const kNames[] = {"q",          "qd",        "qdd",   "effort",
+                                         "child_axes", "root_axes", "poses", "twists"};
+    if (arrays.samples == 0) return;
+    for (int i = 0; i < kInputs; ++i) {
+      if (columns[i] > 0 && !arrays.inputs[i]) {
+        throw MotionError(std::string("block: ") + kNames[i] + " is missing");
+      }
+    }
+    for (int i = kInputs; i < kArrays; ++i) {
+      if (!requested[i - kInputs] && arrays.outputs[i - kInputs]) {
+        throw MotionError(std::string("block: ") + kNames[i] + " was not requested");
+      }
+    }
+  }
+
+  // The samples of one thread, whole packs for all but the last.
+  void computeShare(const BlockArrays<Real>& arrays, int index) const {
+    const std::size_t packs = (arrays.samples + width - 1) / width;
+    const std::size_t threads = tiles.size(), thread = static_cast<std::size_t>(index);
+    const std::size_t begin = packs * thread / threads * width;
+    const std::size_t end = std::min(arrays.samples, packs * (thread + 1) / threads * width);
+    for (std::size_t first = begin; first < end; first += width) {
+      if (arrays.layout == BlockLayout::kStructureOfArrays && first + width <= end) {
+        computeInPlace(arrays, first, thread);
+      } else {
+        computeInTile(arrays, first, std::min(width, end - first), thread);
+      }
+    }
+  }
+
+  void computeInPlace(const BlockArrays<Real>& arrays, std::size_t first,
+                      std::size_t thread) const {
+    const auto at = [first](auto* array) { return array ? array + first : nullptr; };
+    kernel.pack(view,
+                {at(arrays.inputs[0]), at(arrays.inputs[1]), at(arrays.inputs[2]), arrays.samples,
+                 applied.data()},
+                {at(arrays.outputs[0]), at(arrays.outputs[1]), at(arrays.outputs[2]),
+                 at(arrays.outputs[3]), at(arrays.outputs[4]), arrays.samples},
+                scratch[thread].get());
+  }
+
+  // Copies a pack into columns of its width, and the results back.
+  void computeInTile(const BlockArrays<Real>& arrays, std::size_t first, std::size_t count,
+                     std::size_t thread) const {
+    Real* tile[kArrays];
+    tile[0] = static_cast<Real*>(tiles[thread].get());
+    for (int i = 1; i < kArrays; ++i) tile[i] = tile[i - 1] + columns[i - 1] * width;
+    const bool whole_rows = arrays.layout == BlockLayout::kRowMajor && count == width;
+
+    for (int i = 0; i < kInputs; ++i) {
+      const Real* const from = arrays.inputs[i];
+      if (columns[i] == 0) continue;
+      if (whole_rows) {
+        kernel.toColumns(from + first * columns[i], columns[i], tile[i]);
+        continue;
+      }
+      for (std::size_t c = 0; c < columns[i]; ++c) {
+        for (std::size_t j = 0; j < width; ++j) {  // the last sample fills up
+          tile[i][c * width + j] =
+              from[indexOf(arrays, columns[i], c, first + std::min(j, count - 1))];
+        }
+      }
+    }
+    const auto wanted = [&](int i) { return arrays.outputs[i] ? tile[kInputs + i] : nullptr; };
+    kernel.pack(view, {tile[0], tile[1], tile[2], width, applied.data()},
+                {wanted(0), wanted(1), wanted(2), wanted(3), wanted(4), width},
+                scratch[thread].get());
+    for (int i = kInputs; i < kArrays; ++i) {
+      Real* const to = arrays.outputs[i - kInputs];
+      if (!to || columns[i] == 0) continue;
+      if (whole_rows) {
+        kernel.toRows(tile[i], columns[i], to + first * columns[i]);
+        continue;
+      }
+      for (std::size_t c = 0; c < columns[i]; ++c) {
+        for (std::size_t j = 0; j < count; ++j) {
+          to[indexOf(arrays, columns[i], c, first + j)] = tile[i][c * width + j];
+        }
+      }
+    }
+  }
+
+  static std::size_t indexOf(const BlockArrays<Real>& arrays, std::size_t column_count,
+                             std::size_t column, std::size_t sample) {
+    return arrays.layout == BlockLayout::kRowMajor ? sample * column_count + column
+                                                   : column * arrays.samples + sample;
+  }
+
+  Request request;
+  Plan<Real> plan;
+  PlanView<Real> view;
+  InstructionSet instruction_set;
+  const Kernel<Real>& kernel;
+  std::size_t width;
+  std::size_t columns[kArrays];       // numbers a sample of each array
+  bool requested[kArrays - kInputs];  // of the outputs
+  AppliedValues<Real> applied;
+  std::vector<AlignedMemory> scratch, tiles;  // of each thread
+  WorkerThreads workers;
+};
+
+template <typename Real>
+BlockInverseDynamics<Real>::BlockInverseDynamics(const InverseDynamics& inverse_dynamics,
+                                                 int threads, InstructionSet instruction_set)
+    : impl_(new Impl(*inverse_dynamics.impl_, threads, instruction_set)) {}
+
+template <typename Real>
+BlockInverseDynamics<Real>::~BlockInverseDynamics() = default;
+template <typename Real>
+BlockInverseDynamics<Real>::BlockInverseDynamics(BlockInverseDynamics&&) noexcept = default;
+template <typename Real>
+BlockInverseDynamics<Real>& BlockInverseDynamics<Real>::operator=(BlockInverseDynamics&&) noexcept =
+    default;
+
+template <typename Real>
+std::size_t BlockInverseDynamics<Real>::coordinates() const {
+  return static_cast<std::size_t>(impl_->plan.coordinates);
+}
+
+template <typename Real>
+const Request& BlockInverseDynamics<Real>::request() const {
+  return impl_->request;
+}
+
+template <typename Real>
+int BlockInverseDynamics<Real>::threads() const {
+  return impl_->workers.count();
+}
+
+template <typename Real>
+InstructionSet BlockInverseDynamics<Real>::instructionSet() const {
+  return impl_->instruction_set;
+}
+
+template <typename Real>
+void BlockInverseDynamics<Real>::compute(BlockLayout layout, const MotionBlock<Real>& motion,
+                                         const ResultBlock<Real>& results) {
+  const BlockArrays<Real> arrays = {
+      motion.samples,
+      layout,
+      {motion.q, motion.qd, motion.qdd},
+      {results.effort, results.child_axes, results.root_axes, results.poses, results.twists}};
+  impl_->check(arrays);
+  struct Job {
+    const Impl* impl;
+    const BlockArrays<Real>* arrays;
+  } job = {impl_.get(), &arrays};
+  impl_->workers.run(
+      [](void* context, int index) {
+        const Job& all = *static_cast<Job*>(context);
+        all.impl->computeShare(*all.arrays, index);
+      },
+      &job);
+}
+
+template <typename Real>
+void BlockInverseDynamics<Real>::setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
+                                                  const Eigen::Vector3d& torque) {
+  impl_->applied.set(impl_->plan, index, force, torque);
+}
+
+template class BlockInverseDynamics<float>;
+template class BlockInverseDynamics<double>;
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "tree/kernel/recursion.h"
+
+namespace virtual_work_dynamics {
+namespace {  // see kernel.h
+
+/// Pose and velocity of a body, in root axes.
+template <typename T>
+struct BodyPose {
+  Mat3<T> R_0Z;  ///< a_{k0}^T
+  Vec3<T> p_0;   ///< O_k
+  Vec3<T> v_0;   ///< v_{k0}
+  Vec3<T> w_0;   ///< omega_{k0}
+};
+
+/// a_{k0}^T by composition, and (2.5), (2.6) in root axes.
+template <bool kTwist, typename T, typename R>
+VWD_INLINE BodyPose<T> propagatePose(const Body<R>& body, const JointMotion<T>& joint,
+                                     const BodyPose<T>& parent) {
+  const Mat3<T>& R_0P = parent.R_0Z;
+  const Vec3<T> arm = body.mobility == Mobility::kPrismatic
+                          ? times(R_0P, originInParent(body, joint.slide))
+                          : columnTimes(R_0P, body.p_PoZo_P);
+  BodyPose<T> pose;
+  pose.p_0 = parent.p_0 + arm;
+  forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
+    const Vec3<T> x = toChild<axis.value>(body.R_PZ, Vec3<T>{R_0P.xx, R_0P.xy, R_0P.xz});
+    const Vec3<T> y = toChild<axis.value>(body.R_PZ, Vec3<T>{R_0P.yx, R_0P.yy, R_0P.yz});
+    const Vec3<T> z = toChild<axis.value>(body.R_PZ, Vec3<T>{R_0P.zx, R_0P.zy, R_0P.zz});
+    pose.R_0Z = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
+  });
+  if (body.mobility == Mobility::kRevolute) pose.R_0Z = times(pose.R_0Z, joint.Rz);
+  if (!kTwist) return pose;
+  pose.w_0 = parent.w_0;
+  pose.v_0 = addCross(parent.v_0, parent.w_0, arm);
+  const Vec3<T> u3{pose.R_0Z.xz, pose.R_0Z.yz, pose.R_0Z.zz};
+  if (body.mobility == Mobility::kRevolute) pose.w_0 = pose.w_0 + scaled(joint.qd, u3);
+  if (body.mobility == Mobility::kPrismatic) pose.v_0 = pose.v_0 + scaled(joint.qd, u3);
+  return pose;
+}
+
+template <typename T, typename R>
+VWD_INLINE void storeVector(const Vec3<T>& v, R* to, std::size_t stride) {
+  store(to, v.x);
+  store(to + stride, v.y);
+  store(to + 2 * stride, v.z);
+}
+
+/// Position of O_k, then R_0K = R_0Z R_KZ^T by rows.
+template <typename T, typename R>
+VWD_INLINE void storePose(const ReactionOutput<R>& output, const BodyPose<T>& pose, R* to,
+                          std::size_t stride) {
+  const Mat3<T>& A = pose.R_0Z;
+  storeVector(pose.p_0, to, stride);
+  storeVector(times(output.R_KZ, Vec3<T>{A.xx, A.xy, A.xz}), to + 3 * stride, stride);
+  storeVector(times(output.R_KZ, Vec3<T>{A.yx, A.yy, A.yz}), to + 6 * stride, stride);
+  storeVector(times(output.R_KZ, Vec3<T>{A.zx, A.zy, A.zz}), to + 9 * stride, stride);
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics

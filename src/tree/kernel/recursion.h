@@ -1,0 +1,239 @@
+#pragma once
+
+#include "tree/kernel/axis_rotation.h"
+#include "tree/kernel/kernel.h"
+#include "tree/kernel/vec3_operations.h"
+
+namespace virtual_work_dynamics {
+namespace {  // see kernel.h
+
+// The recursive virtual-work model of Stroe & Staicu (2010), templated on the number type T of the
+// samples and R of the constants. Symbols are those of notation.h; every quantity of a body is in
+// its own frame Z, z along the joint axis u3. Gravity is carried as gamma_root = -g, so that (3.6)
+// needs no term of its own.
+
+/// Motion of a body.
+template <typename T>
+struct BodyMotion {
+  Vec3<T> w;      ///< omega_{k0}
+  Vec3<T> alpha;  ///< epsilon_{k0}
+  Vec3<T> gamma;  ///< gamma_{k0} - g
+  Mat3<T> U;      ///< w~ w~ + alpha~: the acceleration of the point r is gamma + U r
+};
+
+/// Motion of a joint.
+template <typename T>
+struct JointMotion {
+  RotationZ<T> Rz;  ///< where it turns
+  T slide;          ///< position where it slides
+  T qd;
+  T qdd;
+};
+
+template <typename T>
+VWD_INLINE Mat3<T> accelerationGradient(const Vec3<T>& w, const Vec3<T>& alpha) {
+  const T yy = w.y * w.y, zz = w.z * w.z;
+  return {minusMulSub(w.y, w.y, zz), mulSub(w.x, w.y, alpha.z), mulAdd(w.x, w.z, alpha.y),
+          mulAdd(w.x, w.y, alpha.z), minusMulSub(w.x, w.x, zz), mulSub(w.y, w.z, alpha.x),
+          mulSub(w.x, w.z, alpha.y), mulAdd(w.y, w.z, alpha.x), minusMulSub(w.x, w.x, yy)};
+}
+
+/// r_{k,k-1}: contains the slide of a prismatic joint.
+template <typename T, typename R>
+VWD_INLINE Vec3<T> originInParent(const Body<R>& body, const T& slide) {
+  return {mulAdd(body.R_PZ.xz, slide, T(body.p_PoZo_P.x)),
+          mulAdd(body.R_PZ.yz, slide, T(body.p_PoZo_P.y)),
+          mulAdd(body.R_PZ.zz, slide, T(body.p_PoZo_P.z))};
+}
+
+/// sum + U r.
+template <typename S, typename T>
+VWD_INLINE Vec3<T> addProduct(const Vec3<T>& sum, const Mat3<T>& U, const Vec3<S>& r) {
+  return {addDot(sum.x, r.x, r.y, r.z, Vec3<T>{U.xx, U.xy, U.xz}),
+          addDot(sum.y, r.x, r.y, r.z, Vec3<T>{U.yx, U.yy, U.yz}),
+          addDot(sum.z, r.x, r.y, r.z, Vec3<T>{U.zx, U.zy, U.zz})};
+}
+
+/// gamma + U r for the origin r of a body in its parent; components that are zero are left out.
+template <typename S, typename T, typename R>
+VWD_INLINE Vec3<T> accelerationOf(const Body<R>& body, const BodyMotion<T>& motion,
+                                  const Vec3<S>& r) {
+  const Mat3<T>& U = motion.U;
+  Vec3<T> b = motion.gamma;
+  if (body.offset_z) b = {mulAdd(r.z, U.xz, b.x), mulAdd(r.z, U.yz, b.y), mulAdd(r.z, U.zz, b.z)};
+  if (body.offset_y) b = {mulAdd(r.y, U.xy, b.x), mulAdd(r.y, U.yy, b.y), mulAdd(r.y, U.zy, b.z)};
+  if (body.offset_x) b = {mulAdd(r.x, U.xx, b.x), mulAdd(r.x, U.yx, b.y), mulAdd(r.x, U.zx, b.z)};
+  return b;
+}
+
+/// moment + r x force for the same r.
+template <typename S, typename T, typename R>
+VWD_INLINE Vec3<T> momentAt(const Body<R>& body, const Vec3<T>& moment, const Vec3<S>& r,
+                            const Vec3<T>& force) {
+  Vec3<T> sum = moment;
+  if (body.offset_z) {
+    sum.x = subMul(sum.x, r.z, force.y);
+    sum.y = mulAdd(r.z, force.x, sum.y);
+  }
+  if (body.offset_y) {
+    sum.x = mulAdd(r.y, force.z, sum.x);
+    sum.z = subMul(sum.z, r.y, force.x);
+  }
+  if (body.offset_x) {
+    sum.y = subMul(sum.y, r.x, force.z);
+    sum.z = mulAdd(r.x, force.y, sum.z);
+  }
+  return sum;
+}
+
+/// What arrives at a body from its parent, in the parent's axes: omega, epsilon and, of its own
+/// origin, b = gamma_p + U_p r.
+template <typename T>
+struct Arrival {
+  Vec3<T> w;
+  Vec3<T> alpha;
+  Vec3<T> b;
+};
+
+template <bool kStatic, typename T, typename R>
+VWD_INLINE void arriveAt(const Body<R>& body, const T* slides, const BodyMotion<T>& parent,
+                         Arrival<T>& arrival) {
+  arrival.b = parent.gamma;
+  if (kStatic) return;
+  arrival.w = parent.w;
+  arrival.alpha = parent.alpha;
+  if (body.mobility == Mobility::kPrismatic) {
+    arrival.b = accelerationOf(body, parent, originInParent(body, slides[body.slide]));
+  } else {
+    arrival.b = accelerationOf(body, parent, body.p_PoZo_P);
+  }
+}
+
+/// Motion of a body from its parent's: (2.5), (2.7). kPlain: see BodyUse::plain_motion.
+template <bool kStatic, bool kPlain, AxisDirection kAxis, typename T, typename R>
+VWD_INLINE void propagateMotion(const Body<R>& body, const JointMotion<T>& joint,
+                                const Arrival<T>& arrival, BodyMotion<T>& motion) {
+  const Mobility mobility = kPlain ? Mobility::kRevolute : body.mobility;
+  if (!kStatic) {
+    motion.w = toChild<kAxis>(body.R_PZ, arrival.w);
+    motion.alpha = toChild<kAxis>(body.R_PZ, arrival.alpha);
+  }
+  motion.gamma = toChild<kAxis>(body.R_PZ, arrival.b);
+  if (mobility == Mobility::kRevolute) {
+    motion.gamma = transposeTimes(joint.Rz, motion.gamma);
+    if (kStatic) return;
+    motion.w = transposeTimes(joint.Rz, motion.w);
+    motion.alpha = transposeTimes(joint.Rz, motion.alpha);
+    motion.w.z = motion.w.z + joint.qd;                             // (2.5)
+    motion.alpha.x = mulAdd(joint.qd, motion.w.y, motion.alpha.x);  // (2.7), w x u3 =
+    motion.alpha.y = subMul(motion.alpha.y, joint.qd, motion.w.x);  //   (w_y, -w_x, 0)
+    motion.alpha.z = motion.alpha.z + joint.qdd;
+  } else if (mobility == Mobility::kPrismatic && !kStatic) {
+    const T qd2 = joint.qd + joint.qd;
+    motion.gamma.x = mulAdd(qd2, motion.w.y, motion.gamma.x);  // (2.7), 2 v w x u3
+    motion.gamma.y = subMul(motion.gamma.y, qd2, motion.w.x);
+    motion.gamma.z = motion.gamma.z + joint.qdd;
+  }
+  if (!kStatic) motion.U = accelerationGradient(motion.w, motion.alpha);
+}
+
+/// The same for a parent at rest: its w and alpha are zero.
+template <bool kStatic, typename T, typename R>
+VWD_INLINE void startMotion(const Body<R>& body, const JointMotion<T>& joint,
+                            BodyMotion<T>& motion) {
+  const T zero = T(0);
+  motion.gamma = {T(body.gamma_rest.x), T(body.gamma_rest.y), T(body.gamma_rest.z)};
+  if (body.mobility == Mobility::kRevolute && !body.rest_along_z) {
+    motion.gamma = transposeTimes(joint.Rz, body.gamma_rest);
+  }
+  if (kStatic) return;
+  motion.w = motion.alpha = {zero, zero, zero};
+  motion.U = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
+  if (body.mobility == Mobility::kRevolute) {
+    motion.w.z = joint.qd;
+    motion.alpha.z = joint.qdd;
+    motion.U.xx = motion.U.yy = -joint.qd * joint.qd;
+    motion.U.xy = -joint.qdd;
+    motion.U.yx = joint.qdd;
+  } else if (body.mobility == Mobility::kPrismatic) {
+    motion.gamma.z = motion.gamma.z + joint.qdd;
+  }
+}
+
+/// Integral of r x (U r) dm over a body from its second moment of mass G, which is
+/// J alpha + w x (J w), in two parts: the moment is `plus` - `minus`.
+template <typename T, typename R>
+VWD_INLINE void turningMoment(const Body<R>& body, const Mat3<T>& U, Vec3<T>& plus,
+                              Vec3<T>& minus) {
+  const Sym3<R>& G = body.G;
+  plus = {G.yy * U.zy, G.zz * U.xz, G.xx * U.yx};
+  minus = {G.zz * U.yz, G.xx * U.zx, G.yy * U.xy};
+  if (body.diagonal) return;
+  plus = {mulAdd(G.xy, U.zx, mulAdd(G.yz, U.zz, plus.x)),
+          mulAdd(G.yz, U.xy, mulAdd(G.xz, U.xx, plus.y)),
+          mulAdd(G.xz, U.yz, mulAdd(G.xy, U.yy, plus.z))};
+  minus = {mulAdd(G.xz, U.yx, mulAdd(G.yz, U.yy, minus.x)),
+           mulAdd(G.xy, U.zy, mulAdd(G.xz, U.zz, minus.y)),
+           mulAdd(G.yz, U.xz, mulAdd(G.xy, U.xx, minus.z))};
+}
+
+/// (3.5) less the weight, which gamma carries: F_k0 = m gamma + U h and
+/// M_k0 = h x gamma + integral of r x (U r) dm.
+template <bool kStatic, typename T, typename R>
+VWD_INLINE PlainWrench<T> inertiaWrench(const Body<R>& body, const BodyMotion<T>& motion) {
+  const Vec3<R>& h = body.h;
+  const Vec3<T>& gamma = motion.gamma;
+  Vec3<T> force = scaled(body.mass, gamma), plus, minus;
+  if (kStatic) {
+    plus = minus = {T(0), T(0), T(0)};
+  } else {
+    turningMoment(body, motion.U, plus, minus);
+  }
+  if (!body.centred) {
+    if (!kStatic) force = addProduct(force, motion.U, h);
+    plus = {mulAdd(h.y, gamma.z, plus.x), mulAdd(h.z, gamma.x, plus.y),
+            mulAdd(h.x, gamma.y, plus.z)};
+    minus = {mulAdd(h.z, gamma.y, minus.x), mulAdd(h.x, gamma.z, minus.y),
+             mulAdd(h.y, gamma.x, minus.z)};
+  }
+  return {force, plus - minus};
+}
+
+/// The same for a body on a parent at rest: U has the four entries of a turn about z.
+template <bool kStatic, typename T, typename R>
+VWD_INLINE PlainWrench<T> startWrench(const Body<R>& body, const BodyMotion<T>& motion) {
+  const T zero = T(0);
+  PlainWrench<T> wrench{{zero, zero, zero}, {zero, zero, zero}};
+  if (!body.weightless) wrench = inertiaWrench<true>(body, motion);
+  if (kStatic || body.mobility != Mobility::kRevolute) return wrench;
+  const Mat3<T>& U = motion.U;
+  const Vec3<R>& h = body.h;
+  const Sym3<R>& G = body.G;
+  wrench.force.x = mulAdd(h.x, U.xx, mulAdd(h.y, U.xy, wrench.force.x));
+  wrench.force.y = mulAdd(h.x, U.yx, mulAdd(h.y, U.yy, wrench.force.y));
+  wrench.torque.x = subMul(subMul(wrench.torque.x, G.xz, U.yx), G.yz, U.yy);
+  wrench.torque.y = mulAdd(G.xz, U.xx, mulAdd(G.yz, U.xy, wrench.torque.y));
+  wrench.torque.z = mulAdd(G.xx + G.yy, U.yx, wrench.torque.z);
+  return wrench;
+}
+
+/// (3.8): what a body's wrench adds to its parent's, in the parent's frame and about its origin.
+template <bool kPlain, AxisDirection kAxis, typename T, typename R>
+VWD_INLINE PlainWrench<T> toParent(const Body<R>& body, const JointMotion<T>& joint,
+                                   PlainWrench<T> wrench) {
+  const Mobility mobility = kPlain ? Mobility::kRevolute : body.mobility;
+  if (mobility == Mobility::kRevolute) {
+    wrench = {times(joint.Rz, wrench.force), times(joint.Rz, wrench.torque)};
+  }
+  wrench.force = toParent<kAxis>(body.R_PZ, wrench.force);
+  wrench.torque = toParent<kAxis>(body.R_PZ, wrench.torque);
+  if (mobility == Mobility::kPrismatic) {
+    wrench.torque = momentAt(body, wrench.torque, originInParent(body, joint.slide), wrench.force);
+  } else {
+    wrench.torque = momentAt(body, wrench.torque, body.p_PoZo_P, wrench.force);
+  }
+  return wrench;
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics

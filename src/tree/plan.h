@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tree/kernel/kernel.h"
+#include "tree/plan_types.h"
+#include "virtual_work_dynamics/inverse_dynamics.h"
+
+namespace virtual_work_dynamics {
+
+/// What was left out of a plan; names of joints.
+struct LeftOut {
+  std::vector<std::string> merged;    ///< fixed joints, welded into their parents
+  std::vector<std::string> unneeded;  ///< bodies that reach no requested result
+  std::vector<std::string> massless;  ///< whose wrench is zero
+  std::vector<std::string> idle;      ///< whose position matters to no requested result
+  std::vector<std::string> at_rest;   ///< whose parent neither turns nor accelerates
+  bool velocity_terms = false;
+  bool gravity = false;
+};
+
+/// The part of a plan that is not of its number type.
+struct PlanUse {
+  int coordinates = 0;
+  int slots = 0;  ///< motions that are kept for later children
+  bool efforts = true;
+  bool static_motion = false;
+  bool poses = false;   ///< reported with the reactions in root axes
+  bool twists = false;  ///<
+  bool any_pose = false;
+  bool geared_angles = false;  ///< some joint that turns is not moved one to one
+  int wrenches = 0;            ///< of the bodies, and partial sums behind them
+  std::vector<Carry> carries;
+  std::vector<int> zero_efforts;  ///< coordinates that no wrench reaches
+  LeftOut left_out;
+};
+
+/// A mechanism, a scene and a request, compiled: the constants of the recursion.
+template <typename T>
+struct Plan : PlanUse {
+  PlainWrench<T> root_wrench{};  ///< (3.5) of the root body, which rests
+  std::vector<Body<T>> bodies;
+  std::vector<JointPosition<T>> angles;
+  std::vector<JointPosition<T>> slides;
+  std::vector<ReactionOutput<T>> child_axes;
+  std::vector<ReactionOutput<T>> root_axes;
+  std::vector<AppliedOutside<T>> applied;
+  std::vector<ActuatorTerms<T>> actuators;
+};
+
+/// Compiles in long double. @throws SceneError, see InverseDynamics.
+Plan<long double> compilePlan(const Mechanism& mechanism, const Scene& scene,
+                              const Request& request);
+
+/// A plan as the kernels see it, which must outlive the view.
+template <typename T>
+PlanView<T> viewOf(const Plan<T>& plan);
+
+/// The same plan with every constant rounded once. T: float or double.
+template <typename T>
+Plan<T> roundPlan(const Plan<long double>& plan);
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,150 @@
+#pragma once
+
+#include "tree/vec3.h"
+
+namespace virtual_work_dynamics {
+
+// What plans are made of, in plain data: kernels for other instruction sets include this and
+// nothing else of the library.
+
+/// How a body moves on its parent.
+enum class Mobility : unsigned char { kRevolute, kPrismatic, kFixed };
+
+/// Where the z axis of a frame points in the axes of another. For all but kOblique the rotation
+/// between them is Q of canonicalRotation(): a signed permutation, or one with four entries.
+enum class AxisDirection : unsigned char {
+  kOblique,
+  kNormalToX,  ///< in the y-z plane, and so on
+  kNormalToY,
+  kNormalToZ,
+  kPlusX,
+  kMinusX,
+  kPlusY,
+  kMinusY,
+  kPlusZ,
+  kMinusZ
+};
+
+/// What of a body matters to the request, and how the sweeps reach it.
+struct BodyUse {
+  /// Revolute, moved one to one by its coordinate, with inertia, and reached from the body before
+  /// it: the kernel asks nothing else of its motion.
+  bool plain_motion = false;
+  /// Revolute, drives one effort one to one, and handed to the body before it.
+  bool plain_wrench = false;
+  int feeds = -1;  ///< the body that is reached from this one, next in the sweep; -1: none
+
+  int parent = -1;
+  Mobility mobility = Mobility::kFixed;
+  AxisDirection axis = AxisDirection::kOblique;  ///< of this body's z axis in its parent's Z frame
+
+  bool motion_needed = false;
+  bool wrench_needed = false;
+  bool pose_needed = false;      ///< R_0Z and p_0
+  bool wrench_outlives = false;  ///< the sum of (3.8) is read again after the sweep
+  bool has_inertia = false;
+
+  // Constants that are zero, so that their products are left out.
+  bool centred = false;   ///< h
+  bool diagonal = false;  ///< the entries of G off its diagonal
+  bool offset_x = true;   ///< not: the components of p_PoZo_P
+  bool offset_y = true;
+  bool offset_z = true;
+
+  bool parent_rests = false;     ///< the parent neither turns nor accelerates, but for -g
+  bool rest_along_z = false;     ///< and gamma is along the joint axis, or zero
+  bool weightless = false;       ///< and gamma of this body is zero
+  bool takes_from_next = false;  ///< a child's wrench arrives in registers
+  bool hands_on = false;         ///< its wrench goes to the parent in registers
+  bool adds_to_parent = false;   ///< its wrench goes to the parent in memory
+  bool starts_sum = false;       ///< and is the first there
+  bool drives = false;           ///< its active component is part of a requested effort
+  bool summed = false;           ///< and not the first part of it in the sweep
+  bool geared = false;           ///< the multiplier is not 1
+
+  int parent_slot = -1;  ///< where the parent's motion is kept; -1: it was the last
+  int own_slot = -1;     ///< where its motion is kept for children that come later
+  int angle = -1;        ///< index into Plan::angles
+  int slide = -1;        ///< index into Plan::slides
+  int coordinate = -1;   ///< that moves it; -1: fixed
+  int child_axes = -1;   ///< index into Plan::child_axes
+
+  int sums_into = -1;     ///< index of the wrench it is added to: the parent's, or a partial sum
+  int carries_begin = 0;  ///< range of Plan::carries that follow the addition
+  int carries_end = 0;
+};
+
+/// A partial sum of a hub's children that moves on: hubs sum pairwise, so that errors grow with the
+/// logarithm of the number of children.
+struct Carry {
+  int from = 0;         ///< indices of wrenches
+  int to = 0;           ///<
+  bool starts = false;  ///< nothing is at `to` yet
+};
+
+/// One rigid body of the recursion with everything that is welded to it; constants in its z-aligned
+/// frame Z. Body 0 is the root, parents stand before their children, depth first.
+template <typename T>
+struct Body : BodyUse {
+  T multiplier = T(1);   ///< velocity = multiplier * qd[coordinate]
+  Mat3<T> R_PZ{};        ///< orientation in the parent's Z frame at position 0, less the phase
+  Vec3<T> p_PoZo_P{};    ///< O_k in the parent's Z frame at position 0, m
+  T mass = T(0);         ///< kg
+  Vec3<T> h{};           ///< first moment of mass about O_k, kg m
+  Sym3<T> G{};           ///< second moment of mass about O_k, kg m^2
+  Vec3<T> gamma_rest{};  ///< R_PZ^T gamma of a parent at rest, m/s^2
+};
+
+/// Position of a joint: multiplier * q[coordinate] + offset, and for those that turn a constant
+/// rotation about z behind it.
+template <typename T>
+struct JointPosition {
+  int coordinate = 0;
+  bool geared = false;  ///< multiplier is not 1 or offset not 0
+  bool turned = false;  ///< phase is not 0
+  T multiplier = T(1);
+  T offset = T(0);
+  T phase_cos = T(1);
+  T phase_sin = T(0);
+};
+
+/// What acts between a joint's actuator and the mechanism, see JointTerms: position, velocity and
+/// acceleration of the joint are multiplier times the coordinate's, the position more by `offset`,
+/// from where its spring is relaxed.
+template <typename T>
+struct ActuatorTerms {
+  int coordinate = 0;
+  T multiplier = T(1);
+  T offset = T(0);
+  T stiffness = T(0);
+  T damping = T(0);
+  T coulomb = T(0);
+  T per_velocity = T(0);  ///< 1 / JointTerms::coulomb_velocity
+  T rotor_inertia = T(0);
+};
+
+/// A reaction to report.
+template <typename T>
+struct ReactionOutput {
+  int body = -1;  ///< -1: known to be zero
+  /// R_KZ: Z components -> components in the child link. A signed permutation moves component i to
+  /// `row[i]` with `sign[i]`.
+  Mat3<T> R_KZ{};
+  bool permutes = false;
+  bool flips = false;  ///< and a sign is -1
+  int row[3] = {0, 1, 2};
+  T sign[3] = {T(1), T(1), T(1)};
+  bool drop_active = false;  ///< the component along the joint axis is reported as zero
+};
+
+/// Where an applied wrench acts; its force and torque live with the caller.
+template <typename T>
+struct AppliedOutside {
+  int body = -1;  ///< -1: acts on a body that matters to no requested result
+  bool in_root_axes = false;
+  Mat3<T> R_ZL{};          ///< link axes -> Z
+  Vec3<T> p_ZoA_Z{};       ///< point of action, m
+  PlainWrench<T> given{};  ///< the scene's values: link or root axes, about the point of action
+};
+
+}  // namespace virtual_work_dynamics

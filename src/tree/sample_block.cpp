@@ -1,0 +1,106 @@
+#include "tree/sample_block.h"
+
+#include <string>
+#include <vector>
+
+#include "virtual_work_dynamics/block.h"
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+
+struct SampleBlock::Impl {
+  Impl(const InverseDynamics& inverse_dynamics, std::size_t rows, int threads)
+      : block(inverse_dynamics, threads, inverse_dynamics.instructionSet()),
+        plan(inverse_dynamics.impl_.get()),
+        capacity(rows),
+        efforts(block.request().efforts ? block.coordinates() : 0),
+        child_axes(6 * block.request().child_axes.size()),
+        root_axes(6 * block.request().root_axes.size()),
+        poses(block.request().poses ? 12 * block.request().root_axes.size() : 0),
+        twists(block.request().twists ? root_axes : 0),
+        inputs(3 * capacity * block.coordinates()),
+        outputs(capacity * (efforts + child_axes + root_axes + poses + twists)) {
+    double* next = outputs.data();
+    const auto array = [&](std::size_t width) {
+      double* const here = next;
+      next += capacity * width;
+      return width == 0 ? nullptr : here;
+    };
+    results.effort = array(efforts);
+    results.child_axes = array(child_axes);
+    results.root_axes = array(root_axes);
+    results.poses = array(poses);
+    results.twists = array(twists);
+  }
+
+  double* input(std::size_t index) {
+    return inputs.data() + index * capacity * block.coordinates();
+  }
+
+  BlockInverseDynamics<double> block;
+  const InverseDynamics::Impl* plan;  // only compared
+  std::size_t computed = 0;           // samples of the last block
+  std::size_t capacity;
+  std::size_t efforts, child_axes, root_axes, poses, twists;  // numbers a sample
+  std::vector<double> inputs, outputs;                        // arrays one after the other
+  ResultBlock<double> results;                                // their places in `outputs`
+};
+
+SampleBlock::SampleBlock(const InverseDynamics& inverse_dynamics, std::size_t capacity, int threads)
+    : impl_(new Impl(inverse_dynamics, capacity, threads)) {}
+
+SampleBlock::~SampleBlock() = default;
+SampleBlock::SampleBlock(SampleBlock&&) noexcept = default;
+SampleBlock& SampleBlock::operator=(SampleBlock&&) noexcept = default;
+
+std::size_t SampleBlock::capacity() const {
+  return impl_->capacity;
+}
+
+void SampleBlock::compute(const MotionTable& table, std::size_t first, std::size_t count) {
+  Impl& impl = *impl_;
+  const std::size_t coordinates = impl.block.coordinates();
+  const Eigen::MatrixXd* const sources[] = {&table.positions, &table.velocities,
+                                            &table.accelerations};
+  if (count > impl.capacity) {
+    throw MotionError("block: " + std::to_string(count) + " rows are more than its capacity, " +
+                      std::to_string(impl.capacity));
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Eigen::MatrixXd& source = *sources[i];
+    if (coordinates > 0 && (static_cast<std::size_t>(source.cols()) != coordinates ||
+                            static_cast<std::size_t>(source.rows()) < first + count)) {
+      static const char* const kNames[] = {"positions", "velocities", "accelerations"};
+      throw MotionError(std::string("motion: ") + kNames[i] + " are " +
+                        std::to_string(source.rows()) + " x " + std::to_string(source.cols()) +
+                        ", needed are " + std::to_string(first + count) + " x " +
+                        std::to_string(coordinates));
+    }
+    for (std::size_t c = 0; c < coordinates; ++c) {
+      const double* const column = source.col(static_cast<Eigen::Index>(c)).data() + first;
+      for (std::size_t row = 0; row < count; ++row) {
+        impl.input(i)[row * coordinates + c] = column[row];
+      }
+    }
+  }
+  impl.block.compute(BlockLayout::kRowMajor, {count, impl.input(0), impl.input(1), impl.input(2)},
+                     impl.results);
+  impl.computed = count;
+}
+
+void SampleBlock::read(std::size_t index, Workspace& workspace) const {
+  if (index >= impl_->computed) {
+    throw MotionError("block: there is no sample " + std::to_string(index) + ", it has " +
+                      std::to_string(impl_->computed));
+  }
+  workspace.requirePlan(impl_->plan);
+  const ResultBlock<double>& results = impl_->results;
+  const auto row = [index](const double* array, std::size_t width) {
+    return array + index * width;
+  };
+  workspace.assign(row(results.effort, impl_->efforts), row(results.child_axes, impl_->child_axes),
+                   row(results.root_axes, impl_->root_axes), row(results.poses, impl_->poses),
+                   row(results.twists, impl_->twists));
+}
+
+}  // namespace virtual_work_dynamics

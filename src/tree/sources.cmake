@@ -1,0 +1,32 @@
+vwd_core(
+  applied_values.cpp
+  block.cpp
+  inverse_dynamics.cpp
+  kernel/baseline.cpp
+  kernel/kernel_choice.cpp
+  plan.cpp
+  plan_counting.cpp
+  plan_reduction.cpp
+  plan_rounding.cpp
+  sample_block.cpp)
+
+vwd_core_vectors(
+  kernel/avx2.cpp
+  kernel/avx512.cpp)
+
+# The recursion fuses multiply-adds where it says so and nowhere else. GCC's note on how vectors are
+# passed concerns functions that are all inlined; its warning of uninitialized variables, its own
+# AVX-512 intrinsics (GCC bug 105593).
+set(kernel_flags "-ffp-contract=off -Wno-psabi")
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(kernel_flags "${kernel_flags} -Wno-maybe-uninitialized")
+endif()
+set_source_files_properties(
+  ${CMAKE_CURRENT_LIST_DIR}/kernel/baseline.cpp ${CMAKE_CURRENT_LIST_DIR}/plan_counting.cpp
+  PROPERTIES COMPILE_FLAGS "${kernel_flags}")
+if(VWD_X86)
+  set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/kernel/avx2.cpp
+    PROPERTIES COMPILE_FLAGS "${kernel_flags} -mavx2 -mfma")
+  set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/kernel/avx512.cpp
+    PROPERTIES COMPILE_FLAGS "${kernel_flags} -mavx2 -mfma -mavx512f -mavx512dq")
+endif()

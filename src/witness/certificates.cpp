@@ -1,0 +1,266 @@
+#include "virtual_work_dynamics/certificates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/aligned_memory.h"
+#include "scene/input_checks.h"
+#include "scene/joint_terms.h"
+#include "virtual_work_dynamics/error.h"
+#include "virtual_work_dynamics/instruction_set.h"
+#include "witness/momentum/welded_bodies.h"
+
+namespace virtual_work_dynamics {
+
+namespace {
+
+// Magnitudes below this have lost digits to underflow: differences count as parts of it. It also
+// makes nothing of nothing zero.
+constexpr double kLeastScale =
+    std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
+
+// A scale that overflowed says nothing about what is within it.
+double usable(double scale) {
+  if (!(scale <= std::numeric_limits<double>::max())) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return std::max(scale, kLeastScale);
+}
+
+double relative(double difference, double scale) {
+  return std::abs(difference) / usable(scale);
+}
+
+double relative(const Eigen::Vector3d& found, const double* expected, double scale) {
+  const double unit = 1 / usable(scale);  // before squares are taken, which may overflow
+  const double x = unit * (found.x() - expected[0]), y = unit * (found.y() - expected[1]),
+               z = unit * (found.z() - expected[2]);
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+// How a joint follows its generalized coordinate.
+struct Drive {
+  int coordinate = -1;
+  bool slides = false;
+  bool geared = false;
+  double multiplier = 1;
+  double offset = 0;
+
+  explicit Drive(const Joint& joint)
+      : coordinate(joint.coordinate),
+        slides(joint.type == JointType::kPrismatic),
+        geared(joint.multiplier != 1 || joint.offset != 0),
+        multiplier(joint.multiplier),
+        offset(joint.offset) {}
+};
+
+// cos and sin of multiplier * q + offset, whose own rounding would turn what it carries by as much
+// as the last digit of a large angle.
+void cosineAndSine(const Drive& drive, double q, double& cosine, double& sine) {
+  if (!drive.geared) {
+    cosine = std::cos(q);
+    sine = std::sin(q);
+    return;
+  }
+  const double product = drive.multiplier * q;
+  const double angle = product + drive.offset;
+  const double back = angle - product;
+  const double rest = std::fma(drive.multiplier, q, -product) +
+                      ((product - (angle - back)) + (drive.offset - back));
+  // At a billion radians even the square of the rest is more than other rounding.
+  const double c = std::cos(angle), s = std::sin(angle);
+  const double half_sine = std::sin(rest / 2), versine = 2 * half_sine * half_sine;
+  const double rest_sine = std::sin(rest);
+  cosine = c - (rest_sine * s + versine * c);
+  sine = s + (rest_sine * c - versine * s);
+}
+
+// to = from Rz, columns.
+void turn(const double* from, double cosine, double sine, double* to) {
+  for (int i = 0; i < 3; ++i) {
+    to[i] = cosine * from[i] + sine * from[i + 3];
+    to[i + 3] = cosine * from[i + 3] - sine * from[i];
+  }
+}
+
+const Momentum& chosenMomentum() {
+  const bool avx2 = chosenInstructionSet() != InstructionSet::kBaseline && avx2Momentum();
+  return avx2 ? *avx2Momentum() : *baselineMomentum();
+}
+
+}  // namespace
+
+double Certificates::largest() const {
+  double largest = power;
+  for (const double value : {ground_force, ground_moment}) {
+    if (!(value <= largest)) largest = std::isnan(largest) ? largest : value;
+  }
+  return largest;
+}
+
+struct Certifier::Impl {
+  Impl(const Mechanism& mechanism, const Scene& scene)
+      : rests(scene.static_motion),
+        coordinates(static_cast<Eigen::Index>(mechanism.coordinates().size())),
+        terms(resolveJointTerms(mechanism, scene)),
+        welded(mechanism),
+        joints(welded.bodies.size()),
+        momentum(chosenMomentum()),
+        memory(momentum.state_size * welded.bodies.size()) {
+    for (std::size_t b = 1; b < welded.bodies.size(); ++b) {
+      drives.emplace_back(mechanism.joints()[welded.joints[b]]);
+      const double* const R_PZ = welded.bodies[b].R_PZ;
+      std::copy(R_PZ, R_PZ + 9, joints[b].R_PZ);
+    }
+    for (const ResolvedJointTerms& term : terms) {
+      term_drives.emplace_back(mechanism.joints()[term.joint]);
+    }
+    for (const AppliedWrench& applied : scene.applied_wrenches) addWrench(mechanism, applied);
+    inputs = {welded.bodies.data(),
+              joints.data(),
+              welded.bodies.size(),
+              wrenches.data(),
+              wrenches.size(),
+              {-scene.gravity.x(), -scene.gravity.y(), -scene.gravity.z()},
+              static_cast<double>(scene.gravity.cast<long double>().norm())};
+  }
+
+  void addWrench(const Mechanism& mechanism, const AppliedWrench& applied) {
+    const LinkPlace& place = welded.places[linkOf(mechanism, applied)];
+    MomentumWrench wrench;
+    wrench.body = place.body;
+    wrench.in_root_axes = applied.axes == Axes::kRoot;
+    const Vector3l at = applied.at.cast<long double>();
+    const Vector3l p_ZoA_Z = place.p_ZoLo_Z + place.R_ZL * at;
+    for (int i = 0; i < 3; ++i) wrench.p_ZoA_Z[i] = static_cast<double>(p_ZoA_Z[i]);
+    wrenches.push_back(wrench);
+    wrench_axes.push_back(place.R_ZL);
+    wrench_arms.push_back(static_cast<double>(place.distance + at.norm()));
+    setWrench(wrenches.size() - 1, applied.force, applied.torque);
+  }
+
+  void setWrench(std::size_t index, const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
+    MomentumWrench& wrench = wrenches[index];
+    const Matrix3l R = wrench.in_root_axes ? Matrix3l(Matrix3l::Identity()) : wrench_axes[index];
+    const Vector3l f = R * force.cast<long double>(), t = R * torque.cast<long double>();
+    for (int i = 0; i < 3; ++i) {
+      wrench.force[i] = static_cast<double>(f[i]);
+      wrench.torque[i] = static_cast<double>(t[i]);
+    }
+    wrench.force_norm = static_cast<double>(f.norm());
+    wrench.moment_norm = static_cast<double>(t.norm() + wrench_arms[index] * f.norm());
+  }
+
+  void takeMotion(const Motion& motion) {
+    for (std::size_t i = 0; i < drives.size(); ++i) {
+      const Drive& drive = drives[i];
+      MomentumJoint& joint = joints[i + 1];
+      const double q = motion.q[drive.coordinate];
+      if (drive.slides) {
+        joint.slide = drive.multiplier * q + drive.offset;
+        joint.slide_norm = std::abs(drive.multiplier * q) + std::abs(drive.offset);
+      } else {
+        double cosine, sine;
+        cosineAndSine(drive, q, cosine, sine);
+        turn(welded.bodies[i + 1].R_PZ, cosine, sine, joint.R_PZ);
+      }
+      if (rests) continue;
+      joint.rate = drive.multiplier * motion.qd[drive.coordinate];
+      joint.acceleration = drive.multiplier * motion.qdd[drive.coordinate];
+    }
+  }
+
+  // Power of joint terms, W.
+  void addTerms(const Motion& motion, double& power, double& scale) const {
+    for (std::size_t i = 0; i < terms.size(); ++i) {
+      const ResolvedJointTerms& term = terms[i];
+      const Drive& drive = term_drives[i];
+      const double turned = drive.multiplier * motion.q[drive.coordinate];
+      const double rate = drive.multiplier * motion.qd[drive.coordinate];
+      const double acceleration = drive.multiplier * motion.qdd[drive.coordinate];
+      const double s = std::max(-1.0, std::min(1.0, rate / term.coulomb_velocity));
+      const double friction = s * (3 - s * s) / 2;
+      power += rate * (term.stiffness * (turned + drive.offset - term.rest) + term.damping * rate +
+                       term.coulomb * friction + term.rotor_inertia * acceleration);
+      scale += std::abs(rate) *
+               (term.stiffness * (std::abs(turned) + std::abs(drive.offset) + std::abs(term.rest)) +
+                term.damping * std::abs(rate) + term.coulomb +
+                term.rotor_inertia * std::abs(acceleration));
+    }
+  }
+
+  // Efforts at rest have no power, unless they are no numbers.
+  double powerOf(const Eigen::VectorXd& effort, const Motion& motion) const {
+    double power = 0;
+    for (Eigen::Index i = 0; i < coordinates; ++i) power += effort[i] * (rests ? 0 : motion.qd[i]);
+    return power;
+  }
+
+  bool rests;
+  Eigen::Index coordinates;
+  std::vector<ResolvedJointTerms> terms;
+  std::vector<Drive> term_drives;
+  WeldedBodies welded;
+  std::vector<Drive> drives;  // of all bodies but the root
+  std::vector<MomentumJoint> joints;
+  std::vector<MomentumWrench> wrenches;
+  std::vector<Matrix3l> wrench_axes;  // R_ZL
+  std::vector<double> wrench_arms;    // from the body's origin, by norms
+  const Momentum& momentum;
+  AlignedMemory memory;
+  MomentumInputs inputs;
+};
+
+Certifier::Certifier(const Mechanism& mechanism, const Scene& scene)
+    : impl_(new Impl(mechanism, openChain(scene))) {}
+
+Certifier::~Certifier() = default;
+Certifier::Certifier(Certifier&&) noexcept = default;
+Certifier& Certifier::operator=(Certifier&&) noexcept = default;
+
+Request Certifier::extended(Request request) {
+  request.efforts = true;
+  auto& names = request.child_axes;
+  if (std::find(names.begin(), names.end(), kGround) == names.end()) names.emplace_back(kGround);
+  return request;
+}
+
+std::size_t Certifier::groundIndex(const Request& extended) {
+  const auto& names = extended.child_axes;
+  const auto found = std::find(names.begin(), names.end(), kGround);
+  if (found == names.end()) {
+    throw SceneError("certificates: the reaction of ground is not requested in child axes");
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+Certificates Certifier::check(const Motion& motion, const Eigen::VectorXd& effort,
+                              const Wrench& ground) {
+  Impl& impl = *impl_;
+  requireLengths(motion, impl.coordinates);
+  if (effort.size() != impl.coordinates) {
+    throw MotionError("certificates: effort has " + std::to_string(effort.size()) +
+                      " entries, the mechanism has " + std::to_string(impl.coordinates) +
+                      " coordinates");
+  }
+  impl.takeMotion(motion);
+  MomentumSums sums;
+  impl.momentum.sum(impl.inputs, impl.memory.get(), sums);
+  if (!impl.rests) impl.addTerms(motion, sums.power, sums.power_scale);
+  return {relative(impl.powerOf(effort, motion) - sums.power, sums.power_scale),
+          relative(ground.force, sums.force, sums.force_scale),
+          relative(ground.torque, sums.moment, sums.moment_scale)};
+}
+
+void Certifier::setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
+                                 const Eigen::Vector3d& torque) {
+  if (index >= impl_->wrenches.size()) {
+    throw SceneError("the scene has no applied wrench " + std::to_string(index));
+  }
+  impl_->setWrench(index, force, torque);
+}
+
+}  // namespace virtual_work_dynamics

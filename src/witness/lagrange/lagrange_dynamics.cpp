@@ -1,0 +1,248 @@
+#include "virtual_work_dynamics/lagrange_dynamics.h"
+
+#include <cmath>
+#include <string>
+
+#include "scene/input_checks.h"
+#include "virtual_work_dynamics/error.h"
+#include "witness/lagrange/lagrange_equations.h"
+#include "witness/lagrange/lagrange_plan.h"
+
+namespace virtual_work_dynamics {
+
+namespace {
+
+// The axis of a fixed joint is zero.
+template <typename Real>
+void dropActive(const Triple<Real>& axis, Triple<Real>& v) {
+  const Real active = dot(axis, v);
+  for (std::size_t i = 0; i < 3; ++i) v[i] -= active * axis[i];
+}
+
+template <typename Real>
+Eigen::Vector3d toDouble(const Triple<Real>& v) {
+  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
+
+}  // namespace
+
+template <typename Real>
+struct LagrangeDynamics<Real>::Impl {
+  Impl(const Mechanism& mechanism, const Scene& scene, const Request& wanted)
+      : request(wanted),
+        plan(mechanism, scene, wanted),
+        states(plan.joints.size()),
+        poses(plan.joints.size()),
+        axes(plan.links.size()),
+        origins(plan.links.size()),
+        axes_1(plan.coordinates.empty() ? 0 : plan.links.size()),
+        origins_1(axes_1.size()),
+        axes_3(plan.reactions.empty() ? 0 : plan.links.size()),
+        origins_3(axes_3.size()),
+        reactions(plan.reactions.size()),
+        effort(Eigen::VectorXd::Zero(plan.coordinates.size())),
+        child_axes(plan.child_axes.size()),
+        root_axes(plan.root_axes.size()) {
+    for (std::size_t i = 0; i < 3; ++i) axes[0].R[i][i].value = 1;
+  }
+
+  void move(const Motion& motion);
+  Real effortOf(const typename LagrangePlan<Real>::Coordinate& coordinate);
+  void displace(const typename LagrangePlan<Real>::Reaction& reaction, Triple<Real>& force);
+  void rotate(const typename LagrangePlan<Real>::Reaction& reaction, Triple<Real>& torque);
+  void output();
+
+  struct RealWrench {
+    Triple<Real> force, torque;
+  };
+
+  Request request;
+  LagrangePlan<Real> plan;
+  std::vector<JointState<Real>> states;
+  std::vector<RelativePose<Real, 0>> poses;  // by joint; the others by link
+  std::vector<Orientation<Real, 0>> axes;
+  std::vector<Origin<Real, 0>> origins;
+  // As they depend on one coordinate, or on the mobility of one joint.
+  std::vector<Orientation<Real, 1>> axes_1;
+  std::vector<Origin<Real, 1>> origins_1;
+  std::vector<Orientation<Real, 3>> axes_3;
+  std::vector<Origin<Real, 3>> origins_3;
+  std::vector<RealWrench> reactions;  // child axes
+  Eigen::VectorXd effort;
+  std::vector<Wrench> child_axes, root_axes;
+};
+
+template <typename Real>
+void LagrangeDynamics<Real>::Impl::move(const Motion& motion) {
+  for (std::size_t k = 0; k < plan.joints.size(); ++k) {
+    const auto& joint = plan.joints[k];
+    if (joint.coordinate >= 0) {
+      JointState<Real>& state = states[k];
+      state.q = joint.multiplier * Real(motion.q[joint.coordinate]) + joint.offset;
+      if (!plan.static_motion) {
+        state.qd = joint.multiplier * Real(motion.qd[joint.coordinate]);
+        state.qdd = joint.multiplier * Real(motion.qdd[joint.coordinate]);
+      }
+      if (joint.type != JointType::kPrismatic) {
+        state.sine = std::sin(state.q);
+        state.cosine = std::cos(state.q);
+      }
+      poses[k] = relativePose(joint, state, std::array<Real, 0>{});
+    }
+    axes[k + 1] = childOrientation<Real>(joint, poses[k], axes[joint.parent]);
+    origins[k + 1] = childOrigin<Real>(joint, poses[k], axes[joint.parent], origins[joint.parent]);
+  }
+}
+
+template <typename Real>
+Real LagrangeDynamics<Real>::Impl::effortOf(
+    const typename LagrangePlan<Real>::Coordinate& coordinate) {
+  Real sum = 0;
+  for (const auto& step : coordinate.steps) {
+    const std::size_t k = step.link - 1;
+    const auto& joint = plan.joints[k];
+    const int parent = joint.parent;
+    Orientation<Real, 1>& link_axes = axes_1[step.link];
+    Origin<Real, 1>& origin = origins_1[step.link];
+    if (!step.joint_depends) {
+      link_axes = childOrientation<Real>(joint, poses[k], axes_1[parent]);
+      origin = childOrigin<Real>(joint, poses[k], axes_1[parent], origins_1[parent]);
+    } else {
+      const auto pose = relativePose(joint, states[k], std::array<Real, 1>{joint.multiplier});
+      if (step.parent_depends) {
+        link_axes = composed(axes_1[parent], pose.orientation);
+        origin = composed(axes_1[parent], origins_1[parent], pose.origin);
+      } else {
+        link_axes = composed(axes[parent], pose.orientation);
+        origin = composed(axes[parent], origins[parent], pose.origin);
+      }
+    }
+    sum += linkForce<Real>(plan.links[step.link], plan.gravity, link_axes, origin)[0];
+  }
+  for (const ResolvedJointTerms& terms : coordinate.terms) {
+    sum += termsForce(terms, states[terms.joint], plan.joints[terms.joint].multiplier);
+  }
+  return sum;
+}
+
+// The mobility sits after the joint's own motion, at O_k in child axes. A displacement turns no
+// link, so the orientations are those of the motion.
+template <typename Real>
+void LagrangeDynamics<Real>::Impl::displace(const typename LagrangePlan<Real>::Reaction& reaction,
+                                            Triple<Real>& force) {
+  const int own = reaction.link;
+  origins_3[own] = composed(axes[own], origins[own], fictitiousDisplacement<Real>());
+  force = linkForce<Real>(plan.links[own], plan.gravity, axes[own], origins_3[own]);
+  for (const int link : reaction.links) {
+    const auto& joint = plan.joints[link - 1];
+    origins_3[link] =
+        childOrigin<Real>(joint, poses[link - 1], axes[joint.parent], origins_3[joint.parent]);
+    add(linkForce<Real>(plan.links[link], plan.gravity, axes[link], origins_3[link]), force);
+  }
+}
+
+template <typename Real>
+void LagrangeDynamics<Real>::Impl::rotate(const typename LagrangePlan<Real>::Reaction& reaction,
+                                          Triple<Real>& torque) {
+  const int own = reaction.link;
+  axes_3[own] = composed(axes[own], fictitiousRotation<Real>());
+  origins_3[own] = composed(axes_3[own], origins[own], Triple<Real>{});
+  torque = linkForce<Real>(plan.links[own], plan.gravity, axes_3[own], origins_3[own]);
+  for (const int link : reaction.links) {
+    const auto& joint = plan.joints[link - 1];
+    const auto& pose = poses[link - 1];
+    axes_3[link] = childOrientation<Real>(joint, pose, axes_3[joint.parent]);
+    origins_3[link] = childOrigin<Real>(joint, pose, axes_3[joint.parent], origins_3[joint.parent]);
+    add(linkForce<Real>(plan.links[link], plan.gravity, axes_3[link], origins_3[link]), torque);
+  }
+}
+
+template <typename Real>
+void LagrangeDynamics<Real>::Impl::output() {
+  for (std::size_t i = 0; i < plan.child_axes.size(); ++i) {
+    const RealWrench& wrench = reactions[plan.child_axes[i]];
+    child_axes[i] = {toDouble(wrench.force), toDouble(wrench.torque)};
+  }
+  for (std::size_t i = 0; i < plan.root_axes.size(); ++i) {
+    const RealWrench& wrench = reactions[plan.root_axes[i]];
+    const Matrix<Real> R_0K = values(axes[plan.reactions[plan.root_axes[i]].link]);
+    root_axes[i] = {toDouble(R_0K * wrench.force), toDouble(R_0K * wrench.torque)};
+  }
+}
+
+template <typename Real>
+LagrangeDynamics<Real>::LagrangeDynamics(const Mechanism& mechanism, const Scene& scene,
+                                         const Request& request)
+    : impl_(new Impl(mechanism, scene, request)) {}
+
+template <typename Real>
+LagrangeDynamics<Real>::~LagrangeDynamics() = default;
+template <typename Real>
+LagrangeDynamics<Real>::LagrangeDynamics(LagrangeDynamics&&) noexcept = default;
+template <typename Real>
+LagrangeDynamics<Real>& LagrangeDynamics<Real>::operator=(LagrangeDynamics&&) noexcept = default;
+
+template <typename Real>
+Eigen::Index LagrangeDynamics<Real>::coordinates() const {
+  return impl_->plan.coordinate_count;
+}
+
+template <typename Real>
+const Request& LagrangeDynamics<Real>::request() const {
+  return impl_->request;
+}
+
+template <typename Real>
+void LagrangeDynamics<Real>::setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
+                                              const Eigen::Vector3d& torque) {
+  if (index >= impl_->plan.applied.size()) {
+    throw SceneError("the scene has no applied wrench " + std::to_string(index));
+  }
+  const auto& place = impl_->plan.applied[index];
+  auto& applied = impl_->plan.links[place.link].applied[place.index];
+  for (int i = 0; i < 3; ++i) {
+    applied.force[static_cast<std::size_t>(i)] = static_cast<Real>(force[i]);
+    applied.torque[static_cast<std::size_t>(i)] = static_cast<Real>(torque[i]);
+  }
+}
+
+template <typename Real>
+void LagrangeDynamics<Real>::compute(const Motion& motion) {
+  Impl& impl = *impl_;
+  requireLengths(motion, coordinates());
+  impl.move(motion);
+  for (std::size_t i = 0; i < impl.plan.coordinates.size(); ++i) {
+    impl.effort[i] = static_cast<double>(impl.effortOf(impl.plan.coordinates[i]));
+  }
+  for (std::size_t i = 0; i < impl.reactions.size(); ++i) {
+    const auto& reaction = impl.plan.reactions[i];
+    auto& wrench = impl.reactions[i];
+    impl.displace(reaction, wrench.force);
+    impl.rotate(reaction, wrench.torque);
+    if (reaction.drop_active) {
+      const auto& joint = impl.plan.joints[reaction.link - 1];
+      dropActive(joint.axis_K, joint.type == JointType::kPrismatic ? wrench.force : wrench.torque);
+    }
+  }
+  impl.output();
+}
+
+template <typename Real>
+const Eigen::VectorXd& LagrangeDynamics<Real>::effort() const {
+  return impl_->effort;
+}
+
+template <typename Real>
+const std::vector<Wrench>& LagrangeDynamics<Real>::childAxes() const {
+  return impl_->child_axes;
+}
+
+template <typename Real>
+const std::vector<Wrench>& LagrangeDynamics<Real>::rootAxes() const {
+  return impl_->root_axes;
+}
+
+template class LagrangeDynamics<double>;
+template class LagrangeDynamics<long double>;
+
+}  // namespace virtual_work_dynamics
