@@ -97,13 +97,10 @@ void requireHeld(const Mechanism& mechanism, const LoopScene& loops,
   if (unheld(loops, forces).empty()) return;
   Eigen::VectorXd q = assembly;
   const double length = forces.empty() ? 1 : forces.front().length();
-  for (Eigen::Index i = 0; i < q.size(); ++i) {
-    const int joint = mechanism.coordinates()[static_cast<std::size_t>(i)];
-    const bool slides =
-        mechanism.joints()[static_cast<std::size_t>(joint)].type == JointType::kPrismatic;
+  for (int i = 0; i < q.size(); ++i) {
     // Unequal steps, as a symmetrical displacement can lead from one singular position to another.
-    const double step = kDisplacement * (1 + 0.37 * std::sin(1.0 + 2.1 * static_cast<double>(i)));
-    q[i] += slides ? step * length : step;
+    const double step = kDisplacement * (1 + 0.37 * std::sin(1.0 + 2.1 * i));
+    q[i] += step * scaleOf(mechanism.unitOf(i), length);
   }
   completion.close(kinematics, q, std::vector<bool>(loops.actuated.size(), false));
   const std::vector<std::size_t> free = unheld(loops, forces);

@@ -68,6 +68,7 @@ LoopCompletion::LoopCompletion(const Mechanism& mechanism, const LoopKinematics&
                                double length)
     : rank_tolerance_(rank_tolerance),
       length_(length),
+      in_loop_(mechanism.coordinates().size()),
       A_(mostConditions(groups), mostCoordinates(groups)),
       factorization_(A_.rows(), A_.cols()),
       columns_(static_cast<std::size_t>(A_.cols())),
@@ -75,16 +76,14 @@ LoopCompletion::LoopCompletion(const Mechanism& mechanism, const LoopKinematics&
       packed_(A_.cols()),
       found_(A_.cols()),
       misses_(A_.rows()) {
-  for (const int k : mechanism.coordinates()) {
-    slides_.push_back(mechanism.joints()[static_cast<std::size_t>(k)].type ==
-                      JointType::kPrismatic);
+  for (int i = 0; i < static_cast<int>(in_loop_.size()); ++i) {
+    column_scales_.push_back(scaleOf(mechanism.unitOf(i), length));
   }
-  in_loop_.resize(slides_.size());
   for (const LoopGroup& group : groups) {
     systems_.emplace_back(group, kinematics);
     for (const int i : group.coordinates) in_loop_[static_cast<std::size_t>(i)] = true;
   }
-  step_.setZero(static_cast<Eigen::Index>(slides_.size()));
+  step_.setZero(static_cast<Eigen::Index>(in_loop_.size()));
   tried_ = step_;
 }
 
@@ -93,7 +92,7 @@ double LoopCompletion::rowScale(const LoopKinematics& kinematics, Eigen::Index c
 }
 
 double LoopCompletion::columnScale(int coordinate) const {
-  return slides_[static_cast<std::size_t>(coordinate)] ? length_ : 1;
+  return column_scales_[static_cast<std::size_t>(coordinate)];
 }
 
 void LoopCompletion::factorize(const LoopKinematics& kinematics, const std::vector<bool>& given) {
@@ -210,7 +209,7 @@ double LoopCompletion::misfit(const LoopKinematics& kinematics) const {
 
 double LoopCompletion::largest(const Eigen::VectorXd& rates) const {
   double most = 0;
-  for (std::size_t i = 0; i < slides_.size(); ++i) {
+  for (std::size_t i = 0; i < in_loop_.size(); ++i) {
     const double rate = rates[static_cast<Eigen::Index>(i)];
     most = std::max(most, std::abs(rate) / columnScale(static_cast<int>(i)));
   }

@@ -74,9 +74,10 @@ class LoopCompletion {
   double columnScale(int coordinate) const;
 
   std::vector<System> systems_;
-  std::vector<bool> slides_, in_loop_;  // by coordinate
   double rank_tolerance_;
   double length_;
+  std::vector<double> column_scales_;  // by coordinate
+  std::vector<bool> in_loop_;          // by coordinate
   int steps_ = 0;
   // Of the group in work; its conditions and the coordinates to be found come first.
   Eigen::MatrixXd A_;  // where the columns are not surely independent

@@ -24,7 +24,7 @@ void addMoved(const Mechanism& mechanism, const LoopKinematics& kinematics, Loop
   for (const std::size_t c : group.closures) {
     std::vector<int> moved;
     for (const LoopKinematics::Step& step : kinematics.path(c)) {
-      const int coordinate = mechanism.joints()[static_cast<std::size_t>(step.joint)].coordinate;
+      const int coordinate = mechanism.joint(step.joint).coordinate;
       if (coordinate < 0) continue;
       const auto& all = group.coordinates;
       const auto place = std::find(all.begin(), all.end(), coordinate) - all.begin();
@@ -41,7 +41,7 @@ void addMoved(const Mechanism& mechanism, const LoopKinematics& kinematics, Loop
 std::vector<LoopGroup> loopGroups(const Mechanism& mechanism, const LoopKinematics& kinematics,
                                   std::size_t closures) {
   const auto coordinateOf = [&](const LoopKinematics::Step& step) {
-    return mechanism.joints()[static_cast<std::size_t>(step.joint)].coordinate;
+    return mechanism.joint(step.joint).coordinate;
   };
   // Coordinates are joined closure by closure; the least of a set leads it.
   std::vector<int> leaders(mechanism.coordinates().size());

@@ -30,7 +30,7 @@ std::vector<bool> carriersOf(const Mechanism& mechanism, int link) {
   std::vector<bool> carries(mechanism.joints().size(), false);
   while (link > 0) {
     carries[static_cast<std::size_t>(link - 1)] = true;
-    link = mechanism.joints()[static_cast<std::size_t>(link - 1)].parent_link;
+    link = mechanism.joint(link - 1).parent_link;
   }
   return carries;
 }
@@ -214,7 +214,8 @@ ClosureWrench LoopKinematics::unitWrench(Eigen::Index condition) const {
 ClosureWrench LoopKinematics::unitEffort(std::size_t closure) const {
   const Frames& frames = frames_[closure];
   ClosureWrench wrench;
-  (frames.type == ClosureType::kPrismatic ? wrench.force : wrench.moment) = freeAxis(closure);
+  activePart(frames.type == ClosureType::kPrismatic ? Unit::kMetre : Unit::kRadian, wrench) =
+      freeAxis(closure);
   return wrench;
 }
 

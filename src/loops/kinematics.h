@@ -4,19 +4,13 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "loops/closure_wrench.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/results.h"
 #include "virtual_work_dynamics/scene.h"
 
 namespace virtual_work_dynamics {
-
-/// What the parent of a closure exerts on its child: moment about the child frame's origin. Root
-/// axes.
-struct ClosureWrench {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< N m
-};
 
 /// The conditions (3.3) of a mechanism's closures, phi(q) = 0, with their velocities A qd and
 /// accelerations A qdd + Ad qd, and the wrenches that go with their multipliers. Everything in root

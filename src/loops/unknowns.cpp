@@ -9,10 +9,7 @@ LoopUnknowns::LoopUnknowns(const Mechanism& mechanism, const LoopKinematics& kin
                            const LoopScene& scene, const LoopGroup& group, double length) {
   for (std::size_t row = 0; row < group.coordinates.size(); ++row) {
     const std::size_t i = static_cast<std::size_t>(group.coordinates[row]);
-    const int joint = mechanism.coordinates()[i];
-    const bool slides =
-        mechanism.joints()[static_cast<std::size_t>(joint)].type == JointType::kPrismatic;
-    row_units.push_back(slides ? 1 : length);
+    row_units.push_back(effortScaleOf(mechanism.unitOf(group.coordinates[row]), length));
     if (!scene.actuated[i]) continue;
     effort_rows.push_back(static_cast<int>(row));
     efforts.push_back({i, row_units.back() / std::sqrt(scene.coordinate_weights[i]), count++});

@@ -78,7 +78,7 @@ class Resolver {
   int coordinateOf(const std::string& list, const std::string& name) const {
     const int k = mechanism_.jointIndex(name);
     if (k < 0) throw SceneError(list + ": the robot has no joint '" + name + "'");
-    const Joint& joint = mechanism_.joints()[static_cast<std::size_t>(k)];
+    const Joint& joint = mechanism_.joint(k);
     if (joint.type == JointType::kFixed) {
       throw SceneError(list + ": '" + name + "' is a fixed joint");
     }
@@ -156,7 +156,7 @@ class Resolver {
       if (c < 0 && k < 0) {
         throw SceneError(list + ": there is no joint or closure '" + stiffness.name + "'");
       }
-      if (c < 0 && mechanism_.joints()[static_cast<std::size_t>(k)].type == JointType::kFixed) {
+      if (c < 0 && mechanism_.joint(k).type == JointType::kFixed) {
         throw SceneError(list + ": '" + stiffness.name + "' is a fixed joint");
       }
       (c < 0 ? loops_.joint_stiffness[static_cast<std::size_t>(k)]
