@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/number_text.h"
+#include "scene/closure_types.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -79,7 +80,7 @@ Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopComplet
       throw SceneError("closures: '" + scene.closures[c].name +
                        "' is assembled the wrong way round: its frames are half a turn apart");
     }
-    if (scene.closures[c].type == ClosureType::kDistance &&
+    if (traitsOf(scene.closures[c].type).hasLength() &&
         (kinematics.parentOrigin(c) - kinematics.childOrigin(c)).norm() <=
             kCoincide * completion.length()) {
       throw SceneError("closures: '" + scene.closures[c].name +

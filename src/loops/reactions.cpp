@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scene/closure_types.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -43,7 +44,7 @@ void LoopReactions::addItem(const Mechanism& mechanism, const Scene& scene, cons
   for (std::size_t c = 0; c < scene.closures.size(); ++c) {
     if (scene.closures[c].name != name) continue;
     item.closure = static_cast<int>(c);
-    item.active = scene.closures[c].type == ClosureType::kPrismatic ? Unit::kMetre : Unit::kRadian;
+    item.active = traitsOf(scene.closures[c].type).free_axis.value_or(Unit::kRadian);
     const auto& actuated = loops.actuated_closures;
     item.drops_active =
         !scene.include_active && std::find(actuated.begin(), actuated.end(), c) != actuated.end();
