@@ -26,24 +26,24 @@ std::string names(const Mechanism& mechanism, const std::vector<std::size_t>& co
   return text;
 }
 
-[[noreturn]] void refuseOpen(const Scene& scene, const LoopKinematics& kinematics, double length) {
+[[noreturn]] void refuseOpen(const LoopKinematics& kinematics, double length) {
   std::size_t worst = 0;
   LoopKinematics::Norms largest{0, 0};
-  for (std::size_t c = 0; c < scene.closures.size(); ++c) {
-    const LoopKinematics::Norms norms = kinematics.normsOf(c, kinematics.phi());
+  for (std::size_t s = 0; s < kinematics.sets(); ++s) {
+    const LoopKinematics::Norms norms = kinematics.normsOf(s, kinematics.phi());
     if (norms.lengths / length + norms.directions <=
         largest.lengths / length + largest.directions) {
       continue;
     }
     largest = norms;
-    worst = c;
+    worst = s;
   }
   std::string open = numberText(largest.lengths) + " m";
   if (largest.directions > largest.lengths / length * kMatters) {
     open += " and " + numberText(largest.directions) + " rad";
   }
-  throw SceneError("closures: '" + scene.closures[worst].name +
-                   "' cannot be assembled from the given start: it stays open by " + open);
+  throw SceneError(kinematics.set(worst).place() +
+                   " cannot be assembled from the given start: it stays open by " + open);
 }
 
 // Coordinates that no actuated joint and no closure holds at the present position.
@@ -74,7 +74,7 @@ Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopComplet
   std::vector<bool> given = loops.actuated;
   const std::vector<bool> none(given.size(), false);
   if (completion.rank(kinematics, given) < completion.rank(kinematics, none)) given = none;
-  if (!completion.close(kinematics, q, given)) refuseOpen(scene, kinematics, completion.length());
+  if (!completion.close(kinematics, q, given)) refuseOpen(kinematics, completion.length());
   for (std::size_t c = 0; c < scene.closures.size(); ++c) {
     if (kinematics.reversed(c)) {
       throw SceneError("closures: '" + scene.closures[c].name +
@@ -87,7 +87,7 @@ Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopComplet
                        "': its ends coincide in the assembly");
     }
   }
-  kinematics.adoptLengths();
+  kinematics.adoptConstants();
   kinematics.setPosition(q);
   return q;
 }

@@ -1,12 +1,15 @@
 vwd_core(
   assembly.cpp
   closed_loop_dynamics.cpp
+  closure_conditions.cpp
   completion.cpp
+  condition.cpp
   cut_tree.cpp
   follower.cpp
   forces.cpp
   groups.cpp
   kinematics.cpp
+  link_kinematics.cpp
   point_springs.cpp
   reactions.cpp
   residuals.cpp
