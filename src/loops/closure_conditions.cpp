@@ -12,7 +12,7 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-using Kind = ClosureCondition::Kind;
+using Kind = ClosureDemand::Kind;
 using Frame = LinkKinematics::Frame;
 
 std::string placeOf(const Closure& closure) {
@@ -43,7 +43,7 @@ std::vector<Condition> rowsOf(const Closure& closure) {
   const auto axis = [&](int i) { return axes[static_cast<std::size_t>(i)]; };
   std::vector<Condition> rows;
   for (int i = 0; i < traits.conditions; ++i) {
-    const ClosureCondition& demand = traits.demands[static_cast<std::size_t>(i)];
+    const ClosureDemand& demand = traits.demands[static_cast<std::size_t>(i)];
     Condition row;
     row.name = closure.name + ".";
     if (demand.kind == Kind::kDistance) {
@@ -104,7 +104,7 @@ void ClosureConditions::setPosition(const LoopState& state, ConditionRows rows) 
   const LinkKinematics& links = state.links;
   const Eigen::Vector3d Co = links.originOf(child_), r = Co - links.originOf(parent_);
   for (int i = 0; i < traits_.conditions; ++i) {
-    const ClosureCondition& demand = traits_.demands[static_cast<std::size_t>(i)];
+    const ClosureDemand& demand = traits_.demands[static_cast<std::size_t>(i)];
     ClosureWrench& wrench = rows.unitWrench(i);
     if (demand.kind == Kind::kDistance) {
       const double distance = r.norm();
@@ -140,7 +140,7 @@ void ClosureConditions::setMotion(const LoopState& state, ConditionRows rows) co
   const LinkKinematics::Point P = links.pointOf(parent_), C = links.pointOf(child_);
   const Eigen::Vector3d r = C.o - P.o, v = C.v - P.v, acceleration = C.a - P.a;
   for (int i = 0; i < traits_.conditions; ++i) {
-    const ClosureCondition& demand = traits_.demands[static_cast<std::size_t>(i)];
+    const ClosureDemand& demand = traits_.demands[static_cast<std::size_t>(i)];
     double& rate = rows.rate(i);
     double& second = rows.acceleration(i);
     if (demand.kind == Kind::kDistance) {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/scene.h"
@@ -9,7 +10,7 @@
 namespace virtual_work_dynamics {
 
 /// What a closure demands of its parent frame P and its child frame C.
-struct ClosureCondition {
+struct ClosureDemand {
   enum class Kind {
     kAlong,    ///< the origins do not part along axis a of P
     kNormal,   ///< axis a of P stays normal to axis b of C
@@ -27,16 +28,15 @@ struct ClosureTypeTraits {
   /// more than one.
   std::optional<Unit> free_axis;
   int conditions;  ///< how many of the following it has
-  std::array<ClosureCondition, 6> demands;
+  std::array<ClosureDemand, 6> demands;
 
-  int count(ClosureCondition::Kind kind) const;
-  bool hasLength() const { return count(ClosureCondition::Kind::kDistance) > 0; }
-  bool canTurn() const { return count(ClosureCondition::Kind::kNormal) < 3; }
+  int count(ClosureDemand::Kind kind) const;
+  bool hasLength() const { return count(ClosureDemand::Kind::kDistance) > 0; }
+  bool canTurn() const { return count(ClosureDemand::Kind::kNormal) < 3; }
 };
 
-constexpr std::size_t kClosureTypeCount = 8;
 /// All types.
-const std::array<ClosureTypeTraits, kClosureTypeCount>& closureTypes();
+const std::vector<ClosureTypeTraits>& closureTypes();
 const ClosureTypeTraits& traitsOf(ClosureType type);
 
 }  // namespace virtual_work_dynamics
