@@ -36,7 +36,6 @@ HEADERS_WITHOUT_SOURCE = {
     "notation": "results",
     "plan_summary": "tree",
     "request": "results",
-    "results": "results",
 }
 PUBLIC = "virtual_work_dynamics/"
 ROS_HEADER = re.compile(

@@ -61,9 +61,10 @@ class BlockInverseDynamics {
   void compute(BlockLayout layout, const MotionBlock<Real>& motion,
                const ResultBlock<Real>& results);
 
-  /// As Workspace::setAppliedWrench(), for all samples from the next block on.
-  void setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                        const Eigen::Vector3d& torque);
+  /// Computes all samples with `load` in place of the values of the scene's applied wrenches.
+  /// @throws SceneError when it has not one wrench for each of them.
+  void compute(BlockLayout layout, const MotionBlock<Real>& motion, const Load& load,
+               const ResultBlock<Real>& results);
 
  private:
   struct Impl;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 
+#include "virtual_work_dynamics/load.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/request.h"
@@ -45,9 +46,10 @@ class Certifier {
   /// @throws MotionError when a vector has the wrong length.
   Certificates check(const Motion& motion, const Eigen::VectorXd& effort, const Wrench& ground);
 
-  /// As Workspace::setAppliedWrench().
-  void setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                        const Eigen::Vector3d& torque);
+  /// Certifies results that were computed with `load` in place of the values of the scene's applied
+  /// wrenches. @throws SceneError when it has not one wrench for each of them.
+  Certificates check(const Motion& motion, const Load& load, const Eigen::VectorXd& effort,
+                     const Wrench& ground);
 
  private:
   struct Impl;

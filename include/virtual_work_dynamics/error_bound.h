@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "virtual_work_dynamics/load.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/scene.h"
@@ -30,16 +31,15 @@ class ErrorBound {
   ErrorBound(ErrorBound&&) noexcept;
   ErrorBound& operator=(ErrorBound&&) noexcept;
 
-  /// As Workspace::setAppliedWrench().
-  void setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                        const Eigen::Vector3d& torque);
-
   /// Magnitudes of one sample. Does not allocate. Fixed joints are joints like others.
   /// @param least what every number counts as at least. Rounding errors are relative down to the
   ///   smallest normal number of a number type, and below it as large as there: given that number,
   ///   the digits that denormal numbers lose are parts of the magnitudes, too.
   /// @throws MotionError when a vector of `motion` has the wrong length.
   void compute(const Motion& motion, double least = 0);
+  /// Magnitudes with `load` in place of the values of the scene's applied wrenches.
+  /// @throws SceneError when it has not one wrench for each of them.
+  void compute(const Motion& motion, const Load& load, double least = 0);
 
   /// Of the wrench on each link's origin: [0] of ground, [k + 1] of joint k.
   const std::vector<WrenchMagnitude>& wrenches() const;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "virtual_work_dynamics/instruction_set.h"
+#include "virtual_work_dynamics/load.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/plan_summary.h"
@@ -51,9 +52,14 @@ class InverseDynamics {
   /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is
   ///   another plan's.
   void compute(const Motion& motion, Workspace& workspace) const;
+  /// Computes with `load` in place of the values of the scene's applied wrenches.
+  /// @throws SceneError when it has not one wrench for each of them.
+  void compute(const Motion& motion, const Load& load, Workspace& workspace) const;
 
  private:
   struct Impl;
+  // Null: the scene's own load.
+  void computeWith(const Load* load, const Motion& motion, Workspace& workspace) const;
   friend class Workspace;
   friend class SampleBlock;
   template <typename Real>
@@ -69,23 +75,21 @@ class Workspace {
   Workspace(Workspace&&) noexcept;
   Workspace& operator=(Workspace&&) noexcept;
 
+  /// Results of the sample computed last.
+  const Results& results() const { return results_; }
+
   /// Effort of each generalized coordinate, N m or N; (3.7), mimic joints and what the scene says
   /// of joints' springs, friction and rotors included. Empty when the request leaves efforts out.
-  const Eigen::VectorXd& effort() const { return effort_; }
+  const Eigen::VectorXd& effort() const { return results_.effort; }
   /// Reactions in the order of Request::child_axes and Request::root_axes.
-  const std::vector<Wrench>& childAxes() const { return child_axes_; }
-  const std::vector<Wrench>& rootAxes() const { return root_axes_; }
+  const std::vector<Wrench>& childAxes() const { return results_.child_axes; }
+  const std::vector<Wrench>& rootAxes() const { return results_.root_axes; }
   /// In the order of Request::root_axes; empty unless requested.
-  const std::vector<Pose>& poses() const { return poses_; }
-  const std::vector<Twist>& twists() const { return twists_; }
+  const std::vector<Pose>& poses() const { return results_.poses; }
+  const std::vector<Twist>& twists() const { return results_.twists; }
 
   /// False when any result overflowed to infinity or NaN, as huge inputs can.
-  bool finite() const;
-
-  /// Replaces force and torque of the scene's applied wrench `index` from the next sample on; its
-  /// link, point and axes stay. Does not allocate. @throws SceneError when there is no such wrench.
-  void setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                        const Eigen::Vector3d& torque);
+  bool finite() const { return results_.finite(); }
 
  private:
   friend class InverseDynamics;
@@ -97,11 +101,7 @@ class Workspace {
   void assign(const double* effort, const double* child_axes, const double* root_axes,
               const double* poses, const double* twists);
 
-  Eigen::VectorXd effort_;
-  std::vector<Wrench> child_axes_;
-  std::vector<Wrench> root_axes_;
-  std::vector<Pose> poses_;
-  std::vector<Twist> twists_;
+  Results results_;
   std::unique_ptr<Scratch> scratch_;
 };
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "virtual_work_dynamics/load.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/request.h"
@@ -32,13 +33,12 @@ class LagrangeDynamics {
   Eigen::Index coordinates() const;
   const Request& request() const;
 
-  /// As Workspace::setAppliedWrench().
-  void setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                        const Eigen::Vector3d& torque);
-
   /// All results of one sample. Does not allocate.
   /// @throws MotionError when a vector of `motion` has the wrong length.
   void compute(const Motion& motion);
+  /// Computes with `load` in place of the values of the scene's applied wrenches.
+  /// @throws SceneError when it has not one wrench for each of them.
+  void compute(const Motion& motion, const Load& load);
 
   /// As those of Workspace, rounded to double.
   const Eigen::VectorXd& effort() const;

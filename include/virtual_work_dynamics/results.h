@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cstddef>
+#include <vector>
 
 namespace virtual_work_dynamics {
 
@@ -26,6 +28,7 @@ struct Twist {
 
 /// Six flags of a wrench: fx fy fz tx ty tz.
 using Determined = std::array<bool, 6>;
+constexpr Determined kAllComponents{{true, true, true, true, true, true}};
 
 /// How far a motion violates the conditions of one closure: the norm of those that are lengths or
 /// of those that are directions, whichever is the larger number.
@@ -48,5 +51,61 @@ struct Determinacy {
 /// Condition above which a position counts as close to singular: an error of 1e-4 rad may then
 /// change a force by 100 %.
 constexpr double kCloseToSingular = 1e4;
+
+/// What closed loops add to the results of one sample; empty in an open chain.
+struct LoopResults {
+  Determinacy determinacy;
+  /// Which results rigid-body mechanics determines, in the order of Results. What redundant
+  /// constraints leave open has the value that the scene's policy chooses.
+  std::vector<bool> effort_determined;
+  std::vector<Determined> child_axes_determined, root_axes_determined;
+  /// Which results have a value at all: in a singular position, those that are determined, and those
+  /// that are not determined in regular positions either. Elsewhere every result has one.
+  std::vector<bool> effort_exists;
+  std::vector<Determined> child_axes_exist, root_axes_exist;
+
+  /// Of each closure: Determinacy::condition of the loops that are solved together with its own.
+  std::vector<double> closure_conditions;
+  /// How far the motion violates each closure.
+  std::vector<ClosureResidual> residuals;
+  /// Residuals without units, to be held against a tolerance: lengths over the size of the loops,
+  /// velocities also over the largest rate of the motion, accelerations over its largest
+  /// acceleration or the square of that rate. Rates below 1/s and accelerations below 1/s^2 count as
+  /// these.
+  std::vector<ClosureResidual> relative_residuals;
+  /// How far each actuated closure has turned, within half a turn, or slid, and how fast; rad or m.
+  Eigen::VectorXd actuated_positions, actuated_velocities;
+  /// Wrenches on the tree that is left when closures and springs are cut: the scene's own, then those
+  /// of springs and closures, in root axes.
+  std::vector<Wrench> tree_wrenches;
+};
+
+/// Results of one sample, in the order of the Request.
+struct Results {
+  /// Of each generalized coordinate, N m or N, zero where it is passive; then of each actuated
+  /// closure. Empty when the request leaves efforts out.
+  Eigen::VectorXd effort;
+  std::vector<Wrench> child_axes;  ///< of Request::child_axes
+  std::vector<Wrench> root_axes;   ///< of Request::root_axes
+  std::vector<Pose> poses;         ///< of Request::root_axes, if requested
+  std::vector<Twist> twists;       ///< of Request::root_axes, if requested
+  LoopResults loops;
+
+  /// False when any result overflowed to infinity or NaN, as huge inputs can.
+  bool finite() const;
+
+  /// Whether actuated joints and closures do not hold the mechanism in its position.
+  bool singular() const { return loops.determinacy.free_motions > 0; }
+  bool effortExists(std::size_t i) const {
+    return loops.effort_exists.empty() || loops.effort_exists[i];
+  }
+  /// Which components of a reaction have a value.
+  Determined childAxesExist(std::size_t i) const {
+    return loops.child_axes_exist.empty() ? kAllComponents : loops.child_axes_exist[i];
+  }
+  Determined rootAxesExist(std::size_t i) const {
+    return loops.root_axes_exist.empty() ? kAllComponents : loops.root_axes_exist[i];
+  }
+};
 
 }  // namespace virtual_work_dynamics

@@ -91,21 +91,36 @@ Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopComplet
   return q;
 }
 
-void requireHeld(const Mechanism& mechanism, const LoopScene& loops,
-                 const Eigen::VectorXd& assembly, LoopCompletion& completion,
-                 LoopKinematics& kinematics, std::vector<LoopForces>& forces) {
-  if (unheld(loops, forces).empty()) return;
-  Eigen::VectorXd q = assembly;
-  const double length = forces.empty() ? 1 : forces.front().length();
+namespace {
+
+// Closes the loops beside the assembly; false when that fails, with `q` at the best position met.
+bool closeBeside(const Mechanism& mechanism, LoopCompletion& completion, LoopKinematics& kinematics,
+                 Eigen::VectorXd& q) {
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     const int joint = mechanism.coordinates()[static_cast<std::size_t>(i)];
     const bool slides =
         mechanism.joints()[static_cast<std::size_t>(joint)].type == JointType::kPrismatic;
     // Unequal steps, as a symmetrical displacement can lead from one singular position to another.
     const double step = kDisplacement * (1 + 0.37 * std::sin(1.0 + 2.1 * static_cast<double>(i)));
-    q[i] += slides ? step * length : step;
+    q[i] += slides ? step * completion.length() : step;
   }
-  completion.close(kinematics, q, std::vector<bool>(loops.actuated.size(), false));
+  return completion.close(kinematics, q, std::vector<bool>(mechanism.coordinates().size(), false));
+}
+
+}  // namespace
+
+Eigen::VectorXd positionBeside(const Eigen::VectorXd& assembly, const Mechanism& mechanism,
+                               LoopCompletion& completion, LoopKinematics& kinematics) {
+  Eigen::VectorXd q = assembly;
+  return closeBeside(mechanism, completion, kinematics, q) ? q : assembly;
+}
+
+void requireHeld(const Mechanism& mechanism, const LoopScene& loops,
+                 const Eigen::VectorXd& assembly, LoopCompletion& completion,
+                 LoopKinematics& kinematics, std::vector<LoopForces>& forces) {
+  if (unheld(loops, forces).empty()) return;
+  Eigen::VectorXd q = assembly;
+  closeBeside(mechanism, completion, kinematics, q);
   const std::vector<std::size_t> free = unheld(loops, forces);
   if (!free.empty()) {
     throw SceneError("actuated: too few for the degrees of freedom: nothing holds the motion of " +

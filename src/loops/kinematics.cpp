@@ -151,6 +151,8 @@ bool LoopKinematics::reversed(std::size_t closure) const {
 }
 
 void LoopKinematics::setPosition(const Eigen::VectorXd& q) {
+  if (q_.size() == q.size() && q_ == q) return;
+  q_ = q;
   for (std::size_t k = 0; k < joints_.size(); ++k) {
     const JointConstants& joint = joints_[k];
     const LinkState& parent = links_[static_cast<std::size_t>(joint.parent_link)];
@@ -191,6 +193,7 @@ void LoopKinematics::setPosition(const Eigen::VectorXd& q) {
 
 void LoopKinematics::adoptLengths() {
   adopted_ = true;
+  q_.resize(0);  // conditions are no longer those of the position
   for (std::size_t c = 0; c < frames_.size(); ++c) {
     if (!frames_[c].adopts_length) continue;
     frames_[c].length = (childOrigin(c) - parentOrigin(c)).norm();

@@ -34,7 +34,8 @@ class LoopKinematics {
   /// Whether a condition is one of orientation, dimensionless; others are lengths in m.
   bool turns(Eigen::Index condition) const;
 
-  /// Poses of links, conditions and their Jacobian at a position.
+  /// Poses of links, conditions and their Jacobian at a position. Costs nothing where they are at
+  /// that position already.
   void setPosition(const Eigen::VectorXd& q);
   const Eigen::VectorXd& phi() const { return phi_; }     ///< conditions, m or rad
   const Eigen::MatrixXd& jacobian() const { return A_; }  ///< conditions x coordinates
@@ -150,6 +151,7 @@ class LoopKinematics {
   std::vector<Row> rows_;
   std::vector<Eigen::Index> first_;
   bool adopted_ = false;
+  Eigen::VectorXd q_;  // position of all below
   Eigen::VectorXd phi_, rates_, accelerations_;
   Eigen::MatrixXd A_;
 };

@@ -15,10 +15,10 @@ namespace virtual_work_dynamics {
 /// order, and which of their components are determined. Nothing after construction allocates.
 class LoopReactions {
  public:
-  /// @param axes in which they are reported
+  /// @param groups must outlive it and its copies. @param axes in which they are reported
   /// @throws SceneError for a name that is no joint and no closure, or that is given twice.
   LoopReactions(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
-                const std::vector<LoopForces>& forces, const std::vector<std::string>& names,
+                const std::vector<LoopGroup>& groups, const std::vector<std::string>& names,
                 Axes axes);
 
   /// The names that are not closures', in their order.
@@ -26,7 +26,7 @@ class LoopReactions {
 
   /// @param tree of treeNames(); `closures` by closure
   void setValues(const LoopKinematics& kinematics, const std::vector<Wrench>& tree,
-                 const std::vector<ClosureWrench>& closures);
+                 const std::vector<ClosureWrench>& closures, std::vector<Wrench>& values) const;
   /// Poses and twists, likewise; those of closures are their child frames'.
   void setPoses(const LoopKinematics& kinematics, const std::vector<Pose>& tree,
                 std::vector<Pose>& poses) const;
@@ -38,10 +38,9 @@ class LoopReactions {
   void reset();
   void addChange(const LoopKinematics& kinematics, std::size_t group, const LoopForces& forces,
                  const LoopForces::State& change);
-  void setFlags();
+  void setFlags(std::vector<Determined>& determined) const;
 
-  const std::vector<Wrench>& values() const { return values_; }
-  const std::vector<Determined>& determined() const { return determined_; }
+  std::size_t size() const { return items_.size(); }
 
  private:
   struct Item {
@@ -59,7 +58,7 @@ class LoopReactions {
   };
   void addItem(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
                const std::string& name);
-  void addChanges(const std::vector<LoopForces>& forces);
+  void addChanges(const std::vector<LoopGroup>& groups);
   ClosureWrench reported(const LoopKinematics& kinematics, const Item& item,
                          ClosureWrench wrench) const;
 
@@ -67,12 +66,10 @@ class LoopReactions {
   std::vector<Item> items_;
   std::vector<std::string> tree_names_;
   std::vector<std::vector<Change>> changes_;  // by group
-  // By group and by its closures: those of these that the closure's wrench is part of.
+  // changes_of_[g][c]: indices into changes_[g] of the items that closure c of group g affects.
   std::vector<std::vector<std::vector<std::size_t>>> changes_of_;
-  std::size_t calls_ = 0;  // of addChange()
-  std::vector<Wrench> values_;
+  std::size_t calls_ = 0;                        // of addChange()
   std::vector<std::array<double, 6>> freedoms_;  // sums of squares, of the least
-  std::vector<Determined> determined_;
 };
 
 }  // namespace virtual_work_dynamics

@@ -1,9 +1,9 @@
 vwd_core(
   assembly.cpp
   closed_loop_dynamics.cpp
+  closed_loop_workspace.cpp
   completion.cpp
   cut_tree.cpp
-  follower.cpp
   forces.cpp
   groups.cpp
   kinematics.cpp

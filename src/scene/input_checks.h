@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <string>
 #include <vector>
 
+#include "virtual_work_dynamics/load.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/scene.h"
@@ -12,6 +14,9 @@ namespace virtual_work_dynamics {
 
 /// @throws MotionError naming the first vector of `motion` whose length is not `coordinates`.
 void requireLengths(const Motion& motion, Eigen::Index coordinates);
+
+/// @throws SceneError when `load` has not one wrench for each of the `applied` ones of the scene.
+void requireLoad(const Load& load, std::size_t applied);
 
 /// The scene. @throws SceneError when it needs ClosedLoopDynamics, naming why.
 const Scene& openChain(const Scene& scene);

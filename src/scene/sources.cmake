@@ -2,6 +2,7 @@ vwd_core(
   closure_reader.cpp
   input_checks.cpp
   joint_terms.cpp
+  load.cpp
   resolved_loops.cpp
   scene.cpp
   scene_reader.cpp

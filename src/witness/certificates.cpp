@@ -109,7 +109,8 @@ struct Certifier::Impl {
         welded(mechanism),
         joints(welded.bodies.size()),
         momentum(chosenMomentum()),
-        memory(momentum.state_size * welded.bodies.size()) {
+        memory(momentum.state_size * welded.bodies.size()),
+        own_load(scene) {
     for (std::size_t b = 1; b < welded.bodies.size(); ++b) {
       drives.emplace_back(mechanism.joints()[welded.joints[b]]);
       const double* const R_PZ = welded.bodies[b].R_PZ;
@@ -139,7 +140,6 @@ struct Certifier::Impl {
     wrenches.push_back(wrench);
     wrench_axes.push_back(place.R_ZL);
     wrench_arms.push_back(static_cast<double>(place.distance + at.norm()));
-    setWrench(wrenches.size() - 1, applied.force, applied.torque);
   }
 
   void setWrench(std::size_t index, const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
@@ -212,6 +212,7 @@ struct Certifier::Impl {
   const Momentum& momentum;
   AlignedMemory memory;
   MomentumInputs inputs;
+  Load own_load;  // the scene's
 };
 
 Certifier::Certifier(const Mechanism& mechanism, const Scene& scene)
@@ -239,12 +240,21 @@ std::size_t Certifier::groundIndex(const Request& extended) {
 
 Certificates Certifier::check(const Motion& motion, const Eigen::VectorXd& effort,
                               const Wrench& ground) {
+  return check(motion, impl_->own_load, effort, ground);
+}
+
+Certificates Certifier::check(const Motion& motion, const Load& load, const Eigen::VectorXd& effort,
+                              const Wrench& ground) {
   Impl& impl = *impl_;
   requireLengths(motion, impl.coordinates);
+  requireLoad(load, impl.wrenches.size());
   if (effort.size() != impl.coordinates) {
     throw MotionError("certificates: effort has " + std::to_string(effort.size()) +
                       " entries, the mechanism has " + std::to_string(impl.coordinates) +
                       " coordinates");
+  }
+  for (std::size_t i = 0; i < load.wrenches.size(); ++i) {
+    impl.setWrench(i, load.wrenches[i].force, load.wrenches[i].torque);
   }
   impl.takeMotion(motion);
   MomentumSums sums;
@@ -253,14 +263,6 @@ Certificates Certifier::check(const Motion& motion, const Eigen::VectorXd& effor
   return {relative(impl.powerOf(effort, motion) - sums.power, sums.power_scale),
           relative(ground.force, sums.force, sums.force_scale),
           relative(ground.torque, sums.moment, sums.moment_scale)};
-}
-
-void Certifier::setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                                 const Eigen::Vector3d& torque) {
-  if (index >= impl_->wrenches.size()) {
-    throw SceneError("the scene has no applied wrench " + std::to_string(index));
-  }
-  impl_->setWrench(index, force, torque);
 }
 
 }  // namespace virtual_work_dynamics

@@ -81,6 +81,7 @@ int ceilLog2(int count) {
 struct ErrorBound::Impl {
   Impl(const Mechanism& mechanism, const Scene& scene)
       : rests(scene.static_motion),
+        own_load(scene),
         terms(resolveJointTerms(mechanism, scene)),
         motions(mechanism.links().size()),
         slides(mechanism.joints().size()),
@@ -94,7 +95,6 @@ struct ErrorBound::Impl {
       AppliedNorms norms;
       norms.link = static_cast<std::size_t>(linkOf(mechanism, applied));
       norms.arm = applied.at.cast<long double>().norm();
-      norms.set(applied.force, applied.torque);
       applied_wrenches.push_back(norms);
     }
     motions[0].gamma = static_cast<double>(scene.gravity.cast<long double>().norm());
@@ -193,6 +193,7 @@ struct ErrorBound::Impl {
 
   bool rests;
   double least = 0;
+  Load own_load;  // the scene's
   std::vector<JointNorms> joints;
   std::vector<LinkNorms> links;
   std::vector<AppliedNorms> applied_wrenches;
@@ -212,17 +213,17 @@ ErrorBound::~ErrorBound() = default;
 ErrorBound::ErrorBound(ErrorBound&&) noexcept = default;
 ErrorBound& ErrorBound::operator=(ErrorBound&&) noexcept = default;
 
-void ErrorBound::setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                                  const Eigen::Vector3d& torque) {
-  if (index >= impl_->applied_wrenches.size()) {
-    throw SceneError("the scene has no applied wrench " + std::to_string(index));
-  }
-  impl_->applied_wrenches[index].set(force, torque);
+void ErrorBound::compute(const Motion& motion, double least) {
+  compute(motion, impl_->own_load, least);
 }
 
-void ErrorBound::compute(const Motion& motion, double least) {
+void ErrorBound::compute(const Motion& motion, const Load& load, double least) {
   Impl& impl = *impl_;
   impl.least = least;
+  requireLoad(load, impl.applied_wrenches.size());
+  for (std::size_t i = 0; i < load.wrenches.size(); ++i) {
+    impl.applied_wrenches[i].set(load.wrenches[i].force, load.wrenches[i].torque);
+  }
   requireLengths(motion, static_cast<Eigen::Index>(impl.efforts.size()));
   std::fill(impl.efforts.begin(), impl.efforts.end(), 0.0);
   for (std::size_t k = 0; k < impl.joints.size(); ++k) impl.move(k, motion);

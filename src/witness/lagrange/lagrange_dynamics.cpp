@@ -31,6 +31,7 @@ struct LagrangeDynamics<Real>::Impl {
   Impl(const Mechanism& mechanism, const Scene& scene, const Request& wanted)
       : request(wanted),
         plan(mechanism, scene, wanted),
+        own_load(scene),
         states(plan.joints.size()),
         poses(plan.joints.size()),
         axes(plan.links.size()),
@@ -46,6 +47,7 @@ struct LagrangeDynamics<Real>::Impl {
     for (std::size_t i = 0; i < 3; ++i) axes[0].R[i][i].value = 1;
   }
 
+  void take(const Load& load);
   void move(const Motion& motion);
   Real effortOf(const typename LagrangePlan<Real>::Coordinate& coordinate);
   void displace(const typename LagrangePlan<Real>::Reaction& reaction, Triple<Real>& force);
@@ -58,6 +60,7 @@ struct LagrangeDynamics<Real>::Impl {
 
   Request request;
   LagrangePlan<Real> plan;
+  Load own_load;  // the scene's
   std::vector<JointState<Real>> states;
   std::vector<RelativePose<Real, 0>> poses;  // by joint; the others by link
   std::vector<Orientation<Real, 0>> axes;
@@ -158,6 +161,21 @@ void LagrangeDynamics<Real>::Impl::rotate(const typename LagrangePlan<Real>::Rea
 }
 
 template <typename Real>
+Triple<Real> tripleOf(const Eigen::Vector3d& v) {
+  return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())};
+}
+
+template <typename Real>
+void LagrangeDynamics<Real>::Impl::take(const Load& load) {
+  requireLoad(load, plan.applied.size());
+  for (std::size_t i = 0; i < plan.applied.size(); ++i) {
+    auto& applied = plan.links[plan.applied[i].link].applied[plan.applied[i].index];
+    applied.force = tripleOf<Real>(load.wrenches[i].force);
+    applied.torque = tripleOf<Real>(load.wrenches[i].torque);
+  }
+}
+
+template <typename Real>
 void LagrangeDynamics<Real>::Impl::output() {
   for (std::size_t i = 0; i < plan.child_axes.size(); ++i) {
     const RealWrench& wrench = reactions[plan.child_axes[i]];
@@ -193,23 +211,15 @@ const Request& LagrangeDynamics<Real>::request() const {
 }
 
 template <typename Real>
-void LagrangeDynamics<Real>::setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                                              const Eigen::Vector3d& torque) {
-  if (index >= impl_->plan.applied.size()) {
-    throw SceneError("the scene has no applied wrench " + std::to_string(index));
-  }
-  const auto& place = impl_->plan.applied[index];
-  auto& applied = impl_->plan.links[place.link].applied[place.index];
-  for (int i = 0; i < 3; ++i) {
-    applied.force[static_cast<std::size_t>(i)] = static_cast<Real>(force[i]);
-    applied.torque[static_cast<std::size_t>(i)] = static_cast<Real>(torque[i]);
-  }
+void LagrangeDynamics<Real>::compute(const Motion& motion) {
+  compute(motion, impl_->own_load);
 }
 
 template <typename Real>
-void LagrangeDynamics<Real>::compute(const Motion& motion) {
+void LagrangeDynamics<Real>::compute(const Motion& motion, const Load& load) {
   Impl& impl = *impl_;
   requireLengths(motion, coordinates());
+  impl.take(load);
   impl.move(motion);
   for (std::size_t i = 0; i < impl.plan.coordinates.size(); ++i) {
     impl.effort[i] = static_cast<double>(impl.effortOf(impl.plan.coordinates[i]));

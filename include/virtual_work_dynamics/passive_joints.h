@@ -4,22 +4,24 @@
 #include <array>
 #include <vector>
 
-#include "virtual_work_dynamics/closed_loop_dynamics.h"
+#include "virtual_work_dynamics/dynamics.h"
 
 namespace virtual_work_dynamics {
 
-/// Follows the passive joints of a mechanism with closed loops from one position to the next, on
-/// the branch that they are on. Does not allocate after construction.
-class LoopFollower {
+/// Follows the passive joints of a mechanism from one position to the next, on the branch of its
+/// closed loops that they are on. An open chain has none, and its motions pass as they are. Does
+/// not allocate after construction.
+class PassiveJoints {
  public:
   /// Starts at the assembly; actuated coordinates will be given.
-  LoopFollower(const Mechanism& mechanism, const ClosedLoopDynamics& dynamics);
+  PassiveJoints(const Mechanism& mechanism, const Dynamics& dynamics);
 
-  /// Completes a motion that gives the actuated coordinates. False, at the position before, when
+  /// Completes a motion that gives the actuated coordinates; `workspace` is then at its position.
+  /// False, at the position before, when
   /// the loops cannot be closed or do not determine how the passive joints move; `motion` is then
   /// the last that was tried. Searches kMostSearches times at most, each for a bounded number of
   /// steps.
-  bool complete(Motion& motion, ClosedLoopDynamics& dynamics);
+  bool complete(Motion& motion, const Dynamics& dynamics, Dynamics::Workspace& workspace);
 
   static constexpr int kMostSearches = 256;
   /// How many complete() made.
@@ -32,10 +34,12 @@ class LoopFollower {
  private:
   static constexpr int kHalvings = 8;
 
-  bool search(const Motion& motion, const Eigen::VectorXd& target, ClosedLoopDynamics& dynamics);
+  bool search(const Motion& motion, const Eigen::VectorXd& target, const Dynamics& dynamics,
+              Dynamics::Workspace& workspace);
   bool givenUp() const;
   void setNearest(const Motion& motion);
-  bool follow(const Motion& motion, int halvings, ClosedLoopDynamics& dynamics);
+  bool follow(const Motion& motion, int halvings, const Dynamics& dynamics,
+              Dynamics::Workspace& workspace);
   bool turnsFar(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
 
   std::vector<Eigen::Index> given_;

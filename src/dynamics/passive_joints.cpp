@@ -1,4 +1,4 @@
-#include "loops/follower.h"
+#include "virtual_work_dynamics/passive_joints.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,10 +26,10 @@ bool wraps(const Mechanism& mechanism, const Joint& wanted) {
 
 // How often a way is halved at most; whole turns between two positions come down to a tenth of
 // kFar.
-constexpr int LoopFollower::kHalvings;
-constexpr int LoopFollower::kMostSearches;
+constexpr int PassiveJoints::kHalvings;
+constexpr int PassiveJoints::kMostSearches;
 
-LoopFollower::LoopFollower(const Mechanism& mechanism, const ClosedLoopDynamics& dynamics)
+PassiveJoints::PassiveJoints(const Mechanism& mechanism, const Dynamics& dynamics)
     : completed_(dynamics.coordinates()), before_(dynamics.assembly()), closed_(before_) {
   for (std::size_t i = 0; i < mechanism.coordinates().size(); ++i) {
     const Joint& joint = mechanism.joints()[static_cast<std::size_t>(mechanism.coordinates()[i])];
@@ -42,14 +42,16 @@ LoopFollower::LoopFollower(const Mechanism& mechanism, const ClosedLoopDynamics&
   targets_.fill(closed_);
 }
 
-bool LoopFollower::complete(Motion& motion, ClosedLoopDynamics& dynamics) {
+bool PassiveJoints::complete(Motion& motion, const Dynamics& dynamics,
+                             Dynamics::Workspace& workspace) {
+  if (!dynamics.closed()) return true;
   before_ = closed_;
   setNearest(motion);
   searches_ = failures_ = 0;
-  bool closes = follow(motion, kHalvings, dynamics);
+  bool closes = follow(motion, kHalvings, dynamics, workspace);
   // From where the way ends: the caller wants to know how far the loops stay open at the position
   // itself. Where they close after all, the way there led through a gap.
-  if (givenUp()) closes = search(motion, targets_[kHalvings], dynamics);
+  if (givenUp()) closes = search(motion, targets_[kHalvings], dynamics, workspace);
   closed_ = closes ? completed_.q : before_;
   // What was given stays as it is, with its whole turns.
   for (const Eigen::Index i : given_) completed_.q[i] = motion.q[i];
@@ -59,7 +61,7 @@ bool LoopFollower::complete(Motion& motion, ClosedLoopDynamics& dynamics) {
 
 // What the motion gives, without the whole turns by which drivers wrap: the way back over a whole
 // turn may pass singular positions.
-void LoopFollower::setNearest(const Motion& motion) {
+void PassiveJoints::setNearest(const Motion& motion) {
   Eigen::VectorXd& nearest = targets_[kHalvings];
   nearest = closed_;
   for (std::size_t i = 0; i < given_.size(); ++i) {
@@ -70,15 +72,16 @@ void LoopFollower::setNearest(const Motion& motion) {
 }
 
 // Brings what the motion gives to the target, and the passive joints along.
-bool LoopFollower::follow(const Motion& motion, int halvings, ClosedLoopDynamics& dynamics) {
+bool PassiveJoints::follow(const Motion& motion, int halvings, const Dynamics& dynamics,
+                           Dynamics::Workspace& workspace) {
   const auto place = static_cast<std::size_t>(halvings);
   if (givenUp()) return false;
-  const bool closes = search(motion, targets_[place], dynamics);
+  const bool closes = search(motion, targets_[place], dynamics, workspace);
   if (halvings > 0 && (!closes || turnsFar(closed_, completed_.q))) {
     targets_[place - 1] = (closed_ + targets_[place]) / 2;
-    follow(motion, halvings - 1, dynamics);  // a position in between may be singular
+    follow(motion, halvings - 1, dynamics, workspace);  // a position in between may be singular
     targets_[place - 1] = targets_[place];
-    return follow(motion, halvings - 1, dynamics);
+    return follow(motion, halvings - 1, dynamics, workspace);
   }
   if (closes) closed_ = completed_.q;
   if (!closes) ++failures_;
@@ -86,20 +89,20 @@ bool LoopFollower::follow(const Motion& motion, int halvings, ClosedLoopDynamics
 }
 
 // From the position that was found last.
-bool LoopFollower::search(const Motion& motion, const Eigen::VectorXd& target,
-                          ClosedLoopDynamics& dynamics) {
+bool PassiveJoints::search(const Motion& motion, const Eigen::VectorXd& target,
+                           const Dynamics& dynamics, Dynamics::Workspace& workspace) {
   ++searches_;
   completed_ = motion;
   completed_.q = closed_;
   for (const Eigen::Index i : given_) completed_.q[i] = target[i];
-  return dynamics.completeFromCloseBy(completed_);
+  return dynamics.completeFromCloseBy(completed_, workspace);
 }
 
-bool LoopFollower::givenUp() const {
+bool PassiveJoints::givenUp() const {
   return failures_ >= kMostFailures || searches_ >= kMostSearches - 1;
 }
 
-bool LoopFollower::turnsFar(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const {
+bool PassiveJoints::turnsFar(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const {
   return std::any_of(turning_.begin(), turning_.end(),
                      [&](Eigen::Index i) { return std::abs(to[i] - from[i]) > kFar; });
 }
