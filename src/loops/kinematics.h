@@ -18,9 +18,9 @@ struct ClosureWrench {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< N m
 };
 
-/// The conditions (3.3) of a mechanism's closures, phi(q) = 0, with their velocities A qd and
-/// accelerations A qdd + Ad qd, and the wrenches that go with their multipliers. Everything in root
-/// axes. Nothing after construction allocates.
+/// The conditions (3.3) of a mechanism's closures, Phi(q) = 0, with their velocities A qd, which
+/// are those of (3.2), and accelerations A qdd + Ad qd, and the wrenches that go with their
+/// multipliers. Everything in root axes. Nothing after construction allocates.
 class LoopKinematics {
  public:
   /// @throws SceneError naming the closure: unknown link, both frames on one link, or on
@@ -38,7 +38,7 @@ class LoopKinematics {
   /// that position already.
   void setPosition(const Eigen::VectorXd& q);
   const Eigen::VectorXd& phi() const { return phi_; }     ///< conditions, m or rad
-  const Eigen::MatrixXd& jacobian() const { return A_; }  ///< conditions x coordinates
+  const Eigen::MatrixXd& jacobian() const { return A_; }  ///< A, conditions x coordinates
   /// Lengths of the rods of kDistance closures become those of the present position where the scene
   /// gives none; until then their conditions demand nothing.
   void adoptLengths();
