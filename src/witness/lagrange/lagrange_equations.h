@@ -156,7 +156,7 @@ std::array<Real, M> linkForce(const typename LagrangePlan<Real>::LinkData& link,
     const auto c = origin.o + axes.R * link.p_KoCm_K;
     const auto cdot = origin.odot + axes.Rdot * link.p_KoCm_K;
     add(inertiaForce(dot(cdot, cdot) * (link.mass / 2)), force);  // (4.1), E = m v_C^2 / 2
-    add(scaled(-link.mass, dot(c, gravity).ds), force);           // (4.1), - dU/ds, U = m g . c
+    add(scaled(-link.mass, dot(c, gravity).ds), force);           // (4.1), force function m g . c
   }
   if constexpr (N > 0) {
     if (link.has_inertia)
@@ -185,11 +185,11 @@ Real termsForce(const ResolvedJointTerms& terms, const JointState<Real>& state, 
   const VelocityNumber<Real, 1> qd = state.velocity(along), squared = qd * qd;
   const Real v = terms.coulomb_velocity;
   const VelocityNumber<Real, 1> E = squared * (Real(terms.rotor_inertia) / 2);
-  const PositionNumber<Real, 1> U = (stretch * stretch) * (-Real(terms.stiffness) / 2);
+  const PositionNumber<Real, 1> force_function = (stretch * stretch) * (-Real(terms.stiffness) / 2);
   const VelocityNumber<Real, 1> dissipation =
       squared * (Real(terms.damping) / 2) +
       frictionPotential(qd * (1 / v)) * (Real(terms.coulomb) * v);
-  return inertiaForce(E)[0] - U.ds[0] + dissipation.dsd[0];  // (4.1)
+  return inertiaForce(E)[0] - force_function.ds[0] + dissipation.dsd[0];  // (4.1)
 }
 
 // --- fictitious mobility -------------------------------------------------------------------------
