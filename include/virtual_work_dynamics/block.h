@@ -26,7 +26,7 @@ struct MotionBlock {
 };
 
 /// Where results of N samples go; the arrays belong to the caller, and results whose array is null
-/// are not computed.
+/// are not written.
 template <typename Real>
 struct ResultBlock {
   Real* effort = nullptr;      ///< coordinates() numbers a sample, N m or N

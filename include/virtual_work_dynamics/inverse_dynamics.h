@@ -41,7 +41,8 @@ class InverseDynamics {
   Eigen::Index coordinates() const;
   const Request& request() const;
   InstructionSet instructionSet() const;
-  /// What was left out, and the operations that remain. Allocates; runs the recursion once.
+  /// Says what was left out, and counts the operations that remain. Allocates; runs the recursion
+  /// once.
   PlanSummary summary() const;
 
   /// Memory for compute(). Allocates; compute() then does not.

@@ -189,8 +189,8 @@ struct BlockInverseDynamics<Real>::Impl {
   std::size_t width;
   std::size_t columns[kArrays];               // numbers a sample of each array
   bool requested[kArrays - kInputs];          // whether each output is
-  AppliedValues<Real> own;                    // the scene's applied wrenches
-  AppliedValues<Real> given;                  // of a Load
+  AppliedValues<Real> own;                    // values of the scene's applied wrenches
+  AppliedValues<Real> given;                  // values of a Load's wrenches
   std::vector<AlignedMemory> scratch, tiles;  // by thread
   WorkerThreads workers;
 };

@@ -27,9 +27,9 @@ struct Workspace::Scratch {
     impl.kernel->prepare(impl.view, memory.get());
   }
 
-  const InverseDynamics::Impl* plan;  // only compared
-  AppliedValues<double> own;          // the scene's
-  AppliedValues<double> given;        // of a Load
+  const InverseDynamics::Impl* plan;  // is compared, never read
+  AppliedValues<double> own;          // values of the scene's applied wrenches
+  AppliedValues<double> given;        // values of a Load's wrenches
   AlignedMemory memory;
   std::vector<double> poses;
 };

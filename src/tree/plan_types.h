@@ -10,7 +10,7 @@ namespace virtual_work_dynamics {
 /// How a body moves on its parent.
 enum class Mobility : unsigned char { kRevolute, kPrismatic, kFixed };
 
-/// Where the z axis of a frame points in the axes of another. For all but kOblique the rotation
+/// Where the z axis of a frame points in the axes of another. For all except kOblique the rotation
 /// between them is Q of canonicalRotation(): a signed permutation, or one with four entries.
 enum class AxisDirection : unsigned char {
   kOblique,
@@ -36,7 +36,7 @@ struct BodyUse {
 
   int parent = -1;
   Mobility mobility = Mobility::kFixed;
-  AxisDirection axis = AxisDirection::kOblique;  ///< of this body's z axis in its parent's Z frame
+  AxisDirection axis = AxisDirection::kOblique;  ///< of the body's z axis, in its parent's Z frame
 
   bool motion_needed = false;
   bool wrench_needed = false;

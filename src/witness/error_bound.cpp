@@ -30,7 +30,7 @@ struct LinkNorms {
   WrenchMagnitude applied;
 };
 
-// Norms of an applied wrench.
+// Norms of an applied wrench, whose values a load replaces.
 struct AppliedNorms {
   std::size_t link = 0;
   long double arm = 0;

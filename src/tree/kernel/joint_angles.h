@@ -6,8 +6,8 @@
 namespace virtual_work_dynamics {
 namespace {  // see kernel.h
 
-/// Angle of a joint, and in `rest` what rounding took from multiplier * q + offset: at a billion
-/// radians that is more than all errors of the recursion.
+/// Returns the angle of a joint, and in `rest` what rounding took from multiplier * q + offset: at
+/// a billion radians that is more than all errors of the recursion.
 template <typename T, typename R>
 VWD_INLINE T angleOf(const JointPosition<R>& joint, const KernelInputs<R>& in, T& rest) {
   const T q = load<T>(in.q + static_cast<std::size_t>(joint.coordinate) * in.stride);
@@ -32,7 +32,7 @@ VWD_INLINE void turnByRest(const T& rest, T& cosine, T& sine) {
   sine = s + mulSub(small_sine, c, versine * s);
 }
 
-/// Rz(q) Rz(phase).
+/// Returns Rz(q) Rz(phase).
 template <typename S, typename T>
 VWD_INLINE void turnByPhase(const S& phase_cos, const S& phase_sin, T& cosine, T& sine) {
   const T c = cosine, s = sine;

@@ -25,8 +25,8 @@ struct BodyMotion {
 /// Position, velocity and acceleration of a joint.
 template <typename T>
 struct JointMotion {
-  RotationZ<T> Rz;  ///< where it turns
-  T slide;          ///< position where it slides
+  RotationZ<T> Rz;  ///< rotation of a joint that turns
+  T slide;          ///< position of a joint that slides
   T qd;
   T qdd;
 };
@@ -93,8 +93,8 @@ VWD_INLINE Vec3<T> momentAt(const Body<R>& body, const Vec3<T>& moment, const Ve
   return sum;
 }
 
-/// What arrives at a body from its parent, in the parent's axes: omega, epsilon and, of its own
-/// origin, b = gamma_p + U_p r.
+/// What arrives at a body from its parent, in the parent's axes: omega, epsilon and, for the body's
+/// own origin r, b = gamma_p + U_p r.
 template <typename T>
 struct Arrival {
   Vec3<T> w;

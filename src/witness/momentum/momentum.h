@@ -37,7 +37,7 @@ struct MomentumJoint {
   double acceleration = 0;
 };
 
-/// A wrench from outside.
+/// An applied wrench, with its norms for the scales.
 struct MomentumWrench {
   int body = 0;
   bool in_root_axes = false;
@@ -54,12 +54,12 @@ struct MomentumInputs {
   std::size_t body_count;
   const MomentumWrench* wrenches;
   std::size_t wrench_count;
-  double gamma_root[3];  ///< less gravity
+  double gamma_root[3];  ///< acceleration of the root: -g
   double gravity_norm;
 };
 
-/// What the wrench of ground and the efforts must be, root axes and origin; with the sums of the
-/// magnitudes of all terms.
+/// What the wrench of ground, in root axes and about the root's origin, and the power of the
+/// efforts must be, with the sums of the magnitudes of all terms.
 struct MomentumSums {
   double force[3];
   double moment[3];
