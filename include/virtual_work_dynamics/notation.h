@@ -17,8 +17,8 @@
 //
 // Joint space:  q, qd, qdd (generalized positions, velocities, accelerations), effort.
 //
-// The paper (Stroe & Staicu 2010) and this code; equation numbers in code are the paper's. A letter
-// means one thing in the code, even where the paper uses it for another.
+// The paper (Stroe & Staicu 2010) and this code; equation numbers in code are the paper's. No letter
+// of the column `code` means two things; Arrival::b always has its prefix.
 //
 // Trees (2.1)-(2.7), (3.5)-(3.8), (4.3):
 //
@@ -62,7 +62,8 @@
 //                                           is not of qd: zero where time is not in it  m/s or 1/s
 //   lambda_i         lambda, multiplier     the closure's force along its condition, of
 //                                           the parent on the child                     N or N m
-//   Q_k              S^T tau - tau_tree     generalized forces and inertia              N m or N
+//   Q_k              S^T tau                generalized forces; those that are known
+//                                           are part of tau_tree                        N m or N
 //   -                tau_tree               efforts of the tree that is left when
 //                                           closures are cut, moving as they make it    N m or N
 //   -                tau                    efforts of actuated joints and closures     N m or N
@@ -77,4 +78,5 @@
 //                                                                                       result
 //   -                L                      steps in sequence behind a result           -
 //
-// Matrices of src/algebra/ have letters of their own there: it knows no mechanics.
+// Matrices of src/algebra/, which knows no mechanics, have letters of their own there, and so have
+// derivatives of rotations in src/witness/momentum/.
