@@ -17,8 +17,8 @@
 //
 // Joint space:  q, qd, qdd (generalized positions, velocities, accelerations), effort.
 //
-// The paper (Stroe & Staicu 2010) and this code; equation numbers in code are the paper's. No letter
-// of the column `code` means two things; Arrival::b always has its prefix.
+// The paper (Stroe & Staicu 2010) and this code; equation numbers in code are the paper's. No
+// letter of the column `code` means two things; Arrival::b always has its prefix.
 //
 // Trees (2.1)-(2.7), (3.5)-(3.8), (4.3):
 //
