@@ -2,6 +2,7 @@
 
 #include <trajectory_msgs/JointTrajectory.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -25,6 +26,8 @@ struct TrajectoryMotion {
   bool has_velocities = false;          ///< the message, at every point
   std::vector<bool> open;               ///< points whose loops cannot be closed; none: all can
   std::string problem;                  ///< of the first of these
+
+  bool isOpen(std::size_t point) const { return point < open.size() && open[point]; }
 };
 
 /// Trajectories by joint name to motions by generalized coordinate.
