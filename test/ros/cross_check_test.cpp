@@ -231,19 +231,19 @@ TEST(CrossCheck, KeepsTheLargestUntilAsked) {
 }
 
 TEST(CrossCheck, ChecksTheSlotItWasToldLast) {
-  Sample outworn, current;
+  Sample replaced, current;
   CrossCheck cross_check(1000);
-  cross_check.watch(outworn.slot);
+  cross_check.watch(replaced.slot);
   cross_check.watch(current.slot);
-  outworn.effort[0] += kTampered * outworn.bound.efforts()[0];
-  ASSERT_TRUE(outworn.offer());
+  replaced.results.effort[0] += kTampered * replaced.bound.efforts()[0];
+  ASSERT_TRUE(replaced.offer());
   ASSERT_TRUE(current.offer());
   CrossCheck::Report report;
   waitUntil([&] { return (report = cross_check.takeReport()).news; });
   EXPECT_LE(report.finding.largest, kSound);
-  EXPECT_TRUE(outworn.slot->full());
+  EXPECT_TRUE(replaced.slot->full());
   cross_check.watch(nullptr);
-  cross_check.watch(outworn.slot);
+  cross_check.watch(replaced.slot);
   waitUntil([&] { return (report = cross_check.takeReport()).news; });
   EXPECT_NEAR(report.finding.largest, kTampered, kShare * kTampered);
 }
