@@ -11,7 +11,7 @@ namespace {
 constexpr InstructionSet kAll[] = {InstructionSet::kAvx512, InstructionSet::kAvx2,
                                    InstructionSet::kBaseline};
 
-// VWD_VECTOR_KERNELS: this build has kernels of these instructions.
+// VWD_VECTOR_KERNELS is defined when this build has kernels for AVX2 and AVX-512.
 bool machineHas(InstructionSet instruction_set) {
 #if defined(VWD_VECTOR_KERNELS)
   switch (instruction_set) {
