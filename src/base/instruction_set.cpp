@@ -56,7 +56,7 @@ InstructionSet chosenInstructionSet() {
     }
   }
   throw Error(std::string(kInstructionSetVariable) + ": '" + wanted +
-              "' is none of baseline, avx2, avx512");
+              "' is not one of baseline, avx2, avx512");
 }
 
 }  // namespace virtual_work_dynamics
