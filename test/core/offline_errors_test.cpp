@@ -93,7 +93,7 @@ TEST_F(OfflineToolErrors, ThreadsAreAWholeNumber) {
   const std::string good = "--urdf p.urdf --motion m.csv --output r.csv ";
   for (const std::string text : {"0", "-1", "1.5", "two", "1025", "nan"}) {
     EXPECT_EQ(usage(good + "--threads=" + text),
-              "--threads: '" + text + "' is no whole number from 1 to 1024");
+              "--threads: '" + text + "' is not a whole number from 1 to 1024");
   }
   EXPECT_EQ(usage(good + "--explain=yes"), "--explain takes no value");
 }
@@ -103,7 +103,7 @@ TEST_F(OfflineToolErrors, LagrangeHasOneThreadAndNothingToExplain) {
   EXPECT_EQ(usage(good + "newton"), "--method: 'newton' is neither virtual_work nor lagrange");
   EXPECT_EQ(usage(good + "lagrange --threads 2"),
             "--threads: --method lagrange runs in one thread, not in 2");
-  EXPECT_EQ(usage(good + "lagrange --explain"), "--explain: there is none of --method lagrange");
+  EXPECT_EQ(usage(good + "lagrange --explain"), "--explain cannot be used with --method lagrange");
 }
 
 TEST_F(OfflineToolErrors, AnUnknownInstructionSetIsNamed) {
