@@ -9,8 +9,8 @@ Usage: scripts/test.sh [--no-install]
 Builds with warnings as errors and runs: unit tests, tests through ROS, the core's tests under the
 address and undefined-behaviour sanitizers, the measurements' agreement with other libraries, the
 format check, the rules of the folders, tests of scripts, catkin_lint, and checks that the core
-library links nothing of ROS and that nothing compiled for special instructions can serve elsewhere. Each check counts like a test. Results are in
-build/test_results/.
+library links nothing of ROS and that code compiled for special instructions cannot serve elsewhere.
+Each check counts like a test. Results are in build/test_results/.
   --no-install  do not install packages first
 END
 }

@@ -26,7 +26,7 @@ struct Verdict {
   std::optional<Errors> kdl;       ///< errors of KDL's efforts
   /// Certificates of single samples by the chosen instruction set, where numbers are double.
   std::optional<WorstCertificates> certificates;
-  std::optional<LoopVerdict> loops;  ///< of mechanisms with closures, which have one path only
+  std::optional<LoopVerdict> loops;  ///< for mechanisms with closures, which have one path only
 
   void include(const Verdict& other);
   /// The largest Errors::over_subtree_bound of all paths of a precision.

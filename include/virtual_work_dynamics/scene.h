@@ -18,7 +18,7 @@ struct AppliedWrench {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();      ///< point of action, link frame, m
   Axes axes = Axes::kLink;                           ///< axes of force and torque
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< about `at`, N m
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< moment about `at`, N m
 };
 
 /// Spring, damping, friction and rotor inertia between a joint's actuator and the mechanism. They
@@ -70,10 +70,10 @@ struct Closure {
 struct PointSpring {
   std::string name;
   std::string link_a, link_b;
-  Eigen::Vector3d at_a = Eigen::Vector3d::Zero();  ///< in the frame of link_a, m
-  Eigen::Vector3d at_b = Eigen::Vector3d::Zero();
-  double stiffness = 0;    ///< N/m
-  double rest_length = 0;  ///< m
+  Eigen::Vector3d at_a = Eigen::Vector3d::Zero();  ///< point in the frame of link_a, m
+  Eigen::Vector3d at_b = Eigen::Vector3d::Zero();  ///< point in the frame of link_b, m
+  double stiffness = 0;                            ///< N/m
+  double rest_length = 0;                          ///< m
 };
 
 /// A number that belongs to a joint or a closure.
@@ -96,8 +96,8 @@ enum class RedundancyPolicy {
 struct Redundancy {
   RedundancyPolicy policy = RedundancyPolicy::kMinimumNorm;
   std::vector<std::string> zero_at;         ///< names of closures, for kZeroAt
-  std::vector<NamedNumber> stiffness;       ///< of joints and closures, relative; others: 1
-  std::vector<NamedNumber> effort_weights;  ///< of actuated joints, in least squares; others: 1
+  std::vector<NamedNumber> stiffness;       ///< joints and closures, relative; others: 1
+  std::vector<NamedNumber> effort_weights;  ///< actuated joints, in least squares; others: 1
   /// Tolerance of the rank of the length-scaled system, relative. Closures whose frames fit each
   /// other to within it count as closed.
   double rank_tolerance = 1e-10;
@@ -122,7 +122,7 @@ struct Scene {
   bool include_active = true;
   bool strict_inertia = false;  ///< impossible inertias are an error rather than a doubt
   std::vector<AppliedWrench> applied_wrenches;
-  std::vector<JointTerms> joints;  ///< for some joints, each once
+  std::vector<JointTerms> joints;  ///< terms of some joints, each once
   /// True: damping and friction of the description count for joints whose terms do not give them.
   bool use_urdf_dynamics = false;
 

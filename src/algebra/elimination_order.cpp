@@ -90,8 +90,8 @@ class Elimination {
   }
 
   const std::vector<RowBlock>& blocks_;
-  std::vector<std::set<std::size_t>> holders_;     // by column: fronts that have it
-  std::vector<std::vector<std::size_t>> singles_;  // by column: blocks that have only it
+  std::vector<std::set<std::size_t>> holders_;     // fronts that have the column, for each column
+  std::vector<std::vector<std::size_t>> singles_;  // blocks of the column alone, for each column
   std::size_t fronts_to_come_ = 0;
   std::set<int> eliminated_;
   std::vector<Front> fronts_;

@@ -62,7 +62,7 @@ class MultifrontalQr {
   // front, then those that have no entries any more.
   struct Work {
     Eigen::MatrixXd F;                              // R above, reflections below
-    Eigen::VectorXd factors;                        // of the reflections
+    Eigen::VectorXd factors;                        // factors of the reflections
     Eigen::VectorXd z;                              // a vector with an entry for each row
     std::vector<int> order;                         // columns: pivots, as chosen, then the rest
     std::vector<Eigen::Index> stairs;               // column of each reflection

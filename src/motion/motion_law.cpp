@@ -85,7 +85,7 @@ class SineSweepLaw : public MotionLaw {
  private:
   VectorXd amplitudes_;
   double start_rate_;    ///< rad/s
-  double acceleration_;  ///< of the phase, rad/s^2
+  double acceleration_;  ///< acceleration of the phase, rad/s^2
   double duration_;
 };
 

@@ -33,10 +33,10 @@ struct Arguments {
   std::string motion;
   std::string scene;
   std::string output;                      ///< empty: standard output
-  std::optional<Eigen::Vector3d> gravity;  ///< instead of the scene's
+  std::optional<Eigen::Vector3d> gravity;  ///< m/s^2, root axes; replaces the scene's
   bool child_axes = false;                 ///< reactions in child link axes rather than root axes
-  std::optional<ReactionSelection> reactions;  ///< instead of the scene's
-  std::vector<std::string> reaction_names;     ///< for ReactionSelection::kNamed
+  std::optional<ReactionSelection> reactions;  ///< replaces the scene's choice
+  std::vector<std::string> reaction_names;     ///< names for ReactionSelection::kNamed
   bool no_efforts = false;
   Method method = Method::kVirtualWork;
   bool certificates = false;

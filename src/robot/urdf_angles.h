@@ -13,8 +13,8 @@ namespace virtual_work_dynamics {
 /// needle-shaped body (axial inertia 1e-9 of the transverse) then loses most of its axial inertia's
 /// digits when it is rotated. Frames without `rpy` are absent.
 struct UrdfAngles {
-  std::map<std::string, Matrix3l> joint_origins;     ///< by joint name, R_PK
-  std::map<std::string, Matrix3l> inertial_origins;  ///< by link name, inertial frame -> link
+  std::map<std::string, Matrix3l> joint_origins;     ///< R_PK by joint name
+  std::map<std::string, Matrix3l> inertial_origins;  ///< inertial frame -> link, by link name
 };
 
 /// Reads the orientations from XML that urdfdom has accepted.

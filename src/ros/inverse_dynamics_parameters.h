@@ -26,7 +26,7 @@ struct InverseDynamicsParameters {
   std::string robot_description_key;  ///< name of the parameter that holds the URDF text
   Scene scene;
   bool scene_given = false;        ///< false: the scene is the default one
-  EstimatorSettings estimator;     ///< as set; a static scene does not estimate
+  EstimatorSettings estimator;     ///< settings as given; a static scene does not estimate
   std::string frame_prefix;        ///< prefix of every frame_id
   bool twist = false;              ///< whether the twists of ~reactions are filled in
   int input_queue = 1000;          ///< messages
