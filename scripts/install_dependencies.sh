@@ -1,5 +1,5 @@
 #!/bin/bash
-# Installs with apt what the package needs on Debian 12. Does nothing, quickly, when all is there.
+# Installs with apt what the package needs on Debian 12. Ends quickly when everything is there.
 set -euo pipefail
 
 build_packages=(

@@ -9,8 +9,8 @@ Usage: scripts/test.sh [--no-install]
 Builds with warnings as errors and runs: unit tests, tests through ROS, the core's tests under the
 address and undefined-behaviour sanitizers, the measurements' agreement with other libraries, the
 format check, the rules of the folders, tests of scripts, catkin_lint, and checks that the core
-library links nothing of ROS and that nothing compiled for special instructions can serve elsewhere. Each check counts like a test. Results are in
-build/test_results/.
+library links nothing of ROS and that code compiled for special instructions cannot serve elsewhere.
+Each check counts like a test. Results are in build/test_results/.
   --no-install  do not install packages first
 END
 }
@@ -35,7 +35,7 @@ export ROS_HOSTNAME=localhost ROS_HOME=$repository/build/ros_home
 rm -rf "$results" "$workspace/build/test_results"
 mkdir -p "$results" "$ROS_HOME"
 
-# check NAME COMMAND...: runs it, and files the verdict as one more test.
+# check NAME COMMAND...: runs a command and files its verdict as one more test.
 check() {
   local name=$1 log=$results/$1.log start=$SECONDS verdict=ok
   shift
@@ -60,12 +60,12 @@ run_tests() {
   cmake --build "$workspace/build" --target run_tests -- -j1
 }
 
-# sanitized_build JOBS
+# sanitized_build JOBS: builds the core's tests with sanitizers.
 sanitized_build() {
   cmake --build "$workspace/build" --target sanitized_core_tests -- -j"$1"
 }
 
-# Tests through ROS mostly wait: what they leave of the processor starts the longest of the builds.
+# Starts the longest of the builds while tests through ROS run, which leave most of the processor free.
 start_sanitized_build() {
   set -m  # a process group of its own, to be ended as a whole
   (renice -n 19 -p "$BASHPID" && sanitized_build 1) >"$results/started_sanitized_build.log" 2>&1 \
@@ -107,7 +107,7 @@ core_links_no_ros() {
   ! grep -E -i 'ros|xmlrpc|catkin' <<<"$needed"
 }
 
-# Weak and unique symbols are those that the linker may take from any object.
+# Refuses weak and unique symbols in kernels, as the linker may take such symbols from any object.
 kernels_share_no_code() {
   local objects
   mapfile -t objects < <(find "$package_build"/CMakeFiles/virtual_work_dynamics{,_vectors}.dir \
@@ -124,9 +124,9 @@ scripts_tests() {
   done
 }
 
-# Ignored: find_package(catkin) behind an option, which counts as out of order; scripts, which are run
-# from the repository; include folders of dependencies; urdfdom, which package.xml has by its rosdep
-# name, liburdfdom-dev.
+# Ignores find_package(catkin) behind an option, which counts as out of order; scripts, which are run
+# from the repository; include folders of dependencies; and urdfdom, which package.xml has by its
+# rosdep name, liburdfdom-dev.
 lint() {
   local missing
   missing=$(catkin_lint --quiet -W0 . 2>&1 | grep -E 'missing [a-z_]*depend' | grep -v "'urdfdom'")

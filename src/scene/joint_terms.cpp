@@ -28,7 +28,7 @@ void check(const JointTerms& terms) {
   }
 }
 
-// Index of the terms of each joint in Scene::joints; -1: none.
+// The index in Scene::joints of the terms of each joint; -1 where a joint has none.
 std::vector<int> termsOfJoints(const Mechanism& mechanism, const Scene& scene) {
   std::vector<int> given(mechanism.joints().size(), -1);
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
