@@ -35,7 +35,7 @@ std::vector<int> termsOfJoints(const Mechanism& mechanism, const Scene& scene) {
     const JointTerms& terms = scene.joints[i];
     const int joint = mechanism.jointIndex(terms.joint);
     if (joint < 0) throw SceneError("joints: the robot has no joint '" + terms.joint + "'");
-    if (mechanism.joints()[joint].type == JointType::kFixed) {
+    if (mechanism.joint(joint).type == JointType::kFixed) {
       throw SceneError("joints: '" + terms.joint + "' is a fixed joint");
     }
     if (given[joint] >= 0) throw SceneError("joints: '" + terms.joint + "' is given twice");
