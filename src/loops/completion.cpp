@@ -276,7 +276,7 @@ bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
   return now <= closed;
 }
 
-// Solves A_p u = -rates for the entries of `unknown` that are not given.
+// Solves (3.2), A_p u = -rates, for the entries of `unknown` that are not given.
 bool LoopCompletion::solveRates(const LoopKinematics& kinematics, const Eigen::VectorXd& rates,
                                 double size, Eigen::VectorXd& unknown) {
   for (System& system : systems_) {

@@ -100,7 +100,7 @@ void LoopForces::setEntries() {
         const std::size_t row = static_cast<std::size_t>(own.coordinates[k]);
         const int i = group_.coordinates[row];
         const double force =
-            multiplies ? kinematics_.jacobian()(column.condition, i) : gathered_[i];
+            multiplies ? kinematics_.jacobian()(column.condition, i) : gathered_[i];  // (3.1), a_ik
         entries(index(j), index(k)) = column.unit * force / unknowns_.row_units[row];
       }
     }
@@ -213,7 +213,7 @@ void LoopForces::choose(const std::vector<Wrench>& tree_reactions) {
   norms_.finish(solution_.x);
 }
 
-// Of the changes that are open, all that the wishes of choose() concern.
+// Starts with the open directions that the criteria of choose() can tell apart.
 void LoopForces::startNorms() {
   if (!sound_) return norms_.start(factorization_.nullSpace());
   Eigen::Index count = 0;

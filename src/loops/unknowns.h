@@ -12,9 +12,9 @@
 
 namespace virtual_work_dynamics {
 
-/// The unknowns x of G x = b for one group of loops, in units that make all of them forces: efforts
-/// of actuated coordinates, then of each set of conditions its multipliers and, if it is that of an
-/// actuated closure, its effort.
+/// The unknowns x of B x = load, (3.1), for one group of loops, in units that make all of them
+/// forces: efforts of actuated coordinates, then of each set of conditions its multipliers and, if
+/// it is that of an actuated closure, its effort.
 struct LoopUnknowns {
   LoopUnknowns(const Mechanism& mechanism, const LoopKinematics& kinematics, const LoopScene& scene,
                const LoopGroup& group, double length);
@@ -41,9 +41,9 @@ struct LoopUnknowns {
   std::vector<Effort> efforts;
   std::vector<int> effort_rows;   ///< of actuated coordinates, as the group counts them
   std::vector<OfSet> of_sets;     ///< as the group counts them
-  std::vector<double> row_units;  ///< N m or N for an entry of b of one
+  std::vector<double> row_units;  ///< N m or N for an entry of the load of one
 
-  /// The transpose of G: a block of one entry for each actuated coordinate, then one for each
+  /// The transpose of B: a block of one entry for each actuated coordinate, then one for each
   /// set.
   std::vector<RowBlock> rowBlocks() const;
 };
