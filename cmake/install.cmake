@@ -54,6 +54,7 @@ if(VWD_CORE_ONLY)
   write_basic_package_version_file(
     ${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}Config-version.cmake
     VERSION ${VWD_VERSION} COMPATIBILITY SameMajorVersion)
+  #catkin_lint: ignore_once missing_file
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}Config-version.cmake
     DESTINATION ${vwd_config})
 else()
