@@ -7,10 +7,11 @@ usage() {
 Usage: scripts/test.sh [--no-install]
 
 Builds with warnings as errors and runs: unit tests, tests through ROS, the core's tests under the
-address and undefined-behaviour sanitizers, the measurements' agreement with other libraries, the
-format check, the rules of the folders, tests of scripts, catkin_lint, and checks that the core
-library links nothing of ROS and that code compiled for special instructions cannot serve elsewhere.
-Each check counts like a test. Results are in build/test_results/.
+address and undefined-behaviour sanitizers, the measurements' agreement with other libraries, users
+of the installed core and of the catkin package, the format check, the rules of the folders, tests of
+scripts, catkin_lint, and checks that the core library links nothing of ROS and that code
+compiled for special instructions cannot serve elsewhere. Each check counts like a test. Results are in
+build/test_results/.
   --no-install  do not install packages first
 END
 }
@@ -147,6 +148,9 @@ if check build_without_warnings build; then
   check kernels_share_no_code kernels_share_no_code || true
   check sanitized_core_tests sanitized_core_tests || true
   check contenders_agree contenders_agree || true
+  check installs_core test/downstream/check.sh core || true
+  check exports_devel_space test/downstream/check.sh devel || true
+  check exports_install_space test/downstream/check.sh install || true
 fi
 check format format || true
 check architecture scripts/architecture.py || true
