@@ -98,7 +98,6 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND checks_of_containers -Wno-restrict)
 endif()
 
-# CMake 3.10 links nothing to a library of objects.
 add_library(core_test_objects OBJECT EXCLUDE_FROM_ALL ${core_test_files})
 target_compile_definitions(core_test_objects PRIVATE
   VWD_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}"
