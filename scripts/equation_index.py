@@ -33,7 +33,7 @@ class Declarations:
 
     def __init__(self, lines):
         self._inside = [None] * len(lines)  # the function or type that a line begins in
-        self._heads = []  # (first line, last line, name) of what is declared or defined
+        self._heads = []  # (first line, last line, name or None) of statements outside of functions
         scopes = []  # names; None: a block or a namespace
         head, first = "", 0  # what has been read of a statement, and where it began
         for at, line in enumerate(lines):
@@ -50,18 +50,21 @@ class Declarations:
                 name = self._name(head, scopes)
                 if letter == "}" and scopes:
                     scopes.pop()
-                elif name:
+                elif letter != "}" and head.strip() and not self._in_function(scopes):
                     self._heads.append((first, at, name))
                 if letter == "{":
                     scopes.append(name)
                 head = ""
 
     @staticmethod
-    def _name(head, scopes):
+    def _in_function(scopes):
+        return any(scope and scope.endswith("()") for scope in scopes)
+
+    @classmethod
+    def _name(cls, head, scopes):
         """What a statement declares or defines: a type, or a function that is not within another."""
         head = TEMPLATE.sub("", head).strip()
-        if head.startswith(("namespace", "using", "extern", "enum")) or any(
-                scope and scope.endswith("()") for scope in scopes):
+        if head.startswith(("namespace", "using", "extern", "enum")) or cls._in_function(scopes):
             return None
         found = TYPE.search(head)
         if found and "=" not in head:
@@ -70,13 +73,13 @@ class Declarations:
         return found.group(1) + "()" if found and "=" not in head[:found.start()] else None
 
     def owner(self, at, alone):
-        """Where line `at` is: in a function, or, for a comment that stands alone, before it or a type."""
+        """The function or type that line `at` is in or, where a comment stands `alone`, introduces."""
         inside = self._inside[at]
         if inside and inside.endswith("()"):
             return inside
         for first, last, name in self._heads:
             if first <= at <= last or (alone and first > at):
-                return name
+                return name or inside or ""
         return inside or ""
 
 

@@ -43,8 +43,9 @@ class LoopCompletion {
   /// How many steps close() took.
   int steps() const { return steps_; }
 
-  /// Does the same and finds velocities and accelerations, too. False also when the conditions
-  /// cannot be met by any, or do not determine them, as in singular positions and outside loops.
+  /// Closes the loops as close() does, and finds velocities and accelerations, too. False also when
+  /// the conditions cannot be met by any, or do not determine them, as in singular positions and
+  /// outside loops.
   bool complete(LoopKinematics& kinematics, Motion& motion, const std::vector<bool>& given,
                 const Search& search = kFromAnywhere);
 
