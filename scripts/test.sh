@@ -96,7 +96,7 @@ contenders_agree() {
 
 format() {
   command -v clang-format-14 >/dev/null || { echo "clang-format-14 is missing"; return 1; }
-  find include src test benchmark -name '*.h' -o -name '*.cpp' | sort |
+  find include src test benchmark examples -name '*.h' -o -name '*.cpp' | sort |
     xargs clang-format-14 --dry-run -Werror
 }
 
@@ -115,6 +115,11 @@ kernels_share_no_code() {
   [[ ${#objects[@]} -ge 4 ]] || { echo "only ${#objects[@]} objects of kernels"; return 1; }
   printf '%s\n' "${objects[@]}"
   ! nm --demangle "${objects[@]}" | grep -E '^[0-9a-f]+ [WVu] '
+}
+
+# What the numbered examples print, against formulas of the test's own.
+examples() {
+  PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 test/examples/examples_test.py "$package_build/examples"
 }
 
 scripts_tests() {
@@ -147,6 +152,7 @@ if check build_without_warnings build; then
   check kernels_share_no_code kernels_share_no_code || true
   check sanitized_core_tests sanitized_core_tests || true
   check contenders_agree contenders_agree || true
+  check examples examples || true
 fi
 check format format || true
 check architecture scripts/architecture.py || true
