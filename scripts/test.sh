@@ -104,7 +104,7 @@ contenders_agree() {
 
 format() {
   command -v clang-format-14 >/dev/null || { echo "clang-format-14 is missing"; return 1; }
-  find include src test benchmark -name '*.h' -o -name '*.cpp' | sort |
+  find include src test benchmark examples -name '*.h' -o -name '*.cpp' | sort |
     xargs clang-format-14 --dry-run -Werror
 }
 
@@ -123,6 +123,11 @@ kernels_share_no_code() {
   [[ ${#objects[@]} -ge 4 ]] || { echo "only ${#objects[@]} objects of kernels"; return 1; }
   printf '%s\n' "${objects[@]}"
   ! nm --demangle "${objects[@]}" | grep -E '^[0-9a-f]+ [WVu] '
+}
+
+# What the numbered examples print, against formulas of the test's own.
+examples() {
+  PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 test/examples/examples_test.py "$package_build/examples"
 }
 
 scripts_tests() {
@@ -170,6 +175,7 @@ if check build_without_warnings build; then
   check installs_core test/downstream/check.sh core || true
   check exports_devel_space test/downstream/check.sh devel || true
   check exports_install_space test/downstream/check.sh install || true
+  check examples examples || true
 fi
 check format format || true
 check architecture scripts/architecture.py || true

@@ -8,7 +8,7 @@
 
 namespace virtual_work_dynamics {
 
-/// Reads a scene from YAML (README, "The scene file"). A null node is the default scene; numeric
+/// Reads a scene from YAML (doc/scene_file.md). A null node is the default scene; numeric
 /// strings are numbers.
 /// @throws SceneError naming the key that is unknown or missing, or whose value has a wrong type or
 ///   length or is not finite.

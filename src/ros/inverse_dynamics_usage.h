@@ -24,7 +24,7 @@ loops /tf_static has a frame for each closure, that of ~reaction/<closure>.
 
 parameters
   robot_description          URDF text; searched from the private namespace upwards
-  ~scene                     gravity, reactions, applied wrenches...; see README, "The scene file"
+  ~scene                     gravity, reactions, applied wrenches...; see doc/scene_file.md
   ~estimator/window          samples in the acceleration estimate (9)
   ~estimator/order           order of its polynomial (3)
   ~estimator/lag             samples the outputs are behind the newest joint state (4)
