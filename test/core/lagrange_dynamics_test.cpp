@@ -13,6 +13,7 @@
 #include "robot_builder.h"
 #include "sample_robots.h"
 #include "virtual_work_dynamics/error.h"
+#include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {
