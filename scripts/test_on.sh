@@ -89,13 +89,14 @@ logs=$repository/build/test_on/$suite
 deadline=$((SECONDS + 60 * minutes))
 
 running=
+told=false  # where the system is
 clean_up() {
   if [[ -n "$running" ]]; then
     kill -KILL "$running" 2>/dev/null || true
     wait "$running" 2>/dev/null || true
   fi
   if $keep; then
-    echo "Kept: $root; enter it with: chroot $root"
+    $told || echo "test_on.sh: kept $root"
     return
   fi
   # What was killed may take a moment to be gone.
@@ -207,6 +208,8 @@ finish() {
   local what=$suite${compiler:+ with $compiler}
   save_logs
   echo "Logs: ${logs#"$repository"/}"
+  if $keep; then echo "Kept: $root; enter it with: chroot $root"; fi
+  told=true
   if [[ ${#failed[@]} -eq 0 ]]; then
     echo "test_on.sh: $what: passed in $SECONDS s, exit status 0"
     exit 0
