@@ -37,8 +37,10 @@ nothing_private() {
     fi
   done < <(find "$prefix" -name '*.cmake')
   while read -r file; do
-    # The Config.cmake that catkin makes names the folder it is installed to.
-    if LC_ALL=C sed "s|$prefix||g" "$file" | grep -q -F -e "$repository" -e "$(realpath "$workspace")"; then
+    # The Config.cmake that catkin makes names the folder it is installed to. Counted: a pipe whose
+    # reader leaves at the first match fails.
+    if LC_ALL=C sed "s|$prefix||g" "$file" |
+        grep --text -c -F -e "$repository" -e "$(realpath "$workspace")" >"$folder/count"; then
       fail "a folder of this machine in $file"
     fi
   done < <(find "$prefix" -mindepth 2 -type f)
