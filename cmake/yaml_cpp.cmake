@@ -11,8 +11,8 @@ if(NOT TARGET virtual_work_dynamics::yaml_cpp)
   endif()
   set_property(TARGET virtual_work_dynamics::yaml_cpp
     PROPERTY INTERFACE_LINK_LIBRARIES "${_vwd_yaml_cpp}")
-  # Ubuntu 20.04 names a folder that is not there.
-  if(IS_DIRECTORY "${YAML_CPP_INCLUDE_DIR}")
+  # Versions 0.6 of Debian and Ubuntu name a folder that is relative, or is not there.
+  if(IS_ABSOLUTE "${YAML_CPP_INCLUDE_DIR}" AND IS_DIRECTORY "${YAML_CPP_INCLUDE_DIR}")
     set_property(TARGET virtual_work_dynamics::yaml_cpp
       PROPERTY INTERFACE_INCLUDE_DIRECTORIES "${YAML_CPP_INCLUDE_DIR}")
   endif()
