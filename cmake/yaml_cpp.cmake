@@ -11,10 +11,13 @@ if(NOT TARGET virtual_work_dynamics::yaml_cpp)
   endif()
   set_property(TARGET virtual_work_dynamics::yaml_cpp
     PROPERTY INTERFACE_LINK_LIBRARIES "${_vwd_yaml_cpp}")
-  # Ubuntu 20.04 names a folder that is not there.
-  if(IS_DIRECTORY "${YAML_CPP_INCLUDE_DIR}")
+  # Versions 0.6 of Debian and Ubuntu name a folder that is relative, or is not there; Ubuntu's 0.5 one
+  # that is /usr/include by way of others, by which name the compiler must not be given it.
+  if(IS_ABSOLUTE "${YAML_CPP_INCLUDE_DIR}" AND IS_DIRECTORY "${YAML_CPP_INCLUDE_DIR}")
+    get_filename_component(_vwd_yaml_cpp_include "${YAML_CPP_INCLUDE_DIR}" REALPATH)
     set_property(TARGET virtual_work_dynamics::yaml_cpp
-      PROPERTY INTERFACE_INCLUDE_DIRECTORIES "${YAML_CPP_INCLUDE_DIR}")
+      PROPERTY INTERFACE_INCLUDE_DIRECTORIES "${_vwd_yaml_cpp_include}")
+    unset(_vwd_yaml_cpp_include)
   endif()
   unset(_vwd_yaml_cpp)
 endif()

@@ -9,8 +9,7 @@ Usage: scripts/make_deb.sh [CMAKE_ARGUMENT ...]
 Builds with the prefix /usr in build/deb, and makes the package of it; the last line is its name. Its
 files lie where those of Debian's own ROS packages do. It depends on the libraries that its programs
 are linked to and on what the launch files run. Install it with: sudo apt install ./NAME
-Needs what
-scripts/install_dependencies.sh installs, on Debian 12.
+Needs what scripts/install_dependencies.sh installs, and works where that does.
 END_OF_USAGE
 }
 if [[ "${1:-}" == -h || "${1:-}" == --help ]]; then

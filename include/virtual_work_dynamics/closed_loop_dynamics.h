@@ -62,7 +62,8 @@ class ClosedLoopDynamics {
   /// by the conditions. False when the loops cannot be closed there, when the given velocities or
   /// accelerations contradict them, and where they do not determine the others, as in a singular
   /// position; positions are then the best met, rates are of no use. Does not allocate.
-  /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is another
+  /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is
+  /// another
   ///   plan's.
   bool complete(Motion& motion, Workspace& workspace) const;
   /// Completes from a position close by, as that of one of the samples before: where the loops
@@ -73,7 +74,8 @@ class ClosedLoopDynamics {
   bool complete(Motion& motion, const std::vector<bool>& given, Workspace& workspace) const;
 
   /// Efforts and reactions of one sample, into the workspace. Does not allocate.
-  /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is another
+  /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is
+  /// another
   ///   plan's.
   void compute(const Motion& motion, Workspace& workspace) const;
   /// Computes with `load` in place of the values of the scene's applied wrenches.

@@ -28,7 +28,8 @@ class Dynamics {
 
   /// Compiles mechanism, scene and request into a plan. `request` names joints, closures and
   /// "ground".
-  /// @throws SceneError as InverseDynamics and ClosedLoopDynamics do; Error when the instruction set
+  /// @throws SceneError as InverseDynamics and ClosedLoopDynamics do; Error when the instruction
+  /// set
   ///   is not supported.
   Dynamics(const Mechanism& mechanism, const Scene& scene, const Request& request,
            InstructionSet instruction_set = chosenInstructionSet());
@@ -62,7 +63,8 @@ class Dynamics {
   const Scene& tree() const;
   /// The efforts and reactions of the request that the tree has, in its order.
   const Request& treeRequest() const;
-  /// What acts on the tree in a sample: LoopResults::tree_wrenches, or the scene's applied wrenches.
+  /// What acts on the tree in a sample: LoopResults::tree_wrenches, or the scene's applied
+  /// wrenches.
   /// @param results of this plan, computed with the scene's own load
   /// @param load gets the values; does not allocate when it has as many wrenches as tree()
   void getTreeLoad(const Results& results, Load& load) const;
@@ -76,7 +78,8 @@ class Dynamics {
 
   /// Replaces the passive coordinates of `motion` by those that the closures demand; see
   /// ClosedLoopDynamics::complete(). True at once in an open chain. Does not allocate.
-  /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is another
+  /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is
+  /// another
   ///   plan's.
   bool complete(Motion& motion, Workspace& workspace) const;
   /// Completes from a position close by; see ClosedLoopDynamics::completeFromCloseBy().
@@ -88,7 +91,8 @@ class Dynamics {
 
   /// Efforts and reactions of one sample, into the workspace. Does not allocate. Costs less where
   /// complete() has left the workspace at the same position.
-  /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is another
+  /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is
+  /// another
   ///   plan's.
   void compute(const Motion& motion, Workspace& workspace) const;
   /// Computes with `load` in place of the values of the scene's applied wrenches.
@@ -101,8 +105,8 @@ class Dynamics {
   std::unique_ptr<const Impl> impl_;
 };
 
-/// Results and scratch memory of one thread's computations; made by Dynamics::makeWorkspace(), whose
-/// maker must outlive it.
+/// Results and scratch memory of one thread's computations; made by Dynamics::makeWorkspace(),
+/// whose maker must outlive it.
 class Dynamics::Workspace {
  public:
   ~Workspace();

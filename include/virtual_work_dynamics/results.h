@@ -59,8 +59,8 @@ struct LoopResults {
   /// constraints leave open has the value that the scene's policy chooses.
   std::vector<bool> effort_determined;
   std::vector<Determined> child_axes_determined, root_axes_determined;
-  /// Which results have a value at all: in a singular position, those that are determined, and those
-  /// that are not determined in regular positions either. Elsewhere every result has one.
+  /// Which results have a value at all: in a singular position, those that are determined, and
+  /// those that are not determined in regular positions either. Elsewhere every result has one.
   std::vector<bool> effort_exists;
   std::vector<Determined> child_axes_exist, root_axes_exist;
 
@@ -70,13 +70,13 @@ struct LoopResults {
   std::vector<ClosureResidual> residuals;
   /// Residuals without units, to be held against a tolerance: lengths over the size of the loops,
   /// velocities also over the largest rate of the motion, accelerations over its largest
-  /// acceleration or the square of that rate. Rates below 1/s and accelerations below 1/s^2 count as
-  /// these.
+  /// acceleration or the square of that rate. Rates below 1/s and accelerations below 1/s^2 count
+  /// as these.
   std::vector<ClosureResidual> relative_residuals;
   /// How far each actuated closure has turned, within half a turn, or slid, and how fast; rad or m.
   Eigen::VectorXd actuated_positions, actuated_velocities;
-  /// Wrenches on the tree that is left when closures and springs are cut: the scene's own, then those
-  /// of springs and closures, in root axes.
+  /// Wrenches on the tree that is left when closures and springs are cut: the scene's own, then
+  /// those of springs and closures, in root axes.
   std::vector<Wrench> tree_wrenches;
 };
 

@@ -7,8 +7,8 @@
 
 namespace virtual_work_dynamics {
 
-/// Hands plans from the thread that compiles them to the thread that computes, and the replaced ones
-/// back for deletion. The computing side neither waits, allocates nor frees.
+/// Hands plans from the thread that compiles them to the thread that computes, and the replaced
+/// ones back for deletion. The computing side neither waits, allocates nor frees.
 class PlanSwitch {
  public:
   /// @param first in use from the start.

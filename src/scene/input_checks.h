@@ -15,8 +15,8 @@ namespace virtual_work_dynamics {
 /// Checks a motion. @throws MotionError naming the first vector whose length is not `coordinates`.
 void requireLengths(const Motion& motion, Eigen::Index coordinates);
 
-/// Checks a load. @throws SceneError when it has not one wrench for each of the `applied` ones of the
-/// scene.
+/// Checks a load. @throws SceneError when it has not one wrench for each of the `applied` ones of
+/// the scene.
 void requireLoad(const Load& load, std::size_t applied);
 
 /// Returns the scene itself. @throws SceneError saying why it is not an open chain.

@@ -29,19 +29,24 @@ fail() {
 nothing_private() {
   local prefix=$1 file
   local private='urdfdom|tinyxml2|console_bridge|roscpp|_ros\b|pthread|threads|[ "]-W|_warnings|/src\b'
-  diff <(cd "$repository/include" && find . -type f | sort) \
-    <(cd "$prefix/include" && find . -type f | sort) || fail "other headers than those of include/"
+  (cd "$repository/include" && find . -type f | sort) >"$folder/public"
+  (cd "$prefix/include" && find . -type f | sort) | diff "$folder/public" - ||
+    fail "other headers than those of include/"
+  find "$prefix" -name '*.cmake' >"$folder/exported"
   while read -r file; do
     if sed 's/#.*//' "$file" | grep -i -E "$private"; then
       fail "private things in $file"
     fi
-  done < <(find "$prefix" -name '*.cmake')
+  done <"$folder/exported"
+  find "$prefix" -mindepth 2 -type f >"$folder/installed_files"
   while read -r file; do
-    # The Config.cmake that catkin makes names the folder it is installed to.
-    if LC_ALL=C sed "s|$prefix||g" "$file" | grep -q -F -e "$repository" -e "$(realpath "$workspace")"; then
+    # The Config.cmake that catkin makes names the folder it is installed to. Counted: a pipe whose
+    # reader leaves at the first match fails.
+    if LC_ALL=C sed "s|$prefix||g" "$file" |
+        grep --text -c -F -e "$repository" -e "$(realpath -m "$workspace")" >"$folder/count"; then
       fail "a folder of this machine in $file"
     fi
-  done < <(find "$prefix" -mindepth 2 -type f)
+  done <"$folder/installed_files"
 }
 
 # user_of PREFIX SOURCE: configured, built and run; finds nothing but that.
