@@ -49,6 +49,7 @@ set(core_test_files
   test/core/motion_estimator_test.cpp
   test/core/motion_law_test.cpp
   test/core/multifrontal_qr_test.cpp
+  test/core/non_holonomic_conditions_test.cpp
   test/core/offline_certificates_test.cpp
   test/core/offline_errors_test.cpp
   test/core/offline_loops_checks_test.cpp
