@@ -15,7 +15,7 @@ run_packages=(
 )
 test_packages=(
   "${run_packages[@]}"
-  binutils catkin-lint clang-format-14 libbenchmark-dev libgtest-dev liborocos-kdl-dev
+  binutils catkin-lint clang-format-14 doxygen libbenchmark-dev libgtest-dev liborocos-kdl-dev
   librostest-dev locales
   python3-numpy python3-rostest
 )

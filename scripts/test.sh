@@ -8,9 +8,10 @@ Usage: scripts/test.sh [--no-install]
 
 Builds with warnings as errors and runs: unit tests, tests through ROS, the core's tests under the
 address and undefined-behaviour sanitizers, the measurements' agreement with other libraries, the
-format check, the rules of the folders, tests of scripts, catkin_lint, and checks that the core
-library links nothing of ROS and that nothing compiled for special instructions can serve elsewhere. Each check counts like a test. Results are in
-build/test_results/.
+numbered examples, the format check, the rules of the folders, tests of scripts and guides, pages of the
+headers without a warning, catkin_lint, and checks that the core library links nothing of ROS and that
+nothing compiled for special instructions can serve elsewhere. Each check counts like a test. Results are
+in build/test_results/.
   --no-install  do not install packages first
 END
 }
@@ -117,6 +118,12 @@ kernels_share_no_code() {
   ! nm --demangle "${objects[@]}" | grep -E '^[0-9a-f]+ [WVu] '
 }
 
+# Every warning is an error, see doc/Doxyfile.
+doxygen_pages() {
+  mkdir -p build
+  doxygen doc/Doxyfile
+}
+
 # What the numbered examples print, against formulas of the test's own.
 examples() {
   PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 test/examples/examples_test.py "$package_build/examples"
@@ -157,6 +164,7 @@ fi
 check format format || true
 check architecture scripts/architecture.py || true
 check scripts scripts_tests || true
+check doxygen_pages doxygen_pages || true
 check catkin_lint lint || true
 
 mkdir -p "$workspace/build/test_results"

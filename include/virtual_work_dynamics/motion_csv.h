@@ -10,8 +10,8 @@
 
 namespace virtual_work_dynamics {
 
-/// Reads a motion from CSV: header `time,position.<joint>…,velocity.<joint>…,acceleration.<joint>…`
-/// in any order, lines that start with `#` are comments. Velocities and accelerations are optional,
+/// Reads a motion from CSV. Its header has
+/// `time,position.<joint>…,velocity.<joint>…,acceleration.<joint>…` in any order, lines that start with `#` are comments. Velocities and accelerations are optional,
 /// each for all joints or for none. Blanks around names and cells, CRLF and a UTF-8 byte order mark
 /// are no part of the text.
 /// @param joints which joints, in which order; empty: every joint that has a position column, in
