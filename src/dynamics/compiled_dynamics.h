@@ -29,6 +29,10 @@ struct Dynamics::Impl {
 struct Dynamics::Workspace::Impl {
   std::optional<virtual_work_dynamics::Workspace> chain;
   std::optional<ClosedLoopDynamics::Workspace> loops;
+
+  /// @throws MotionError when the workspace is not of that kind; its plan compares the rest.
+  virtual_work_dynamics::Workspace& ofChain();
+  ClosedLoopDynamics::Workspace& ofLoops();
 };
 
 }  // namespace virtual_work_dynamics

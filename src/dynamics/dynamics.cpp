@@ -109,11 +109,11 @@ Dynamics::Workspace Dynamics::makeWorkspace() const {
 }
 
 bool Dynamics::complete(Motion& motion, Workspace& workspace) const {
-  return !impl_->loops || impl_->loops->complete(motion, *workspace.impl_->loops);
+  return !impl_->loops || impl_->loops->complete(motion, workspace.impl_->ofLoops());
 }
 
 bool Dynamics::completeFromCloseBy(Motion& motion, Workspace& workspace) const {
-  return !impl_->loops || impl_->loops->completeFromCloseBy(motion, *workspace.impl_->loops);
+  return !impl_->loops || impl_->loops->completeFromCloseBy(motion, workspace.impl_->ofLoops());
 }
 
 std::string Dynamics::whyOpen(const Motion& motion, Workspace& workspace) const {
@@ -132,25 +132,29 @@ std::string Dynamics::whyOpen(const Motion& motion, Workspace& workspace) const 
 }
 
 void Dynamics::compute(const Motion& motion, Workspace& workspace) const {
-  Workspace::Impl& memory = *workspace.impl_;
-  if (impl_->chain && memory.chain) {
-    impl_->chain->compute(motion, *memory.chain);
-  } else if (impl_->loops && memory.loops) {
-    impl_->loops->compute(motion, *memory.loops);
+  if (impl_->chain) {
+    impl_->chain->compute(motion, workspace.impl_->ofChain());
   } else {
-    throw MotionError("the workspace belongs to another Dynamics");
+    impl_->loops->compute(motion, workspace.impl_->ofLoops());
   }
 }
 
 void Dynamics::compute(const Motion& motion, const Load& load, Workspace& workspace) const {
-  Workspace::Impl& memory = *workspace.impl_;
-  if (impl_->chain && memory.chain) {
-    impl_->chain->compute(motion, load, *memory.chain);
-  } else if (impl_->loops && memory.loops) {
-    impl_->loops->compute(motion, load, *memory.loops);
+  if (impl_->chain) {
+    impl_->chain->compute(motion, load, workspace.impl_->ofChain());
   } else {
-    throw MotionError("the workspace belongs to another Dynamics");
+    impl_->loops->compute(motion, load, workspace.impl_->ofLoops());
   }
+}
+
+Workspace& Dynamics::Workspace::Impl::ofChain() {
+  if (!chain) throw MotionError("the workspace belongs to another Dynamics");
+  return *chain;
+}
+
+ClosedLoopDynamics::Workspace& Dynamics::Workspace::Impl::ofLoops() {
+  if (!loops) throw MotionError("the workspace belongs to another Dynamics");
+  return *loops;
 }
 
 Dynamics::Workspace::Workspace(const Dynamics::Impl& plan) : impl_(new Impl) {

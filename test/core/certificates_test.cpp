@@ -14,6 +14,7 @@
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/error_bound.h"
 #include "virtual_work_dynamics/instruction_set.h"
+#include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {
