@@ -8,9 +8,10 @@ Usage: scripts/test.sh [--portable] [--no-install]
 
 Builds with warnings as errors and runs: unit tests, tests through ROS, the core's tests under the
 address and undefined-behaviour sanitizers, the measurements' agreement with other libraries, users
-of the installed core and of the catkin package, the format check, the rules of the folders, tests of
-scripts, catkin_lint, and checks that the core library links nothing of ROS and that code compiled for
-special instructions cannot serve elsewhere. Each check counts like a test. Results are in
+of the installed core and of the catkin package, the numbered examples, the format check, the rules of
+the folders, tests of scripts and guides, pages of the headers without a warning, catkin_lint, and
+checks that the core library links nothing of ROS and that code compiled for special instructions
+cannot serve elsewhere. Each check counts like a test. Results are in
 build/test_results/. Works on Debian 12.
   --portable    only what needs no tools of Debian 12: builds with warnings as errors, without the
                 measurements, and runs the unit tests and the tests through ROS
@@ -125,6 +126,12 @@ kernels_share_no_code() {
   ! nm --demangle "${objects[@]}" | grep -E '^[0-9a-f]+ [WVu] '
 }
 
+# Every warning is an error, see doc/Doxyfile.
+doxygen_pages() {
+  mkdir -p build
+  doxygen doc/Doxyfile
+}
+
 # What the numbered examples print, against formulas of the test's own.
 examples() {
   PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 test/examples/examples_test.py "$package_build/examples"
@@ -180,6 +187,7 @@ fi
 check format format || true
 check architecture scripts/architecture.py || true
 check scripts scripts_tests || true
+check doxygen_pages doxygen_pages || true
 check catkin_lint lint || true
 
 print_verdict

@@ -10,8 +10,9 @@
 
 namespace virtual_work_dynamics {
 
-/// Reads a motion from CSV: header `time,position.<joint>…,velocity.<joint>…,acceleration.<joint>…`
-/// in any order; lines that start with `#` are comments. Velocities and accelerations are optional,
+/// Reads a motion from CSV. Its header has, in any order, the columns
+/// `time,position.<joint>…,velocity.<joint>…,acceleration.<joint>…`;
+/// lines that start with `#` are comments. Velocities and accelerations are optional,
 /// each for all joints or for none. Blanks around names and cells, CRLF and a UTF-8 byte order mark
 /// are ignored.
 /// @param joints the joints to read, in the order of the table's columns. When empty, every joint
