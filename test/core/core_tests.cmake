@@ -38,7 +38,6 @@ set(core_test_files
   test/core/joint_terms_test.cpp
   test/core/kernel_accuracy_test.cpp
   test/core/lagrange_dynamics_test.cpp
-  test/core/loop_follower_test.cpp
   test/core/loop_kinematics_test.cpp
   test/core/loop_oracles_test.cpp
   test/core/loop_residuals_test.cpp
@@ -56,6 +55,7 @@ set(core_test_files
   test/core/offline_loops_threads_test.cpp
   test/core/offline_plan_test.cpp
   test/core/offline_test.cpp
+  test/core/passive_joints_test.cpp
   test/core/plan_merging_test.cpp
   test/core/plan_reduction_test.cpp
   test/core/plan_summary_test.cpp
