@@ -17,7 +17,7 @@ bool isClosedScene(const std::string& name);
 bool takesSeconds(const std::string& name);
 
 /// The scene with its states: random positions of the actuated joints within a range about the
-/// assembly, random velocities and accelerations, and what ClosedLoopDynamics::complete() makes of
+/// assembly, random velocities and accelerations, and what Dynamics::complete() makes of
 /// them on a path of small steps from one state to the next. The same in every run.
 /// @throws Error when there is no such scene or the loops do not close on the way, UrdfError,
 ///   SceneError, FileError.

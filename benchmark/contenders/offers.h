@@ -28,7 +28,7 @@ void offerMujoco(const BenchmarkScene& scene, std::vector<Offer>& offers);
 void offerDart(const BenchmarkScene& scene, std::vector<Offer>& offers);
 #endif
 
-/// Closed loops by ClosedLoopDynamics: the whole motion given, or only that of the actuated joints.
+/// Closed loops by Dynamics: the whole motion given, or only that of the actuated joints.
 void offerOwnLoops(const BenchmarkScene& scene, std::vector<Offer>& offers);
 /// Closed loops by one linear system of all bodies, and by Lagrange's equations with multipliers;
 /// up to 30 joints.
