@@ -32,7 +32,10 @@ set(core_test_files
   test/core/closed_loop_refusals_test.cpp
   test/core/closed_loop_singular_test.cpp
   test/core/closed_loop_tree_test.cpp
+  test/core/dynamics_test.cpp
+  test/core/dynamics_use_test.cpp
   test/core/error_bound_test.cpp
+  test/core/existence_test.cpp
   test/core/instruction_set_test.cpp
   test/core/inverse_dynamics_test.cpp
   test/core/joint_terms_test.cpp
@@ -71,6 +74,7 @@ set(core_test_files
   test/core/reference_test.cpp
   test/core/run_time_histogram_test.cpp
   test/core/sample_block_test.cpp
+  test/core/sample_rows_test.cpp
   test/core/scene_reader_loops_test.cpp
   test/core/scene_reader_test.cpp
   test/core/sine_cosine_test.cpp
