@@ -17,20 +17,21 @@ namespace virtual_work_dynamics {
 
 class Workspace;
 
-/// Inverse dynamics of a tree by the recursive virtual-work model (2.5)-(2.7), (3.5)-(3.8), (4.3):
-/// a mechanism, a scene and a request compiled into one plan. Immutable: one instance may serve any
-/// number of threads, each with a workspace of its own.
+/// Inverse dynamics of a tree by the recursive virtual-work model (2.5)-(2.7), (3.5)-(3.8), (4.3),
+/// which doc/theory.md explains and notation.h has the symbols of: a mechanism, a scene and a
+/// request compiled into one plan. Immutable: one instance may serve any number of threads, each
+/// with a workspace of its own.
 class InverseDynamics {
  public:
-  /// Compiles. What matters to no requested result is left out: branches, bodies without inertia
-  /// at the ends of branches, terms of motions and gravity that are zero. Fixed joints are lumped
-  /// into their parents unless their reaction is requested.
+  /// Compiles a plan. What matters to no requested result is left out: branches, bodies without
+  /// inertia at the ends of branches, terms of motions and gravity that are zero. Fixed joints are
+  /// lumped into their parents unless their reaction is requested.
   /// @throws SceneError when scene or request name a joint or link that the mechanism lacks, or a
   ///   reaction twice, when the scene is strict about inertias and the mechanism has doubtful ones,
   ///   or when it needsClosedLoops(); Error when the instruction set is not supported.
   InverseDynamics(const Mechanism& mechanism, const Scene& scene, const Request& request,
                   InstructionSet instruction_set = chosenInstructionSet());
-  /// Everything the scene asks for: efforts, and its reactions in both axes.
+  /// Compiles everything the scene asks for: efforts, and its reactions in both axes.
   InverseDynamics(const Mechanism& mechanism, const Scene& scene);
   ~InverseDynamics();
   InverseDynamics(InverseDynamics&&) noexcept;
@@ -58,7 +59,7 @@ class InverseDynamics {
 
  private:
   struct Impl;
-  // Null: the scene's own load.
+  // Computes with a load; null stands for the scene's own.
   void computeWith(const Load* load, const Motion& motion, Workspace& workspace) const;
   friend class Workspace;
   friend class SampleBlock;
@@ -81,11 +82,13 @@ class Workspace {
   /// Effort of each generalized coordinate, N m or N; (3.7), mimic joints and what the scene says
   /// of joints' springs, friction and rotors included. Empty when the request leaves efforts out.
   const Eigen::VectorXd& effort() const { return results_.effort; }
-  /// Reactions in the order of Request::child_axes and Request::root_axes.
+  /// Reactions in the order of Request::child_axes.
   const std::vector<Wrench>& childAxes() const { return results_.child_axes; }
+  /// Reactions (4.3) in the order of Request::root_axes.
   const std::vector<Wrench>& rootAxes() const { return results_.root_axes; }
-  /// In the order of Request::root_axes; empty unless requested.
+  /// Poses of joint frames in the order of Request::root_axes; empty unless requested.
   const std::vector<Pose>& poses() const { return results_.poses; }
+  /// Velocities of joint frames in the order of Request::root_axes; empty unless requested.
   const std::vector<Twist>& twists() const { return results_.twists; }
 
   /// False when any result overflowed to infinity or NaN, as huge inputs can.

@@ -14,6 +14,21 @@ constexpr char kGround[] = "ground";
 
 enum class JointType { kRevolute, kContinuous, kPrismatic, kFixed };
 
+/// What a position measures, of a coordinate, a joint or a condition.
+enum class Unit { kRadian, kMetre };
+
+/// "rad" or "m".
+const char* symbolOf(Unit unit);
+/// What counts as one in a mechanism of size `length`, m: 1 rad or the length.
+constexpr double scaleOf(Unit unit, double length) {
+  return unit == Unit::kMetre ? length : 1;
+}
+/// What counts as one of the effort that does work on it, for a force of 1 N: the length for
+/// moments, 1 for forces.
+constexpr double effortScaleOf(Unit unit, double length) {
+  return unit == Unit::kMetre ? 1 : length;
+}
+
 /// A rigid body of the description. Constants are long double so that they are rounded only once,
 /// when a scene is compiled.
 struct Link {
@@ -37,10 +52,13 @@ struct Joint {
   int coordinate = -1;
   bool mimics = false;
   double multiplier = 1;  ///< joint position = multiplier * q[coordinate]
-  double offset = 0;      ///<                  + offset
+  double offset = 0;      ///< + offset, rad or m
   double damping = 0;   ///< as described, viscous, N m s/rad or N s/m; see Scene::use_urdf_dynamics
   double friction = 0;  ///< as described, dry, N m or N
 };
+
+/// What the position of a joint that moves measures.
+Unit unitOf(const Joint& joint);
 
 /// Something questionable in a description that is computed all the same; one line for the user.
 struct Doubt {
@@ -62,12 +80,20 @@ class Mechanism {
   const std::vector<Link>& links() const { return links_; }
   const std::vector<Joint>& joints() const { return joints_; }
   const std::vector<Doubt>& doubts() const { return doubts_; }
+  /// The link or joint of that index, which must be one.
+  const Link& link(int index) const { return links_[static_cast<std::size_t>(index)]; }
+  const Joint& joint(int index) const { return joints_[static_cast<std::size_t>(index)]; }
 
   /// Indices into joints() of the generalized coordinates: every movable joint that mimics no
   /// other.
   const std::vector<int>& coordinates() const { return coordinates_; }
-  /// Their joints' names, in the same order.
+  /// Names of the joints in coordinates(), in that order.
   const std::vector<std::string>& coordinateNames() const { return coordinate_names_; }
+  /// The joint that a generalized coordinate is the position of, and what it measures.
+  const Joint& jointOf(int coordinate) const {
+    return joint(coordinates_[static_cast<std::size_t>(coordinate)]);
+  }
+  Unit unitOf(int coordinate) const { return virtual_work_dynamics::unitOf(jointOf(coordinate)); }
 
   /// Index of the joint or link of that name; -1 when there is none. Not for the per-sample path.
   int jointIndex(const std::string& name) const;

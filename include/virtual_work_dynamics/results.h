@@ -8,7 +8,7 @@
 
 namespace virtual_work_dynamics {
 
-/// Force and moment that the parent exerts on the child, moment about the joint origin O_k.
+/// Force and moment that the parent exerts on the child; the moment is about the joint origin O_k.
 struct Wrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m
@@ -22,7 +22,7 @@ struct Pose {
 
 /// Velocity of a joint frame in root axes.
 struct Twist {
-  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< of the point O_k, m/s
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< velocity of the point O_k, m/s
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< rad/s
 };
 
@@ -30,22 +30,22 @@ struct Twist {
 using Determined = std::array<bool, 6>;
 constexpr Determined kAllComponents{{true, true, true, true, true, true}};
 
-/// How far a motion violates the conditions of one closure: the norm of those that are lengths or
-/// of those that are directions, whichever is the larger number.
+/// How far a motion violates the conditions of one closure: the larger one of two norms, of the
+/// conditions that are lengths and of those that are directions.
 struct ClosureResidual {
   double position = 0;      ///< m or rad
   double velocity = 0;      ///< m/s or rad/s
   double acceleration = 0;  ///< m/s^2 or rad/s^2
 };
 
-/// What rigid-body mechanics determines at one position, by the null space of [S^T A^T].
+/// How much rigid-body mechanics determines at one position, by the null space of [S^T A^T].
 struct Determinacy {
-  int rank = 0;                   ///< of [S^T A^T]
+  int rank = 0;                   ///< rank of [S^T A^T]
   int redundant_constraints = 0;  ///< conditions less the rank of A
   int redundancy = 0;             ///< unknowns less rank: redundant constraints and over-actuation
-  int free_motions = 0;           ///< that no actuated joint and no closure holds
-  double gap = 0;                 ///< between the entries that count for the rank and the others
-  double condition = 0;           ///< estimated, of what is determined
+  int free_motions = 0;           ///< motions that no actuated joint and no closure holds
+  double gap = 0;                 ///< least entry that counts for the rank over the largest other
+  double condition = 0;           ///< estimated condition of the determined part
 };
 
 /// Condition above which a position counts as close to singular: an error of 1e-4 rad may then

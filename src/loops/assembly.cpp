@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/number_text.h"
+#include "scene/closure_types.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -25,24 +26,24 @@ std::string names(const Mechanism& mechanism, const std::vector<std::size_t>& co
   return text;
 }
 
-[[noreturn]] void refuseOpen(const Scene& scene, const LoopKinematics& kinematics, double length) {
+[[noreturn]] void refuseOpen(const LoopKinematics& kinematics, double length) {
   std::size_t worst = 0;
   LoopKinematics::Norms largest{0, 0};
-  for (std::size_t c = 0; c < scene.closures.size(); ++c) {
-    const LoopKinematics::Norms norms = kinematics.normsOf(c, kinematics.phi());
+  for (std::size_t s = 0; s < kinematics.sets(); ++s) {
+    const LoopKinematics::Norms norms = kinematics.normsOf(s, kinematics.phi());
     if (norms.lengths / length + norms.directions <=
         largest.lengths / length + largest.directions) {
       continue;
     }
     largest = norms;
-    worst = c;
+    worst = s;
   }
   std::string open = numberText(largest.lengths) + " m";
   if (largest.directions > largest.lengths / length * kMatters) {
     open += " and " + numberText(largest.directions) + " rad";
   }
-  throw SceneError("closures: '" + scene.closures[worst].name +
-                   "' cannot be assembled from the given start: it stays open by " + open);
+  throw SceneError(kinematics.set(worst).place() +
+                   " cannot be assembled from the given start: it stays open by " + open);
 }
 
 // Coordinates that no actuated joint and no closure holds at the present position.
@@ -73,20 +74,20 @@ Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopComplet
   std::vector<bool> given = loops.actuated;
   const std::vector<bool> none(given.size(), false);
   if (completion.rank(kinematics, given) < completion.rank(kinematics, none)) given = none;
-  if (!completion.close(kinematics, q, given)) refuseOpen(scene, kinematics, completion.length());
+  if (!completion.close(kinematics, q, given)) refuseOpen(kinematics, completion.length());
   for (std::size_t c = 0; c < scene.closures.size(); ++c) {
     if (kinematics.reversed(c)) {
       throw SceneError("closures: '" + scene.closures[c].name +
                        "' is assembled the wrong way round: its frames are half a turn apart");
     }
-    if (scene.closures[c].type == ClosureType::kDistance &&
+    if (traitsOf(scene.closures[c].type).hasLength() &&
         (kinematics.parentOrigin(c) - kinematics.childOrigin(c)).norm() <=
             kCoincide * completion.length()) {
       throw SceneError("closures: '" + scene.closures[c].name +
                        "': its ends coincide in the assembly");
     }
   }
-  kinematics.adoptLengths();
+  kinematics.adoptConstants();
   kinematics.setPosition(q);
   return q;
 }
@@ -96,13 +97,10 @@ namespace {
 // Closes the loops beside the assembly; false when that fails, with `q` at the best position met.
 bool closeBeside(const Mechanism& mechanism, LoopCompletion& completion, LoopKinematics& kinematics,
                  Eigen::VectorXd& q) {
-  for (Eigen::Index i = 0; i < q.size(); ++i) {
-    const int joint = mechanism.coordinates()[static_cast<std::size_t>(i)];
-    const bool slides =
-        mechanism.joints()[static_cast<std::size_t>(joint)].type == JointType::kPrismatic;
+  for (int i = 0; i < q.size(); ++i) {
     // Unequal steps, as a symmetrical displacement can lead from one singular position to another.
-    const double step = kDisplacement * (1 + 0.37 * std::sin(1.0 + 2.1 * static_cast<double>(i)));
-    q[i] += slides ? step * completion.length() : step;
+    const double step = kDisplacement * (1 + 0.37 * std::sin(1.0 + 2.1 * i));
+    q[i] += step * scaleOf(mechanism.unitOf(i), completion.length());
   }
   return completion.close(kinematics, q, std::vector<bool>(mechanism.coordinates().size(), false));
 }

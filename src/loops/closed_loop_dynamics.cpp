@@ -19,7 +19,7 @@ Request effortRequest(const Mechanism& mechanism, const LoopScene& loops,
   if (loops.policy != RedundancyPolicy::kStiffness) return request;
   for (const LoopGroup& group : groups) {
     for (const LoopGroup::CrossedJoint& crossed : group.joints) {
-      const Joint& joint = mechanism.joints()[static_cast<std::size_t>(crossed.joint)];
+      const Joint& joint = mechanism.joint(crossed.joint);
       if (crossed.moves) request.root_axes.push_back(joint.name);
     }
   }
@@ -60,7 +60,7 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& of, const Scene& scene, const Re
       own_load(scene),
       closures(scene.closures.size()),
       kinematics(mechanism, scene),
-      groups(loopGroups(mechanism, kinematics, closures)) {
+      groups(loopGroups(mechanism, kinematics)) {
   for (const std::size_t c : loops.actuated_closures) {
     actuated_closures.push_back(scene.closures[c].name);
   }

@@ -77,7 +77,7 @@ void ClosedLoopDynamics::Workspace::Impl::setActuatedClosures() {
   }
 }
 
-// S^T tau + A^T lambda = tau_tree.
+// Solves (3.1) for motions that are known: S^T tau + A^T lambda = tau_tree.
 void ClosedLoopDynamics::Workspace::Impl::solve() {
   for (std::size_t i = 0; i < plan.loops.actuated.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
@@ -97,7 +97,7 @@ void ClosedLoopDynamics::Workspace::Impl::solve() {
   }
 }
 
-// (3.8) with the closures' wrenches applied to both of their links.
+// Reactions by (3.8) with the closures' wrenches applied to both of their links.
 void ClosedLoopDynamics::Workspace::Impl::react(const Motion& motion) {
   const LoopKinematics& kinematics = solvers.kinematics;
   std::vector<Wrench>& load = second_load_.wrenches;

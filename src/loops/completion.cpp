@@ -28,8 +28,8 @@ constexpr double kConsistent = 1e-8;
 // there.
 constexpr double kSharpest = 1e7;
 
-Eigen::Index conditionsOf(const LoopKinematics& kinematics, std::size_t closure) {
-  return kinematics.firstOf(closure + 1) - kinematics.firstOf(closure);
+Eigen::Index conditionsOf(const LoopKinematics& kinematics, std::size_t set) {
+  return kinematics.firstOf(set + 1) - kinematics.firstOf(set);
 }
 
 Eigen::Index mostCoordinates(const std::vector<LoopGroup>& groups) {
@@ -38,17 +38,21 @@ Eigen::Index mostCoordinates(const std::vector<LoopGroup>& groups) {
   return static_cast<Eigen::Index>(most);
 }
 
-// No closure has more than six conditions.
-Eigen::Index mostConditions(const std::vector<LoopGroup>& groups) {
-  std::size_t most = 0;
-  for (const LoopGroup& group : groups) most = std::max(most, group.closures.size());
-  return static_cast<Eigen::Index>(6 * most);
+Eigen::Index mostConditions(const std::vector<LoopGroup>& groups,
+                            const LoopKinematics& kinematics) {
+  Eigen::Index most = 0;
+  for (const LoopGroup& group : groups) {
+    Eigen::Index own = 0;
+    for (const std::size_t s : group.sets) own += conditionsOf(kinematics, s);
+    most = std::max(most, own);
+  }
+  return most;
 }
 
 std::vector<RowBlock> conditionBlocks(const LoopGroup& group, const LoopKinematics& kinematics) {
   std::vector<RowBlock> blocks;
-  for (std::size_t local = 0; local < group.closures.size(); ++local) {
-    blocks.push_back({conditionsOf(kinematics, group.closures[local]), group.moved[local]});
+  for (std::size_t local = 0; local < group.sets.size(); ++local) {
+    blocks.push_back({conditionsOf(kinematics, group.sets[local]), group.moved[local]});
   }
   return blocks;
 }
@@ -68,49 +72,52 @@ LoopCompletion::LoopCompletion(const Mechanism& mechanism, const LoopKinematics&
                                double length)
     : rank_tolerance_(rank_tolerance),
       length_(length),
-      A_(mostConditions(groups), mostCoordinates(groups)),
+      row_scales_(kinematics.conditions()),
+      in_loop_(mechanism.coordinates().size()),
+      A_(mostConditions(groups, kinematics), mostCoordinates(groups)),
       factorization_(A_.rows(), A_.cols()),
       columns_(static_cast<std::size_t>(A_.cols())),
       right_(A_.rows()),
       packed_(A_.cols()),
       found_(A_.cols()),
       misses_(A_.rows()) {
-  for (const int k : mechanism.coordinates()) {
-    slides_.push_back(mechanism.joints()[static_cast<std::size_t>(k)].type ==
-                      JointType::kPrismatic);
+  for (Eigen::Index i = 0; i < row_scales_.size(); ++i) {
+    row_scales_[i] = 1 / scaleOf(kinematics.condition(i).unit, length);
   }
-  in_loop_.resize(slides_.size());
+  position_scales_ = row_scales_;
+  for (Eigen::Index i = 0; i < row_scales_.size(); ++i) {
+    if (!kinematics.condition(i).has_position) position_scales_[i] = 0;
+  }
+  for (int i = 0; i < static_cast<int>(in_loop_.size()); ++i) {
+    column_scales_.push_back(scaleOf(mechanism.unitOf(i), length));
+  }
   for (const LoopGroup& group : groups) {
     systems_.emplace_back(group, kinematics);
     for (const int i : group.coordinates) in_loop_[static_cast<std::size_t>(i)] = true;
   }
-  step_.setZero(static_cast<Eigen::Index>(slides_.size()));
+  step_.setZero(static_cast<Eigen::Index>(in_loop_.size()));
   tried_ = step_;
 }
 
-double LoopCompletion::rowScale(const LoopKinematics& kinematics, Eigen::Index condition) const {
-  return kinematics.turns(condition) ? 1 : 1 / length_;
-}
-
 double LoopCompletion::columnScale(int coordinate) const {
-  return slides_[static_cast<std::size_t>(coordinate)] ? length_ : 1;
+  return column_scales_[static_cast<std::size_t>(coordinate)];
 }
 
-void LoopCompletion::factorize(const LoopKinematics& kinematics, const std::vector<bool>& given) {
+void LoopCompletion::factorize(const LoopKinematics& kinematics, const std::vector<bool>& given,
+                               const Eigen::VectorXd& row_scales) {
   for (System& system : systems_) {
     const LoopGroup& group = system.group;
     for (std::size_t i = 0; i < group.coordinates.size(); ++i) {
       system.wanted[i] = !given[static_cast<std::size_t>(group.coordinates[i])];
     }
-    for (std::size_t local = 0; local < group.closures.size(); ++local) {
-      const std::size_t c = group.closures[local];
+    for (std::size_t local = 0; local < group.sets.size(); ++local) {
+      const Eigen::Index first = kinematics.firstOf(group.sets[local]);
       Eigen::MatrixXd& entries = system.qr.entriesOf(local);
       for (std::size_t k = 0; k < group.moved[local].size(); ++k) {
         const int coordinate = group.coordinates[static_cast<std::size_t>(group.moved[local][k])];
         for (Eigen::Index i = 0; i < entries.rows(); ++i) {
-          const Eigen::Index condition = kinematics.firstOf(c) + i;
-          entries(i, static_cast<Eigen::Index>(k)) = rowScale(kinematics, condition) *
-                                                     kinematics.jacobian()(condition, coordinate) *
+          entries(i, static_cast<Eigen::Index>(k)) = row_scales[first + i] *
+                                                     kinematics.jacobian()(first + i, coordinate) *
                                                      columnScale(coordinate);
         }
       }
@@ -141,7 +148,7 @@ void LoopCompletion::factorizeWhole(const System& system) {
 Eigen::Index LoopCompletion::rank(const LoopKinematics& kinematics,
                                   const std::vector<bool>& given) {
   Eigen::Index sum = 0;
-  factorize(kinematics, given);
+  factorize(kinematics, given, position_scales_);
   for (const System& system : systems_) {
     if (system.sound) {
       sum += std::count(system.wanted.begin(), system.wanted.end(), true);
@@ -155,12 +162,11 @@ Eigen::Index LoopCompletion::rank(const LoopKinematics& kinematics,
 
 void LoopCompletion::setRight(const LoopKinematics& kinematics, const System& system,
                               const Eigen::VectorXd& conditions) {
-  for (std::size_t local = 0; local < system.group.closures.size(); ++local) {
-    const std::size_t c = system.group.closures[local];
-    for (Eigen::Index i = 0; i < conditionsOf(kinematics, c); ++i) {
-      const Eigen::Index condition = kinematics.firstOf(c) + i;
-      right_[system.qr.firstOf(local) + i] =
-          -rowScale(kinematics, condition) * conditions[condition];
+  for (std::size_t local = 0; local < system.group.sets.size(); ++local) {
+    const std::size_t s = system.group.sets[local];
+    for (Eigen::Index i = 0; i < conditionsOf(kinematics, s); ++i) {
+      const Eigen::Index condition = kinematics.firstOf(s) + i;
+      right_[system.qr.firstOf(local) + i] = -row_scales_[condition] * conditions[condition];
     }
   }
 }
@@ -202,7 +208,7 @@ double LoopCompletion::misses(const System& system) {
 double LoopCompletion::misfit(const LoopKinematics& kinematics) const {
   double sum = 0;
   for (Eigen::Index i = 0; i < kinematics.conditions(); ++i) {
-    const double scaled = rowScale(kinematics, i) * kinematics.phi()[i];
+    const double scaled = position_scales_[i] * kinematics.phi()[i];
     sum += scaled * scaled;
   }
   return std::sqrt(sum);
@@ -210,16 +216,24 @@ double LoopCompletion::misfit(const LoopKinematics& kinematics) const {
 
 double LoopCompletion::largest(const Eigen::VectorXd& rates) const {
   double most = 0;
-  for (std::size_t i = 0; i < slides_.size(); ++i) {
+  for (std::size_t i = 0; i < in_loop_.size(); ++i) {
     const double rate = rates[static_cast<Eigen::Index>(i)];
     most = std::max(most, std::abs(rate) / columnScale(static_cast<int>(i)));
   }
   return most;
 }
 
+double LoopCompletion::largestCondition(const Eigen::VectorXd& conditions) const {
+  double most = 0;
+  for (Eigen::Index i = 0; i < conditions.size(); ++i) {
+    most = std::max(most, std::abs(row_scales_[i] * conditions[i]));
+  }
+  return most;
+}
+
 void LoopCompletion::newtonStep(const LoopKinematics& kinematics, const std::vector<bool>& given) {
   step_.setZero();
-  factorize(kinematics, given);
+  factorize(kinematics, given, position_scales_);
   for (System& system : systems_) {
     setRight(kinematics, system, kinematics.phi());
     solve(system);
@@ -238,7 +252,7 @@ bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
   kinematics.setPosition(q);
   double now = misfit(kinematics);
   const double closed = std::max(kClosed, rank_tolerance_);
-  const double root = std::sqrt(static_cast<double>(kinematics.conditions()));
+  const double root = std::sqrt(static_cast<double>((position_scales_.array() > 0).count()));
   const double exact = kExact * root, rounding = kRounding * root;
   for (steps_ = 0; steps_ < search.most_steps && now > exact && std::isfinite(now); ++steps_) {
     newtonStep(kinematics, given);
@@ -262,7 +276,7 @@ bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
   return now <= closed;
 }
 
-// Solves A_p u = -rates for the entries of `unknown` that are not given.
+// Solves (3.2), A_p u = -rates, for the entries of `unknown` that are not given.
 bool LoopCompletion::solveRates(const LoopKinematics& kinematics, const Eigen::VectorXd& rates,
                                 double size, Eigen::VectorXd& unknown) {
   for (System& system : systems_) {
@@ -286,13 +300,15 @@ bool LoopCompletion::complete(LoopKinematics& kinematics, Motion& motion,
     motion.qd[static_cast<Eigen::Index>(i)] = 0;
     motion.qdd[static_cast<Eigen::Index>(i)] = 0;
   }
-  factorize(kinematics, given);
+  factorize(kinematics, given, row_scales_);
   kinematics.setMotion(motion);
-  const double given_rate = largest(motion.qd);
-  if (!solveRates(kinematics, kinematics.rates(), given_rate, motion.qd)) return false;
+  double rate = largest(motion.qd);
+  if (kinematics.drives()) rate = std::max(rate, largestCondition(kinematics.b()));
+  if (!solveRates(kinematics, kinematics.rates(), rate, motion.qd)) return false;
   kinematics.setMotion(motion);
-  const double rate = largest(motion.qd);
-  const double size = std::max(largest(motion.qdd), rate * rate);
+  rate = std::max(rate, largest(motion.qd));
+  double size = std::max(largest(motion.qdd), rate * rate);
+  if (kinematics.drives()) size = std::max(size, largestCondition(kinematics.bd()));
   return solveRates(kinematics, kinematics.accelerations(), size, motion.qdd);
 }
 

@@ -13,10 +13,11 @@
 namespace virtual_work_dynamics {
 
 /// Finds the coordinates that a motion does not give from the conditions of the loops: positions by
-/// Newton's method, velocities by A_p qd_p = -A_g qd_g, accelerations by A_p qdd_p = -(A_g qdd_g +
-/// Ad qd), p: to be found, g: given. Far from singular positions the cost grows with the number of
-/// loops; elsewhere with the cube of those that share coordinates. Nothing after construction
-/// allocates.
+/// Newton's method, velocities by A_p qd_p = -(A_g qd_g + b), accelerations by A_p qdd_p = -(A_g
+/// qdd_g + Ad qd + bd), p: to be found, g: given. A coordinate stays where the motion has it as far
+/// as no condition with a position level moves it. Far from singular positions the cost grows with
+/// the number of loops; elsewhere with the cube of those that share coordinates. Nothing after
+/// construction allocates.
 class LoopCompletion {
  public:
   /// `length` compares lengths with angles.
@@ -59,10 +60,14 @@ class LoopCompletion {
     std::vector<bool> wanted;
     bool sound = false;  // whether qr is a factorization
   };
-  void factorize(const LoopKinematics& kinematics, const std::vector<bool>& given);
+  // Rows whose scale is zero count as absent.
+  void factorize(const LoopKinematics& kinematics, const std::vector<bool>& given,
+                 const Eigen::VectorXd& row_scales);
   void factorizeWhole(const System& system);
   void setRight(const LoopKinematics& kinematics, const System& system,
                 const Eigen::VectorXd& conditions);
+  // The largest of some conditions, lengths over the length.
+  double largestCondition(const Eigen::VectorXd& conditions) const;
   bool solve(System& system);
   double misses(const System& system);
   double misfit(const LoopKinematics& kinematics) const;
@@ -70,13 +75,15 @@ class LoopCompletion {
   void newtonStep(const LoopKinematics& kinematics, const std::vector<bool>& given);
   bool solveRates(const LoopKinematics& kinematics, const Eigen::VectorXd& rates, double size,
                   Eigen::VectorXd& unknown);
-  double rowScale(const LoopKinematics& kinematics, Eigen::Index condition) const;
   double columnScale(int coordinate) const;
 
   std::vector<System> systems_;
-  std::vector<bool> slides_, in_loop_;  // by coordinate
   double rank_tolerance_;
   double length_;
+  // By condition: what makes it an angle, or zero where it has no position.
+  Eigen::VectorXd row_scales_, position_scales_;
+  std::vector<double> column_scales_;  // by coordinate
+  std::vector<bool> in_loop_;          // by coordinate
   int steps_ = 0;
   // Of the group in work; its conditions and the coordinates to be found come first.
   Eigen::MatrixXd A_;  // where the columns are not surely independent

@@ -82,17 +82,17 @@ void LoopForces::addCosts(const LoopScene& scene) {
   for (double& factor : joint_costs_) factor /= largest > 0 ? largest : 1;
 }
 
-// The generalized force of a multiplier's unit wrench is its row of the conditions' Jacobian.
+// The generalized force of a unit multiplier is its row of the conditions' Jacobian.
 void LoopForces::setEntries() {
-  for (std::size_t local = 0; local < unknowns_.of_closures.size(); ++local) {
-    const LoopUnknowns::OfClosure& own = unknowns_.of_closures[local];
+  for (std::size_t local = 0; local < unknowns_.of_sets.size(); ++local) {
+    const LoopUnknowns::OfSet& own = unknowns_.of_sets[local];
     Eigen::MatrixXd& entries = qr_.entriesOf(unknowns_.effort_rows.size() + local);
     for (std::size_t j = 0; j < own.columns.size(); ++j) {
       const LoopUnknowns::Column& column = own.columns[j];
       const bool multiplies = column.condition >= 0;
       ClosureWrench& wrench = unit_wrenches_[static_cast<std::size_t>(own.first) + j];
-      wrench = multiplies ? kinematics_.unitWrench(column.condition)
-                          : kinematics_.unitEffort(own.closure);
+      wrench =
+          multiplies ? kinematics_.unitWrench(column.condition) : kinematics_.unitEffort(own.set);
       if (!multiplies) gatherForce(own, wrench);
       wrench.force *= column.unit;
       wrench.moment *= column.unit;
@@ -100,16 +100,16 @@ void LoopForces::setEntries() {
         const std::size_t row = static_cast<std::size_t>(own.coordinates[k]);
         const int i = group_.coordinates[row];
         const double force =
-            multiplies ? kinematics_.jacobian()(column.condition, i) : gathered_[i];
+            multiplies ? kinematics_.jacobian()(column.condition, i) : gathered_[i];  // (3.1), a_ik
         entries(index(j), index(k)) = column.unit * force / unknowns_.row_units[row];
       }
     }
   }
 }
 
-void LoopForces::gatherForce(const LoopUnknowns::OfClosure& own, const ClosureWrench& wrench) {
+void LoopForces::gatherForce(const LoopUnknowns::OfSet& own, const ClosureWrench& wrench) {
   for (const int row : own.coordinates) gathered_[group_.coordinates[std::size_t(row)]] = 0;
-  kinematics_.addGeneralizedForce(own.closure, wrench, gathered_);
+  kinematics_.addGeneralizedForce(own.set, wrench, gathered_);
 }
 
 void LoopForces::setPosition() {
@@ -213,7 +213,7 @@ void LoopForces::choose(const std::vector<Wrench>& tree_reactions) {
   norms_.finish(solution_.x);
 }
 
-// Of the changes that are open, all that the wishes of choose() concern.
+// Starts with the open directions that the criteria of choose() can tell apart.
 void LoopForces::startNorms() {
   if (!sound_) return norms_.start(factorization_.nullSpace());
   Eigen::Index count = 0;
@@ -268,22 +268,27 @@ const LoopForces::State& LoopForces::direction(Eigen::Index i) {
   for (const std::size_t effort : change_.touched_efforts) {
     change_.x[unknowns_.efforts[effort].unknown] = 0;
   }
-  for (const std::size_t local : change_.touched_closures) {
-    const LoopUnknowns::OfClosure& own = unknowns_.of_closures[local];
+  const auto clear = [&](std::size_t local) {
+    const LoopUnknowns::OfSet& own = unknowns_.of_sets[local];
     change_.x.segment(own.first, index(own.columns.size())).setZero();
+  };
+  for (const std::size_t local : change_.touched_closures) {
+    clear(local);
     change_.closures[local] = {};
   }
+  for (const std::size_t local : change_.touched_others) clear(local);
   qr_.nullVector(static_cast<std::size_t>(i), change_.x);
   change_.touched_efforts.clear();
   change_.touched_closures.clear();
+  change_.touched_others.clear();
   for (const std::size_t block : qr_.touched()) {
     if (block < unknowns_.effort_rows.size()) {
       change_.touched_efforts.push_back(block);
       continue;
     }
     const std::size_t local = block - unknowns_.effort_rows.size();
-    const int effort = unknowns_.of_closures[local].effort;
-    change_.touched_closures.push_back(local);
+    const int effort = unknowns_.of_sets[local].effort;
+    (isClosure(local) ? change_.touched_closures : change_.touched_others).push_back(local);
     if (effort >= 0) change_.touched_efforts.push_back(static_cast<std::size_t>(effort));
   }
   setClosures(change_);
@@ -295,11 +300,13 @@ void LoopForces::touchAll(State& state) const {
   std::iota(state.touched_efforts.begin(), state.touched_efforts.end(), 0);
   state.touched_closures.resize(group_.closures.size());
   std::iota(state.touched_closures.begin(), state.touched_closures.end(), 0);
+  state.touched_others.resize(group_.sets.size() - group_.closures.size());
+  std::iota(state.touched_others.begin(), state.touched_others.end(), group_.closures.size());
 }
 
 void LoopForces::setClosures(State& state) const {
   for (const std::size_t local : state.touched_closures) {
-    const LoopUnknowns::OfClosure& own = unknowns_.of_closures[local];
+    const LoopUnknowns::OfSet& own = unknowns_.of_sets[local];
     ClosureWrench sum;
     for (Eigen::Index j = own.first; j < own.first + index(own.columns.size()); ++j) {
       sum.force += state.x[j] * unit_wrenches_[std::size_t(j)].force;

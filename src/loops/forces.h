@@ -14,12 +14,13 @@
 
 namespace virtual_work_dynamics {
 
-/// Efforts and closures' wrenches of one group of loops, (3.1)-(3.4): S^T tau + A^T lambda =
-/// tau_tree, G x = b, with x the efforts of actuated coordinates, those of actuated closures, and
-/// the multipliers. Everything is made a force by a length, so that rank and least norms do not
-/// depend on units. Far from singular positions G is factorised loop by loop, at a cost that grows
-/// with their number; where the condition number leaves a doubt about the rank, as a whole. Nothing
-/// after construction allocates.
+/// Efforts and closures' wrenches of one group of loops, (3.1) with (3.2): S^T tau + A^T lambda =
+/// tau_tree, in units of force B x = load, with x the efforts of actuated coordinates, those of
+/// actuated closures, and the multipliers of all conditions, whether these are of wrenches or not.
+/// Everything is made a force by a length, so that rank and least norms do not depend on units. Far
+/// from singular positions B is factorised loop by loop, at a cost that grows with their number;
+/// where the condition number leaves a doubt about the rank, as a whole. Nothing after construction
+/// allocates.
 class LoopForces {
  public:
   /// All must outlive it.
@@ -51,6 +52,7 @@ class LoopForces {
     std::vector<ClosureWrench> closures;
     /// Which of the group's closures and of efforts() it can change; the others are zero.
     std::vector<std::size_t> touched_closures, touched_efforts;
+    std::vector<std::size_t> touched_others;  ///< sets without a wrench
   };
   const State& solution() const { return solution_; }
   /// Unit vectors that span the changes, all moments over the length. In a singular position that
@@ -72,7 +74,8 @@ class LoopForces {
  private:
   void addCosts(const LoopScene& scene);
   void setEntries();
-  void gatherForce(const LoopUnknowns::OfClosure& own, const ClosureWrench& wrench);
+  bool isClosure(std::size_t local) const { return local < group_.closures.size(); }
+  void gatherForce(const LoopUnknowns::OfSet& own, const ClosureWrench& wrench);
   void factorizeWhole();
   void bearLoad();
   void choose(const std::vector<Wrench>& tree_reactions);
@@ -92,13 +95,13 @@ class LoopForces {
   std::vector<double> closure_costs_, joint_costs_;
   Eigen::Index cost_rows_ = 0;
 
-  MultifrontalQr qr_;  // of the transpose of G
-  bool sound_ = true;  // whether that is a factorization; if not, the next two are
-  Eigen::MatrixXd G_, G_transposed_;
+  MultifrontalQr qr_;                 // of the transpose of B
+  bool sound_ = true;                 // whether that is a factorization; if not, the next two are
+  Eigen::MatrixXd G_, G_transposed_;  // B of notation.h
   RankFactorization factorization_, transposed_;
   LeastNorms norms_;
   Eigen::VectorXd load_, gathered_;
-  bool bears_ = true;  // whether the load is in the range of G
+  bool bears_ = true;  // whether the load is in the range of B
   Eigen::Index redundant_constraints_ = 0;
   Eigen::Index direction_count_ = 0;
   Eigen::MatrixXd directions_;

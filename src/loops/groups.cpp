@@ -20,62 +20,58 @@ LoopGroup::CrossedJoint& crossing(LoopGroup& group, int joint, bool moves) {
   return group.joints.back();
 }
 
-void addMoved(const Mechanism& mechanism, const LoopKinematics& kinematics, LoopGroup& group) {
-  for (const std::size_t c : group.closures) {
+void addMoved(const LoopKinematics& kinematics, LoopGroup& group) {
+  for (const std::size_t s : group.sets) {
     std::vector<int> moved;
-    for (const LoopKinematics::Step& step : kinematics.path(c)) {
-      const int coordinate = mechanism.joints()[static_cast<std::size_t>(step.joint)].coordinate;
-      if (coordinate < 0) continue;
+    for (const int coordinate : kinematics.set(s).coordinates()) {
       const auto& all = group.coordinates;
       const auto place = std::find(all.begin(), all.end(), coordinate) - all.begin();
       moved.push_back(static_cast<int>(place));
     }
-    std::sort(moved.begin(), moved.end());
-    moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
     group.moved.push_back(moved);
   }
 }
 
+void addClosure(const Mechanism& mechanism, const LoopKinematics& kinematics, std::size_t closure,
+                LoopGroup& group) {
+  for (const PathStep& step : kinematics.path(closure)) {
+    crossing(group, step.joint, mechanism.joint(step.joint).coordinate >= 0)
+        .passages.push_back({group.closures.size(), step.sign});
+  }
+  group.closures.push_back(closure);
+}
+
 }  // namespace
 
-std::vector<LoopGroup> loopGroups(const Mechanism& mechanism, const LoopKinematics& kinematics,
-                                  std::size_t closures) {
-  const auto coordinateOf = [&](const LoopKinematics::Step& step) {
-    return mechanism.joints()[static_cast<std::size_t>(step.joint)].coordinate;
-  };
-  // Coordinates are joined closure by closure; the least of a set leads it.
+std::vector<LoopGroup> loopGroups(const Mechanism& mechanism, const LoopKinematics& kinematics) {
+  // Coordinates are joined set by set; the least of those joined leads them.
   std::vector<int> leaders(mechanism.coordinates().size());
   std::iota(leaders.begin(), leaders.end(), 0);
-  std::vector<int> first(closures, -1);  // a coordinate of each closure
-  for (std::size_t c = 0; c < closures; ++c) {
-    for (const LoopKinematics::Step& step : kinematics.path(c)) {
-      const int coordinate = coordinateOf(step);
-      if (coordinate < 0) continue;
-      if (first[c] < 0) first[c] = coordinate;
-      const int a = rootOf(leaders, first[c]), b = rootOf(leaders, coordinate);
+  for (std::size_t s = 0; s < kinematics.sets(); ++s) {
+    const std::vector<int>& coordinates = kinematics.set(s).coordinates();
+    for (const int coordinate : coordinates) {
+      const int a = rootOf(leaders, coordinates.front()), b = rootOf(leaders, coordinate);
       leaders[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
     }
   }
   std::vector<LoopGroup> groups;
   std::vector<int> group_of(leaders.size(), -1);
-  for (std::size_t c = 0; c < closures; ++c) {
-    const std::size_t leader = static_cast<std::size_t>(rootOf(leaders, first[c]));
+  for (std::size_t s = 0; s < kinematics.sets(); ++s) {
+    const int first = kinematics.set(s).coordinates().front();
+    const std::size_t leader = static_cast<std::size_t>(rootOf(leaders, first));
     if (group_of[leader] < 0) {
       group_of[leader] = static_cast<int>(groups.size());
       groups.emplace_back();
     }
     LoopGroup& group = groups[static_cast<std::size_t>(group_of[leader])];
-    for (const LoopKinematics::Step& step : kinematics.path(c)) {
-      crossing(group, step.joint, coordinateOf(step) >= 0)
-          .passages.push_back({group.closures.size(), step.sign});
-    }
-    group.closures.push_back(c);
+    if (s < kinematics.closures()) addClosure(mechanism, kinematics, s, group);
+    group.sets.push_back(s);
   }
   for (std::size_t i = 0; i < leaders.size(); ++i) {
     const int group = group_of[static_cast<std::size_t>(rootOf(leaders, static_cast<int>(i)))];
     if (group >= 0) groups[static_cast<std::size_t>(group)].coordinates.push_back(int(i));
   }
-  for (LoopGroup& group : groups) addMoved(mechanism, kinematics, group);
+  for (LoopGroup& group : groups) addMoved(kinematics, group);
   return groups;
 }
 

@@ -7,15 +7,16 @@
 
 namespace virtual_work_dynamics {
 
-/// Loops that share coordinates, and so must be solved together.
+/// Loops and other conditions that share coordinates, and so must be solved together.
 struct LoopGroup {
   std::vector<int> coordinates;
-  std::vector<std::size_t> closures;
-  std::vector<std::vector<int>> moved;  ///< by closure: which of `coordinates` its wrench moves
+  std::vector<std::size_t> sets;        ///< of conditions; those of closures are the first
+  std::vector<std::size_t> closures;    ///< the same closures
+  std::vector<std::vector<int>> moved;  ///< by set: which of `coordinates` its rows concern
   /// Joints between the links of its closures, and how each closure's wrench passes through.
   struct Passage {
     std::size_t closure;  ///< index into `closures`
-    double sign;          ///< LoopKinematics::Step::sign
+    double sign;          ///< PathStep::sign
   };
   struct CrossedJoint {
     int joint;
@@ -25,10 +26,9 @@ struct LoopGroup {
   std::vector<CrossedJoint> joints;
 };
 
-/// All groups; coordinates in no loop are in none. A group's loops do not feel those of others, so
-/// the cost of many small groups grows with their number and not with its cube.
-std::vector<LoopGroup> loopGroups(const Mechanism& mechanism, const LoopKinematics& kinematics,
-                                  std::size_t closures);
+/// All groups; coordinates without a condition are in none. A group's loops do not feel those of
+/// others, so the cost of many small groups grows with their number and not with its cube.
+std::vector<LoopGroup> loopGroups(const Mechanism& mechanism, const LoopKinematics& kinematics);
 
 /// A characteristic size, m: the largest distance between two origins of joints and closure frames
 /// that lie on a loop, at the present position; 1 where there are none.

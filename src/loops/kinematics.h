@@ -1,9 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <vector>
 
+#include "loops/closure_conditions.h"
+#include "loops/condition.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/results.h"
@@ -11,149 +12,110 @@
 
 namespace virtual_work_dynamics {
 
-/// What the parent of a closure exerts on its child: moment about the child frame's origin. Root
-/// axes.
-struct ClosureWrench {
-  Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< N m
-};
-
-/// The conditions (3.3) of a mechanism's closures, phi(q) = 0, with their velocities A qd and
-/// accelerations A qdd + Ad qd, and the wrenches that go with their multipliers. Everything in root
-/// axes. Nothing after construction allocates.
+/// The conditions of a mechanism, A qd + b = 0 (3.2) and, of those that have it, Phi(q, t) = 0
+/// (3.3), at one position and motion: sets of conditions, of which the first are those of closures.
+/// Everything in root axes. Nothing after construction allocates; copies share the sets.
 class LoopKinematics {
  public:
-  /// @throws SceneError naming the closure: unknown link, both frames on one link, or on
-  ///   links that no joint moves relative to each other.
+  /// All conditions of the scene. @throws SceneError naming what is wrong with a closure.
   LoopKinematics(const Mechanism& mechanism, const Scene& scene);
+  /// Sets of closures stand before others.
+  LoopKinematics(const Mechanism& mechanism, ConditionSets sets);
 
-  /// Number of conditions, of all closures.
-  Eigen::Index conditions() const { return static_cast<Eigen::Index>(rows_.size()); }
-  /// Conditions [firstOf(c), firstOf(c + 1)) are those of closure c.
-  Eigen::Index firstOf(std::size_t closure) const { return first_[closure]; }
-  /// Whether a condition is one of orientation, dimensionless; others are lengths in m.
-  bool turns(Eigen::Index condition) const;
+  std::size_t sets() const { return sets_.size(); }
+  std::size_t closures() const { return closures_.size(); }
+  const ConditionSet& set(std::size_t set) const { return *sets_[set]; }
+  const ClosureConditions& closure(std::size_t closure) const { return *closures_[closure]; }
 
+  /// Number of conditions, of all sets.
+  Eigen::Index conditions() const { return values_.phi.size(); }
+  const Condition& condition(Eigen::Index i) const {
+    return *conditions_[static_cast<std::size_t>(i)];
+  }
+  /// Conditions [firstOf(s), firstOf(s + 1)) are those of set s.
+  Eigen::Index firstOf(std::size_t set) const { return first_[set]; }
+
+  /// Of conditions that depend on time, s; 0 at first. Holds from the next position on.
+  void setTime(double time) {
+    placed_ = placed_ && state_.time == time;
+    state_.time = time;
+  }
   /// Poses of links, conditions and their Jacobian at a position. Costs nothing where they are at
   /// that position already.
   void setPosition(const Eigen::VectorXd& q);
-  const Eigen::VectorXd& phi() const { return phi_; }     ///< conditions, m or rad
-  const Eigen::MatrixXd& jacobian() const { return A_; }  ///< conditions x coordinates
-  /// Lengths of the rods of kDistance closures become those of the present position where the scene
-  /// gives none; until then their conditions demand nothing.
-  void adoptLengths();
+  const Eigen::VectorXd& phi() const { return values_.phi; }  ///< m or rad; 0 where there is none
+  const Eigen::MatrixXd& jacobian() const { return values_.A; }  ///< conditions x coordinates
+  /// Conditions that adopt their constant from the assembly are met at the present position from
+  /// now on; until then they demand nothing.
+  void adoptConstants();
 
   /// Velocities and accelerations of the conditions at the present position.
   void setMotion(const Motion& motion);
-  const Eigen::VectorXd& rates() const { return rates_; }                  ///< A qd
-  const Eigen::VectorXd& accelerations() const { return accelerations_; }  ///< A qdd + Ad qd
-  /// Norms of what of phi(), rates() or accelerations() are a closure's lengths and directions.
+  const Eigen::VectorXd& rates() const { return values_.rates; }  ///< A qd + b
+  /// A qdd + Ad qd + bd
+  const Eigen::VectorXd& accelerations() const { return values_.accelerations; }
+  /// Whether b and its derivative bd can differ from zero, and what they are.
+  bool drives() const { return drives_; }
+  const Eigen::VectorXd& b() const { return values_.b; }
+  const Eigen::VectorXd& bd() const { return values_.bd; }
+  /// Norms of what of phi(), rates() or accelerations() are a set's lengths and directions.
   struct Norms {
     double lengths, directions;
   };
-  Norms normsOf(std::size_t closure, const Eigen::VectorXd& conditions) const;
+  Norms normsOf(std::size_t set, const Eigen::VectorXd& conditions) const;
 
-  /// Of a multiplier of one.
-  ClosureWrench unitWrench(Eigen::Index condition) const;
+  /// Of a multiplier of one; zero where that is no closure's.
+  const ClosureWrench& unitWrench(Eigen::Index condition) const {
+    return values_.unit_wrenches[static_cast<std::size_t>(condition)];
+  }
   /// Of a unit effort about or along the free axis of a revolute or prismatic closure.
   ClosureWrench unitEffort(std::size_t closure) const;
-  /// Direction of that axis.
-  Eigen::Vector3d freeAxis(std::size_t closure) const { return axis(frames_[closure].parent, 2); }
-  /// How far the child has turned about it, within half a turn, or slid along it, and how fast in
-  /// the motion set last.
-  double freePosition(std::size_t closure) const;
-  double freeVelocity(std::size_t closure) const;
   /// Adds the generalized force of such a wrench on the child and its opposite on the parent.
   template <typename Vector>
   void addGeneralizedForce(std::size_t closure, const ClosureWrench& wrench, Vector&& force) const {
     const Eigen::Vector3d at = childOrigin(closure);
-    for (const Step& step : frames_[closure].path) {
-      const JointConstants& joint = joints_[static_cast<std::size_t>(step.joint)];
-      if (joint.coordinate >= 0) force[joint.coordinate] += workOf(step, at, wrench);
+    for (const PathStep& step : closures_[closure]->path()) {
+      const int coordinate = links().coordinateOf(step);
+      if (coordinate >= 0) force[coordinate] += links().workOf(step, at, wrench);
     }
   }
 
-  /// Frames at the present position.
-  const Eigen::Matrix3d& axesOf(int link) const { return links_[static_cast<std::size_t>(link)].R; }
-  const Eigen::Vector3d& originOf(int link) const {
-    return links_[static_cast<std::size_t>(link)].o;
-  }
+  const LinkKinematics& links() const { return state_.links; }
+  const Eigen::Matrix3d& axesOf(int link) const { return links().axesOf(link); }
+  const Eigen::Vector3d& originOf(int link) const { return links().originOf(link); }
   /// Axis of a joint; zero for fixed ones.
-  const Eigen::Vector3d& axisOf(int joint) const {
-    return links_[static_cast<std::size_t>(joint) + 1].z;
-  }
-  Eigen::Vector3d parentOrigin(std::size_t closure) const;
-  Eigen::Vector3d childOrigin(std::size_t closure) const;
-  Eigen::Matrix3d childAxes(std::size_t closure) const;
-  /// Velocities of that frame, of the motion set last.
-  Twist childTwist(std::size_t closure) const;
-  /// Whether nothing may turn in a closure and its frames are more than a quarter turn apart, which
-  /// its conditions do not see.
-  bool reversed(std::size_t closure) const;
-  int parentLink(std::size_t closure) const { return frames_[closure].parent.link; }
-  int childLink(std::size_t closure) const { return frames_[closure].child.link; }
+  const Eigen::Vector3d& axisOf(int joint) const { return links().axisOf(joint); }
 
-  /// Joints between the links of a closure, fixed ones included.
-  struct Step {
-    int joint;
-    double sign;  ///< 1: moves the child's link, -1: the parent's
-  };
-  const std::vector<Step>& path(std::size_t closure) const { return frames_[closure].path; }
+  /// Of closures; see ClosureConditions.
+  Eigen::Vector3d freeAxis(std::size_t c) const { return closures_[c]->freeAxis(links()); }
+  double freePosition(std::size_t c) const { return closures_[c]->freePosition(links()); }
+  double freeVelocity(std::size_t c) const { return closures_[c]->freeVelocity(links()); }
+  bool reversed(std::size_t c) const { return closures_[c]->reversed(links()); }
+  const std::vector<PathStep>& path(std::size_t c) const { return closures_[c]->path(); }
+  Eigen::Vector3d parentOrigin(std::size_t c) const {
+    return links().originOf(closures_[c]->parent());
+  }
+  Eigen::Vector3d childOrigin(std::size_t c) const {
+    return links().originOf(closures_[c]->child());
+  }
+  Eigen::Matrix3d childAxes(std::size_t c) const { return links().axesOf(closures_[c]->child()); }
+  Twist childTwist(std::size_t c) const;
 
  private:
-  enum class Kind { kAlong, kNormal, kDistance };
-  struct Row {
-    Kind kind;
-    std::size_t closure;
-    int a;  ///< axis of the parent frame
-    int b;  ///< axis of the child frame
-  };
-  struct Frame {
-    int link = 0;
-    Eigen::Matrix3d R_LF;
-    Eigen::Vector3d p_LoFo_L;
-  };
-  struct Frames {
-    Frame parent, child;
-    std::vector<Step> path;
-    ClosureType type;
-    double length = 0;
-    bool adopts_length = false;
-  };
-  struct JointConstants {
-    int parent_link, coordinate;
-    bool slides;
-    double multiplier, offset;
-    Eigen::Matrix3d R_PK;
-    Eigen::Vector3d p_PoKo_P, axis_K;
-  };
-  struct LinkState {
-    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d o = Eigen::Vector3d::Zero();
-    Eigen::Vector3d z = Eigen::Vector3d::Zero();  ///< axis of its joint
-    Eigen::Vector3d v = Eigen::Vector3d::Zero(), w = v, a = v, alpha = v;
-  };
-  struct PointState {
-    Eigen::Vector3d o, v, w, a, alpha;
-  };
+  ConditionRows rowsOf(std::size_t set) { return {values_, first_[set]}; }
+  void subtractConstants();
 
-  void addClosure(const Mechanism& mechanism, const Closure& closure);
-  void addRows(std::size_t closure, ClosureType type);
-  void moveLink(std::size_t k, const Motion& motion);
-  double workOf(const Step& step, const Eigen::Vector3d& at, const ClosureWrench& wrench) const;
-  PointState pointOf(const Frame& frame) const;
-  void setRates(Eigen::Index condition, const PointState& parent, const PointState& child);
-  Eigen::Vector3d axis(const Frame& frame, int i) const;
-
-  std::vector<JointConstants> joints_;
-  std::vector<LinkState> links_;
-  std::vector<Frames> frames_;
-  std::vector<Row> rows_;
+  ConditionSets sets_;
+  std::vector<const ClosureConditions*> closures_;  // the first of these
+  std::vector<const Condition*> conditions_;
   std::vector<Eigen::Index> first_;
+  bool drives_ = false;
+  std::vector<Eigen::Index> adopting_;  // conditions
   bool adopted_ = false;
-  Eigen::VectorXd q_;  // position of all below
-  Eigen::VectorXd phi_, rates_, accelerations_;
-  Eigen::MatrixXd A_;
+  bool placed_ = false;        // at the position of the state
+  Eigen::VectorXd constants_;  // of these; of the present position until they are adopted
+  LoopState state_;
+  ConditionValues values_;
 };
 
 }  // namespace virtual_work_dynamics

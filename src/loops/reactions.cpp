@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scene/closure_types.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -41,7 +42,7 @@ void LoopReactions::addItem(const Mechanism& mechanism, const Scene& scene, cons
   for (std::size_t c = 0; c < scene.closures.size(); ++c) {
     if (scene.closures[c].name != name) continue;
     item.closure = static_cast<int>(c);
-    item.slides = scene.closures[c].type == ClosureType::kPrismatic;
+    item.active = traitsOf(scene.closures[c].type).free_axis.value_or(Unit::kRadian);
     const auto& actuated = loops.actuated_closures;
     item.drops_active =
         !scene.include_active && std::find(actuated.begin(), actuated.end(), c) != actuated.end();
@@ -53,9 +54,9 @@ void LoopReactions::addItem(const Mechanism& mechanism, const Scene& scene, cons
       throw SceneError("reactions: there is no joint or closure '" + name + "'");
     }
     if (item.joint >= 0) {
-      const JointType type = mechanism.joints()[static_cast<std::size_t>(item.joint)].type;
-      item.slides = type == JointType::kPrismatic;
-      item.drops_active = !scene.include_active && type != JointType::kFixed;
+      const Joint& joint = mechanism.joint(item.joint);
+      item.active = unitOf(joint);
+      item.drops_active = !scene.include_active && joint.type != JointType::kFixed;
     }
   }
   items_.push_back(item);
@@ -92,7 +93,7 @@ ClosureWrench LoopReactions::reported(const LoopKinematics& kinematics, const It
   if (item.drops_active) {
     const Eigen::Vector3d axis =
         of_closure ? kinematics.freeAxis(c) : kinematics.axisOf(item.joint);
-    Eigen::Vector3d& active = item.slides ? wrench.force : wrench.moment;
+    Eigen::Vector3d& active = activePart(item.active, wrench);
     active -= axis.dot(active) * axis;
   }
   if (!child_axes_) return wrench;

@@ -44,9 +44,9 @@ class LoopReactions {
 
  private:
   struct Item {
-    int joint = -1;       ///< -1: ground, or a closure
-    int closure = -1;     ///< -1: of the tree
-    bool slides = false;  ///< what moves along its axis, not about it
+    int joint = -1;               ///< -1: ground, or a closure
+    int closure = -1;             ///< -1: of the tree
+    Unit active = Unit::kRadian;  ///< what its motion about or along its axis measures
     bool drops_active = false;
   };
   /// An item that a group of loops can change.

@@ -7,10 +7,8 @@ namespace virtual_work_dynamics {
 
 LoopResiduals::LoopResiduals(const Mechanism& mechanism, std::size_t closures, double length)
     : length_(length), values_(closures), relative_(closures) {
-  for (const int joint : mechanism.coordinates()) {
-    const bool slides =
-        mechanism.joints()[static_cast<std::size_t>(joint)].type == JointType::kPrismatic;
-    units_.push_back(slides ? length : 1);
+  for (int i = 0; i < static_cast<int>(mechanism.coordinates().size()); ++i) {
+    scales_.push_back(scaleOf(mechanism.unitOf(i), length));
   }
 }
 
@@ -34,8 +32,8 @@ void LoopResiduals::set(LoopKinematics& kinematics, const Motion& motion) {
 
 double LoopResiduals::largest(const Eigen::VectorXd& rates) const {
   double value = 0;
-  for (std::size_t i = 0; i < units_.size(); ++i) {
-    value = std::max(value, std::abs(rates[static_cast<Eigen::Index>(i)]) / units_[i]);
+  for (std::size_t i = 0; i < scales_.size(); ++i) {
+    value = std::max(value, std::abs(rates[static_cast<Eigen::Index>(i)]) / scales_[i]);
   }
   return value;
 }

@@ -25,7 +25,7 @@ class LoopResiduals {
  private:
   double largest(const Eigen::VectorXd& rates) const;
 
-  std::vector<double> units_;  // by coordinate: 1 or the length
+  std::vector<double> scales_;  // by coordinate: 1 or the length
   double length_;
   std::vector<ClosureResidual> values_, relative_;
 };

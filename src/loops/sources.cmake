@@ -2,11 +2,14 @@ vwd_core(
   assembly.cpp
   closed_loop_dynamics.cpp
   closed_loop_workspace.cpp
+  closure_conditions.cpp
   completion.cpp
+  condition.cpp
   cut_tree.cpp
   forces.cpp
   groups.cpp
   kinematics.cpp
+  link_kinematics.cpp
   point_springs.cpp
   reactions.cpp
   residuals.cpp

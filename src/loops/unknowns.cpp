@@ -9,25 +9,22 @@ LoopUnknowns::LoopUnknowns(const Mechanism& mechanism, const LoopKinematics& kin
                            const LoopScene& scene, const LoopGroup& group, double length) {
   for (std::size_t row = 0; row < group.coordinates.size(); ++row) {
     const std::size_t i = static_cast<std::size_t>(group.coordinates[row]);
-    const int joint = mechanism.coordinates()[i];
-    const bool slides =
-        mechanism.joints()[static_cast<std::size_t>(joint)].type == JointType::kPrismatic;
-    row_units.push_back(slides ? 1 : length);
+    row_units.push_back(effortScaleOf(mechanism.unitOf(group.coordinates[row]), length));
     if (!scene.actuated[i]) continue;
     effort_rows.push_back(static_cast<int>(row));
     efforts.push_back({i, row_units.back() / std::sqrt(scene.coordinate_weights[i]), count++});
   }
-  for (std::size_t local = 0; local < group.closures.size(); ++local) {
-    const std::size_t c = group.closures[local];
-    OfClosure own{c, count, {}, -1, group.moved[local]};
-    for (Eigen::Index i = kinematics.firstOf(c); i < kinematics.firstOf(c + 1); ++i) {
-      own.columns.push_back({i, kinematics.turns(i) ? length : 1});
+  for (std::size_t local = 0; local < group.sets.size(); ++local) {
+    const std::size_t s = group.sets[local];
+    OfSet own{s, count, {}, -1, group.moved[local]};
+    for (Eigen::Index i = kinematics.firstOf(s); i < kinematics.firstOf(s + 1); ++i) {
+      own.columns.push_back({i, effortScaleOf(kinematics.condition(i).unit, length)});
     }
-    const auto& actuated = scene.actuated_closures;
-    const auto found = std::find(actuated.begin(), actuated.end(), c);
+    const auto& actuated = scene.actuated_closures;  // their sets are counted like them
+    const auto found = std::find(actuated.begin(), actuated.end(), s);
     if (found != actuated.end()) {
-      const bool slides = kinematics.unitEffort(c).force.squaredNorm() > 0;
-      const double unit = (slides ? 1 : length) / std::sqrt(scene.closure_weights[c]);
+      const double unit = effortScaleOf(kinematics.closure(s).freeUnit(), length) /
+                          std::sqrt(scene.closure_weights[s]);
       own.effort = static_cast<int>(efforts.size());
       const std::size_t place = static_cast<std::size_t>(found - actuated.begin());
       efforts.push_back({scene.actuated.size() + place, unit,
@@ -35,14 +32,14 @@ LoopUnknowns::LoopUnknowns(const Mechanism& mechanism, const LoopKinematics& kin
       own.columns.push_back({-1, unit});
     }
     count += static_cast<Eigen::Index>(own.columns.size());
-    of_closures.push_back(own);
+    of_sets.push_back(own);
   }
 }
 
 std::vector<RowBlock> LoopUnknowns::rowBlocks() const {
   std::vector<RowBlock> blocks;
   for (const int row : effort_rows) blocks.push_back({1, {row}});
-  for (const OfClosure& own : of_closures) {
+  for (const OfSet& own : of_sets) {
     blocks.push_back({static_cast<Eigen::Index>(own.columns.size()), own.coordinates});
   }
   return blocks;

@@ -12,8 +12,9 @@
 
 namespace virtual_work_dynamics {
 
-/// The unknowns x of G x = b for one group of loops, in units that make all of them forces: efforts
-/// of actuated coordinates, then of each closure its multipliers and its effort, if it is actuated.
+/// The unknowns x of B x = load, (3.1), for one group of loops, in units that make all of them
+/// forces: efforts of actuated coordinates, then of each set of conditions its multipliers and, if
+/// it is that of an actuated closure, its effort.
 struct LoopUnknowns {
   LoopUnknowns(const Mechanism& mechanism, const LoopKinematics& kinematics, const LoopScene& scene,
                const LoopGroup& group, double length);
@@ -26,24 +27,24 @@ struct LoopUnknowns {
   };
   struct Column {
     Eigen::Index condition;  ///< -1: the effort along the free axis
-    double unit;             ///< wrench for an entry of x of one, of the unit wrench
+    double unit;             ///< multiplier or effort for an entry of x of one
   };
-  struct OfClosure {
-    std::size_t closure;
+  struct OfSet {
+    std::size_t set;
     Eigen::Index first;            ///< of its unknowns
     std::vector<Column> columns;   ///< of its unknowns
     int effort = -1;               ///< into efforts; -1: it is not actuated
-    std::vector<int> coordinates;  ///< which its wrench moves, as the group counts them
+    std::vector<int> coordinates;  ///< which its rows concern, as the group counts them
   };
 
   Eigen::Index count = 0;
   std::vector<Effort> efforts;
-  std::vector<int> effort_rows;        ///< of actuated coordinates, as the group counts them
-  std::vector<OfClosure> of_closures;  ///< as the group counts them
-  std::vector<double> row_units;       ///< N m or N for an entry of b of one
+  std::vector<int> effort_rows;   ///< of actuated coordinates, as the group counts them
+  std::vector<OfSet> of_sets;     ///< as the group counts them
+  std::vector<double> row_units;  ///< N m or N for an entry of the load of one
 
-  /// The transpose of G: a block of one entry for each actuated coordinate, then one for each
-  /// closure.
+  /// The transpose of B: a block of one entry for each actuated coordinate, then one for each
+  /// set.
   std::vector<RowBlock> rowBlocks() const;
 };
 

@@ -14,17 +14,17 @@ constexpr int kLabelWidth = 14;
 struct TypeText {
   JointType type;
   const char* name;
-  const char* unit;
 };
 
-constexpr std::array<TypeText, 4> kTypes{{{JointType::kRevolute, "revolute", "rad"},
-                                          {JointType::kContinuous, "continuous", "rad"},
-                                          {JointType::kPrismatic, "prismatic", "m"},
-                                          {JointType::kFixed, "fixed", ""}}};
+constexpr std::array<TypeText, 4> kTypes{{{JointType::kRevolute, "revolute"},
+                                          {JointType::kContinuous, "continuous"},
+                                          {JointType::kPrismatic, "prismatic"},
+                                          {JointType::kFixed, "fixed"}}};
 
-const TypeText& textOf(JointType type) {
-  return *std::find_if(kTypes.begin(), kTypes.end(),
-                       [&](const TypeText& text) { return text.type == type; });
+const char* nameOf(JointType type) {
+  return std::find_if(kTypes.begin(), kTypes.end(),
+                      [&](const TypeText& text) { return text.type == type; })
+      ->name;
 }
 
 std::ostream& label(std::ostream& out, const std::string& name) {
@@ -45,7 +45,7 @@ void printMimicJoints(std::ostream& out, const Mechanism& mechanism) {
   std::vector<std::string> rules;
   for (const Joint& joint : mechanism.joints()) {
     if (!joint.mimics) continue;
-    const auto& master = mechanism.coordinateNames()[static_cast<std::size_t>(joint.coordinate)];
+    const std::string& master = mechanism.jointOf(joint.coordinate).name;
     std::ostringstream rule;
     rule << joint.name << " = " << joint.multiplier << " " << master;
     if (joint.offset != 0) rule << (joint.offset < 0 ? " - " : " + ") << std::abs(joint.offset);
@@ -61,10 +61,9 @@ void printCoordinates(std::ostream& out, const Mechanism& mechanism) {
     longest = std::max(longest, name.size());
   }
   for (const int index : mechanism.coordinates()) {
-    const Joint& joint = mechanism.joints()[static_cast<std::size_t>(index)];
-    const TypeText& type = textOf(joint.type);
+    const Joint& joint = mechanism.joint(index);
     out << "  " << std::left << std::setw(static_cast<int>(longest) + 2) << joint.name
-        << std::setw(12) << type.name << type.unit << "\n";
+        << std::setw(12) << nameOf(joint.type) << symbolOf(unitOf(joint)) << "\n";
   }
 }
 
@@ -80,7 +79,7 @@ void printMechanism(std::ostream& out, const Mechanism& mechanism) {
   long double mass = 0;
   for (const Link& link : mechanism.links()) mass += link.mass;
   label(out, "robot") << mechanism.name() << "\n";
-  label(out, "links") << mechanism.links().size() << ", root " << mechanism.links()[0].name << "\n";
+  label(out, "links") << mechanism.links().size() << ", root " << mechanism.link(0).name << "\n";
   label(out, "joints") << jointCounts(mechanism) << "\n";
   label(out, "total mass") << mass << " kg\n";
   printMimicJoints(out, mechanism);

@@ -1,49 +1,29 @@
 #include "offline/loop_report.h"
 
 #include <algorithm>
-#include <array>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "offline/check_report.h"
 #include "offline/result_writer.h"
+#include "scene/closure_types.h"
 
 namespace virtual_work_dynamics {
 namespace {
 
 using Names = std::vector<std::string>;
 
-struct TypeText {
-  ClosureType type;
-  const char* name;
-  int conditions;
-};
-
-constexpr std::array<TypeText, 8> kTypes{{{ClosureType::kFixed, "fixed", 6},
-                                          {ClosureType::kRevolute, "revolute", 5},
-                                          {ClosureType::kPrismatic, "prismatic", 5},
-                                          {ClosureType::kCylindrical, "cylindrical", 4},
-                                          {ClosureType::kUniversal, "universal", 4},
-                                          {ClosureType::kSpherical, "spherical", 3},
-                                          {ClosureType::kPlanar, "planar", 3},
-                                          {ClosureType::kDistance, "distance", 1}}};
-
-const TypeText& textOf(ClosureType type) {
-  return *std::find_if(kTypes.begin(), kTypes.end(),
-                       [&](const TypeText& text) { return text.type == type; });
-}
-
 int conditionsOf(const Scene& scene) {
   int conditions = 0;
-  for (const Closure& closure : scene.closures) conditions += textOf(closure.type).conditions;
+  for (const Closure& closure : scene.closures) conditions += traitsOf(closure.type).conditions;
   return conditions;
 }
 
 void printClosures(std::ostream& out, const Scene& scene) {
   Names closures, springs;
   for (const Closure& closure : scene.closures) {
-    closures.push_back(closure.name + " (" + textOf(closure.type).name + ", " +
+    closures.push_back(closure.name + " (" + traitsOf(closure.type).name + ", " +
                        closure.parent.link + " to " + closure.child.link + ")");
   }
   for (const PointSpring& spring : scene.springs) {

@@ -18,6 +18,14 @@ int indexOf(const std::vector<Named>& list, const std::string& name) {
 
 }  // namespace
 
+const char* symbolOf(Unit unit) {
+  return unit == Unit::kMetre ? "m" : "rad";
+}
+
+Unit unitOf(const Joint& joint) {
+  return joint.type == JointType::kPrismatic ? Unit::kMetre : Unit::kRadian;
+}
+
 Mechanism::Mechanism(std::string name, std::vector<Link> links, std::vector<Joint> joints,
                      std::vector<Doubt> doubts)
     : name_(std::move(name)),

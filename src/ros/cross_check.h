@@ -14,9 +14,8 @@
 #include <thread>
 #include <vector>
 
-#include "virtual_work_dynamics/closed_loop_dynamics.h"
+#include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/error_bound.h"
-#include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/lagrange_dynamics.h"
 
 namespace virtual_work_dynamics {
@@ -33,21 +32,16 @@ class CrossCheckSlot {
     std::string where;   ///< "effort of elbow", "moment at wrist"
   };
 
-  /// @param request of the plan, its results' order.
-  /// @throws SceneError as InverseDynamics does.
-  CrossCheckSlot(const Mechanism& mechanism, const Scene& scene, const Request& request);
-
-  /// Of a mechanism with closed loops: its tree, with the wrenches that the loops were solved for
-  /// applied to it. Reactions of closures, which are these wrenches, are not compared; all efforts
-  /// are: that those of passive joints vanish says that the wrenches are a solution.
-  CrossCheckSlot(const Mechanism& mechanism, const ClosedLoopDynamics& loops);
+  /// Of a mechanism with closed loops Lagrange's equations see its tree, with the wrenches that the
+  /// loops were solved for applied to it. Reactions of closures, which are these wrenches, are not
+  /// compared; all efforts are: that those of passive joints vanish says that the wrenches are a
+  /// solution.
+  /// @param plan whose samples will be offered; need not outlive it
+  CrossCheckSlot(const Mechanism& mechanism, const Dynamics& plan);
 
   /// Computing thread: copies the sample in place of the one before if its turn has come, and says
-  /// whether it has. Motion and results are of the plan's sizes.
-  /// @param tree_wrenches with closed loops, of ClosedLoopDynamics
-  bool offer(const Motion& motion, const Eigen::VectorXd& effort,
-             const std::vector<Wrench>& child_axes, const std::vector<Wrench>& root_axes,
-             const std::vector<Wrench>& tree_wrenches = {});
+  /// whether it has. Motion and results are the plan's.
+  bool offer(const Motion& motion, const Results& results);
 
   /// Any thread: true while a sample waits to be checked.
   bool full() const { return state_.load(std::memory_order_acquire) == State::kFull; }
@@ -64,11 +58,8 @@ class CrossCheckSlot {
     std::size_t magnitude = 0;  // place in ErrorBound::wrenches()
   };
 
-  CrossCheckSlot(const Mechanism& mechanism, const Scene& tree, const Request& request,
-                 const Request& compared, std::size_t tree_wrenches);
   static std::vector<Compared> comparedOf(const Mechanism& mechanism,
                                           const std::vector<std::string>& joints);
-  void applyTreeWrenches();
   void compareEfforts(Finding& finding) const;
   void compareWrenches(const std::vector<Wrench>& results, const std::vector<Wrench>& others,
                        const std::vector<std::string>& joints,
@@ -77,7 +68,7 @@ class CrossCheckSlot {
   const std::vector<std::string> coordinates_;
   // In the order of Lagrange's equations' request.
   const std::vector<Compared> child_compared_, root_compared_;
-  const std::size_t own_wrenches_;  // of the scene, before those of the tree
+  const bool closed_;
   LagrangeDynamics<long double> lagrange_;
   ErrorBound bound_;
 
@@ -89,7 +80,7 @@ class CrossCheckSlot {
   Eigen::VectorXd effort_;
   std::vector<Wrench> child_axes_;
   std::vector<Wrench> root_axes_;
-  std::vector<Wrench> tree_wrenches_;
+  Load load_;  // of the tree
 };
 
 /// Checks now and then a sample of the plan in use against the paper's other formalism, in a thread

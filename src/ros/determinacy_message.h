@@ -2,11 +2,12 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "virtual_work_dynamics/closed_loop_dynamics.h"
+#include "virtual_work_dynamics/dynamics.h"
 
 namespace virtual_work_dynamics {
 
@@ -19,18 +20,20 @@ class DeterminacyMessage {
   DeterminacyMessage(const std::string& robot, std::vector<std::string> efforts,
                      std::vector<std::string> reactions, double condition_warn);
 
-  /// @param results of everything that the scene asks for, in both axes; other reactions may follow
-  /// in child axes.
+  /// @param results of everything that the scene asks for, in both axes
+  /// @param root_places where the flags of each reaction stand in `results`, root axes
+  /// @param child_places the places in child axes
   /// @returns whether ranks, counts, flags, or being close to a singular position differ from
   /// before. Allocates only then.
-  bool update(std::int64_t stamp_ns, const ClosedLoopDynamics& results);
+  bool update(std::int64_t stamp_ns, const LoopResults& results,
+              const std::vector<std::size_t>& root_places,
+              const std::vector<std::size_t>& child_places);
 
   /// Three statuses: numbers and efforts; reactions in root axes; reactions in child axes. Keys of
   /// flags are names of efforts, and <name>.fx to <name>.tz.
   const diagnostic_msgs::DiagnosticArray& message() const { return message_; }
 
  private:
-  bool changed(const ClosedLoopDynamics& results) const;
   bool isClose(const Determinacy& determinacy) const;
   void write();
 
@@ -41,5 +44,12 @@ class DeterminacyMessage {
   std::vector<Determined> root_axes_, child_axes_;
   diagnostic_msgs::DiagnosticArray message_;
 };
+
+/// What is determined where the closures are assembled.
+/// @param everything Dynamics of all that the scene asks for, in both axes, in the order of
+/// `reactions`
+DeterminacyMessage assembledDeterminacy(const Mechanism& mechanism, const Dynamics& everything,
+                                        const std::vector<std::string>& reactions,
+                                        double condition_warn);
 
 }  // namespace virtual_work_dynamics

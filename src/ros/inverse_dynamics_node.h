@@ -24,6 +24,8 @@
 #include "ros/inverse_dynamics_parameters.h"
 #include "ros/joint_state_conversion.h"
 #include "ros/joint_watch.h"
+#include "ros/loop_record.h"
+#include "ros/motion_completer.h"
 #include "ros/output_topics.h"
 #include "ros/plan_switch.h"
 #include "ros/robot_task.h"
@@ -64,7 +66,7 @@ class InverseDynamicsNode {
   void take(const trajectory_msgs::JointTrajectory& message, ros::Time receipt);
   void respond(ActivePlan& plan, const trajectory_msgs::JointTrajectory& message);
   void playDue();
-  void publishSample(const ActivePlan& plan, std::int64_t stamp_ns);
+  void publishSample(const ActivePlan& plan);
   void dropPoint(SampleComputation::Outcome outcome, const TrajectoryMotion& trajectory,
                  std::size_t point);
   void drop(const std::string& topic, DropReason reason, const std::string& text);
@@ -76,9 +78,6 @@ class InverseDynamicsNode {
   std::unique_ptr<ActivePlan> compile(const Audience& audience) const;
 
   const RobotTask task_;
-  LoopSamples* const loops_;  ///< null: an open chain
-  const std::string frame_prefix_;
-  const bool twist_;
   const int output_queue_;
   const bool at_once_;  ///< all points of a trajectory
   const ros::Duration late_threshold_;
@@ -89,6 +88,8 @@ class InverseDynamicsNode {
   MotionEstimator estimator_;
   Counters counters_;
   CertificateRecord certificates_;
+  LoopRecord loops_;
+  MotionCompleter completer_;
   SampleComputation samples_;
   TrajectoryMotion trajectory_;
   TrajectoryQueue played_;

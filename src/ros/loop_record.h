@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "ros/active_plan.h"
 #include "ros/counters.h"
 #include "ros/loop_limits.h"
-#include "ros/loop_plan.h"
 
 namespace virtual_work_dynamics {
 
@@ -21,9 +21,11 @@ class LoopRecord {
   /// By level.
   using Levels = std::array<double, kLevels>;
 
-  LoopRecord(std::size_t closures, std::size_t efforts, std::size_t reactions);
+  /// @param dynamics of the mechanism and the scene; of an open chain nothing is recorded
+  /// @param reactions how many the scene asks for
+  LoopRecord(const Dynamics& dynamics, std::size_t reactions, const LoopLimits& limits);
 
-  void record(const LoopPlan& plan, const LoopLimits& limits);
+  void record(const Results& results, const ActivePlan& plan);
   /// Whether the positions of passive joints come with the joint states.
   void setPassiveGiven(bool given) { passive_given_ = given; }
 
@@ -47,6 +49,11 @@ class LoopRecord {
     std::atomic<double> condition{0};
   };
 
+  void recordResiduals(const Results& results);
+  void recordSingular(const Results& results, const ActivePlan& plan);
+
+  const bool closed_;
+  const LoopLimits limits_;
   std::vector<OfClosure> closures_;
   std::vector<std::atomic<bool>> efforts_;    // left out
   std::vector<std::atomic<bool>> reactions_;  // left out

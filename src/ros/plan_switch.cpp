@@ -16,11 +16,11 @@ void PlanSwitch::offer(std::unique_ptr<ActivePlan> plan) {
 }
 
 void PlanSwitch::collect() {
-  const std::unique_ptr<ActivePlan> outworn(retired_.exchange(nullptr));
+  const std::unique_ptr<ActivePlan> replaced(retired_.exchange(nullptr));
 }
 
 ActivePlan& PlanSwitch::current() {
-  // With the slot for the outworn plan still full, the switch waits for the next sample.
+  // With the slot for the replaced plan still full, the switch waits for the next sample.
   if (offered_.load(std::memory_order_relaxed) != nullptr && retired_.load() == nullptr) {
     // Only the compiling thread fills the slot, and it never leaves it empty again.
     ActivePlan* const next = offered_.exchange(nullptr);

@@ -7,7 +7,7 @@
 
 namespace virtual_work_dynamics {
 
-/// Hands plans from the thread that compiles them to the thread that computes, and the outworn ones
+/// Hands plans from the thread that compiles them to the thread that computes, and the replaced ones
 /// back for deletion. The computing side neither waits, allocates nor frees.
 class PlanSwitch {
  public:

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "ros/inverse_dynamics_parameters.h"
-#include "ros/loop_samples.h"
+#include "ros/outputs.h"
+#include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion_estimator.h"
 #include "virtual_work_dynamics/scene.h"
@@ -22,10 +23,8 @@ struct RobotTask {
   /// Tells the log what is to be computed, and of doubtful bodies.
   void log(const InverseDynamicsParameters& parameters) const;
 
-  /// Passive joints, by coordinate; empty in an open chain.
+  /// Passive joints, by coordinate; none in an open chain.
   std::vector<bool> passive() const;
-  /// Coordinates that joint states have to show at first.
-  std::vector<bool> needed() const;
 
   Mechanism mechanism;
   Scene scene;
@@ -33,7 +32,8 @@ struct RobotTask {
   std::vector<std::string> reaction_topics;  ///< their topics
   EstimatorSettings estimator;
   tf2_msgs::TFMessage closure_frames;
-  std::unique_ptr<LoopSamples> loops;   ///< null: an open chain
+  Dynamics everything;  ///< of all that the scene asks for, in both axes
+  Outputs outputs;
   std::vector<std::string> plan_lines;  ///< what everything that the scene asks for costs
 };
 

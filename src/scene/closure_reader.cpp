@@ -1,5 +1,6 @@
 #include "scene/closure_reader.h"
 
+#include "scene/closure_types.h"
 #include "scene/yaml_values.h"
 
 namespace virtual_work_dynamics {
@@ -12,14 +13,17 @@ const Names kSpringKeys = {"name", "link_a", "at_a", "link_b", "at_b", "stiffnes
 const Names kRedundancyKeys = {"policy",         "zero_at",        "stiffness",
                                "effort_weights", "rank_tolerance", "length"};
 
-// In the order of ClosureType.
-const Names kClosureTypes = {"fixed",     "revolute",  "prismatic", "cylindrical",
-                             "universal", "spherical", "planar",    "distance"};
 // In the order of RedundancyPolicy.
 const Names kPolicies = {"minimum_norm", "zero_at", "stiffness"};
 
 void require(bool given, const std::string& where, const std::string& what) {
   if (!given) failAt(where, what + " is missing");
+}
+
+ClosureType readClosureType(const YAML::Node& node, const std::string& where) {
+  Names names;
+  for (const ClosureTypeTraits& traits : closureTypes()) names.push_back(traits.name);
+  return closureTypes()[readWord(node, where, names)].type;
 }
 
 LinkFrame readFrame(const YAML::Node& node, const std::string& where) {
@@ -39,7 +43,7 @@ Closure readClosure(const YAML::Node& node, const std::string& where) {
   readMap(node, where, kClosureKeys, [&](const auto& key, const auto& value, const auto& path) {
     if (key == "name") closure.name = scalarText(value, path, "a name");
     if (key == "type") {
-      closure.type = static_cast<ClosureType>(readWord(value, path, kClosureTypes));
+      closure.type = readClosureType(value, path);
       has_type = true;
     }
     if (key == "parent") closure.parent = readFrame(value, path);
@@ -50,7 +54,7 @@ Closure readClosure(const YAML::Node& node, const std::string& where) {
   require(has_type, where, "type");
   require(!closure.parent.link.empty(), where, "parent");
   require(!closure.child.link.empty(), where, "child");
-  if (closure.length && closure.type != ClosureType::kDistance) {
+  if (closure.length && !traitsOf(closure.type).hasLength()) {
     failAt(where + ".length", "only a closure of type distance has a length");
   }
   return closure;

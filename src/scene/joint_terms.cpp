@@ -28,14 +28,14 @@ void check(const JointTerms& terms) {
   }
 }
 
-// Index of the terms of each joint in Scene::joints; -1: none.
+// The index in Scene::joints of the terms of each joint; -1 where a joint has none.
 std::vector<int> termsOfJoints(const Mechanism& mechanism, const Scene& scene) {
   std::vector<int> given(mechanism.joints().size(), -1);
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     const JointTerms& terms = scene.joints[i];
     const int joint = mechanism.jointIndex(terms.joint);
     if (joint < 0) throw SceneError("joints: the robot has no joint '" + terms.joint + "'");
-    if (mechanism.joints()[joint].type == JointType::kFixed) {
+    if (mechanism.joint(joint).type == JointType::kFixed) {
       throw SceneError("joints: '" + terms.joint + "' is a fixed joint");
     }
     if (given[joint] >= 0) throw SceneError("joints: '" + terms.joint + "' is given twice");

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "base/number_text.h"
+#include "scene/closure_types.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -17,10 +18,6 @@ void requirePositive(const std::string& what, double value) {
 
 void requireOnce(const std::string& list, std::set<std::string>& seen, const std::string& name) {
   if (!seen.insert(name).second) throw SceneError(list + ": '" + name + "' is given twice");
-}
-
-bool hasOneFreeAxis(const Closure& closure) {
-  return closure.type == ClosureType::kRevolute || closure.type == ClosureType::kPrismatic;
 }
 
 class Resolver {
@@ -67,7 +64,7 @@ class Resolver {
           throw SceneError(what + ": the frame on '" + frame->link + "' is not finite");
         }
       }
-      if (closure.length && closure.type != ClosureType::kDistance) {
+      if (closure.length && !traitsOf(closure.type).hasLength()) {
         throw SceneError(what + ": length is of the type distance only");
       }
       if (closure.length) requirePositive(what + ": length", *closure.length);
@@ -78,7 +75,7 @@ class Resolver {
   int coordinateOf(const std::string& list, const std::string& name) const {
     const int k = mechanism_.jointIndex(name);
     if (k < 0) throw SceneError(list + ": the robot has no joint '" + name + "'");
-    const Joint& joint = mechanism_.joints()[static_cast<std::size_t>(k)];
+    const Joint& joint = mechanism_.joint(k);
     if (joint.type == JointType::kFixed) {
       throw SceneError(list + ": '" + name + "' is a fixed joint");
     }
@@ -97,7 +94,7 @@ class Resolver {
         loops_.actuated[static_cast<std::size_t>(coordinateOf("actuated", name))] = true;
         continue;
       }
-      if (!hasOneFreeAxis(scene_.closures[static_cast<std::size_t>(c)])) {
+      if (!traitsOf(scene_.closures[static_cast<std::size_t>(c)].type).free_axis) {
         throw SceneError("actuated: closure '" + name +
                          "' is neither revolute nor prismatic: it has no axis of its own");
       }
@@ -156,7 +153,7 @@ class Resolver {
       if (c < 0 && k < 0) {
         throw SceneError(list + ": there is no joint or closure '" + stiffness.name + "'");
       }
-      if (c < 0 && mechanism_.joints()[static_cast<std::size_t>(k)].type == JointType::kFixed) {
+      if (c < 0 && mechanism_.joint(k).type == JointType::kFixed) {
         throw SceneError(list + ": '" + stiffness.name + "' is a fixed joint");
       }
       (c < 0 ? loops_.joint_stiffness[static_cast<std::size_t>(k)]

@@ -1,5 +1,6 @@
 vwd_core(
   closure_reader.cpp
+  closure_types.cpp
   input_checks.cpp
   joint_terms.cpp
   load.cpp

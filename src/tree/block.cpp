@@ -108,7 +108,7 @@ struct BlockInverseDynamics<Real>::Impl {
         &job);
   }
 
-  // The samples of one thread, whole packs for all but the last.
+  // Computes the samples of one thread, which are whole packs for all threads except the last.
   void computeShare(const BlockArrays<Real>& arrays, int index) const {
     const std::size_t packs = (arrays.samples + width - 1) / width;
     const std::size_t threads = tiles.size(), thread = static_cast<std::size_t>(index);
@@ -187,11 +187,11 @@ struct BlockInverseDynamics<Real>::Impl {
   InstructionSet instruction_set;
   const Kernel<Real>& kernel;
   std::size_t width;
-  std::size_t columns[kArrays];       // numbers a sample of each array
-  bool requested[kArrays - kInputs];  // of the outputs
-  AppliedValues<Real> own;    // the scene's applied wrenches
-  AppliedValues<Real> given;  // of a Load
-  std::vector<AlignedMemory> scratch, tiles;  // of each thread
+  std::size_t columns[kArrays];               // numbers a sample of each array
+  bool requested[kArrays - kInputs];          // whether each output is
+  AppliedValues<Real> own;                    // the scene's applied wrenches
+  AppliedValues<Real> given;                  // of a Load
+  std::vector<AlignedMemory> scratch, tiles;  // by thread
   WorkerThreads workers;
 };
 

@@ -49,7 +49,7 @@ Pose poseOf(const double* numbers) {
   return {Eigen::Map<const Eigen::Vector3d>(numbers), Eigen::Quaterniond(R_0K).normalized()};
 }
 
-// Null when there is nothing to write.
+// Where numbers are written; null when there are none.
 template <typename Item>
 double* numbersOf(std::vector<Item>& items) {
   return items.empty() ? nullptr : reinterpret_cast<double*>(items.data());

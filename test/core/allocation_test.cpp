@@ -7,9 +7,16 @@
 
 #include "allocation_guard.h"
 #include "base/run_time_histogram.h"
+#include "condition_kinds.h"
 #include "dynamics/sample_rows.h"
 #include "four_bar.h"
+#include "loops/completion.h"
+#include "loops/forces.h"
+#include "loops/groups.h"
+#include "loops/kinematics.h"
+#include "robot_builder.h"
 #include "sample_robots.h"
+#include "scene/resolved_loops.h"
 #include "virtual_work_dynamics/block.h"
 #include "virtual_work_dynamics/certificates.h"
 #include "virtual_work_dynamics/closed_loop_dynamics.h"
@@ -288,6 +295,34 @@ TEST(SampleRows, ComputeAndReadDoNotAllocate) {
       EXPECT_NE(sum, 0);
     }
   }
+}
+
+// Conditions without wrenches, one of them redundant, and one without a position.
+TEST(LoopKinematics, OtherConditionsDoNotAllocate) {
+  RobotBuilder builder(5);
+  for (int i = 0; i < 4; ++i) builder.add(i);
+  const Mechanism mechanism = builder.build();
+  Scene scene;
+  scene.actuated = {"joint_1", "joint_3"};
+  const LoopScene resolved = resolveLoopScene(mechanism, scene);
+  const Law speed{[](double t) { return 0.2 + 0.5 * t; }, [](double) { return 0.5; },
+                  [](double) { return 0.0; }};
+  const auto gear = std::make_shared<Gear>(mechanism, 3, 1, 2.0, 0.1);
+  LoopKinematics kinematics(mechanism, ConditionSets{std::make_shared<Blade>(speed), gear, gear});
+  const std::vector<LoopGroup> groups = loopGroups(mechanism, kinematics);
+  LoopCompletion completion(mechanism, kinematics, groups, 1e-10, 1);
+  ASSERT_EQ(groups.size(), 1u);
+  LoopForces forces(mechanism, kinematics, resolved, groups[0], 1);
+  const std::vector<Wrench> reactions(4);
+  const Eigen::VectorXd load = Eigen::VectorXd::Ones(4);
+  Motion motion(4);
+  const AllocationGuard guard;
+  EXPECT_TRUE(completion.complete(kinematics, motion, resolved.actuated));
+  forces.setPosition();
+  forces.solve(load, reactions);
+  for (Eigen::Index i = 0; i < forces.directions(); ++i) forces.direction(i);
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_EQ(forces.directions(), 1);
 }
 
 template <typename Real>

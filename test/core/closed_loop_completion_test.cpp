@@ -79,7 +79,7 @@ TEST(LoopCompletion, ConvergesQuadratically) {
   const FourBar four_bar;
   const FourBar::Cut cut = four_bar.cut('D');
   LoopKinematics kinematics(cut.mechanism, cut.scene);
-  const auto groups = loopGroups(cut.mechanism, kinematics, 1);
+  const auto groups = loopGroups(cut.mechanism, kinematics);
   LoopCompletion completion(cut.mechanism, kinematics, groups, 1e-10, 1);
   Eigen::VectorXd q = cut.motion(four_bar.turnings(1.1, 0, 0)).q;
   q[0] += 0.1;

@@ -156,7 +156,7 @@ TEST(LoopGroups, LengthIsTheLargestDistanceOnALoop) {
   for (const char pivot : {'A', 'B', 'C', 'D'}) {
     const FourBar::Cut cut = four_bar.cut(pivot);
     LoopKinematics kinematics(cut.mechanism, cut.scene);
-    const auto groups = loopGroups(cut.mechanism, kinematics, 1);
+    const auto groups = loopGroups(cut.mechanism, kinematics);
     ASSERT_EQ(groups.size(), 1u);
     EXPECT_EQ(groups[0].coordinates, (std::vector<int>{0, 1, 2}));
     kinematics.setPosition(cut.motion(turnings).q);

@@ -8,7 +8,7 @@
 
 namespace virtual_work_dynamics {
 
-/// Everything that a scene asks for, by name.
+/// The results of ClosedLoopDynamics that a scene asks for, by name.
 class ClosedLoopResults {
  public:
   ClosedLoopResults(const Mechanism& mechanism, const Scene& scene)

@@ -41,6 +41,7 @@ set(core_test_files
   test/core/joint_terms_test.cpp
   test/core/kernel_accuracy_test.cpp
   test/core/lagrange_dynamics_test.cpp
+  test/core/loop_conditions_test.cpp
   test/core/loop_kinematics_test.cpp
   test/core/loop_oracles_test.cpp
   test/core/loop_residuals_test.cpp
@@ -71,6 +72,7 @@ set(core_test_files
   test/core/property_rerooting_test.cpp
   test/core/property_superposition_test.cpp
   test/core/rank_factorization_test.cpp
+  test/core/reference_recursion_test.cpp
   test/core/reference_test.cpp
   test/core/run_time_histogram_test.cpp
   test/core/sample_block_test.cpp
@@ -100,7 +102,6 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND checks_of_containers -Wno-restrict)
 endif()
 
-# CMake 3.10 links nothing to a library of objects.
 add_library(core_test_objects OBJECT EXCLUDE_FROM_ALL ${core_test_files})
 target_compile_definitions(core_test_objects PRIVATE
   VWD_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}"

@@ -9,7 +9,7 @@
 
 namespace virtual_work_dynamics {
 
-/// Everything that ClosedLoopDynamics says of one sample, by name.
+/// All results of ClosedLoopDynamics for one sample, by name.
 class NamedLoopResults {
  public:
   NamedLoopResults(const Mechanism& mechanism, const Scene& scene, const Motion& motion)
@@ -26,7 +26,7 @@ class NamedLoopResults {
     return names;
   }
 
-  /// "ground", joints, closures.
+  /// Names of the reactions: "ground", joints, closures.
   const std::vector<std::string>& names() const { return names_; }
   const ClosedLoops& dynamics() const { return dynamics_; }
 
@@ -67,7 +67,7 @@ class NamedLoopResults {
   ClosedLoops dynamics_;
 };
 
-/// The component of a wrench: 0 to 5, fx fy fz tx ty tz.
+/// Component i of a wrench, 0 to 5: fx fy fz tx ty tz.
 inline double component(const Wrench& wrench, int i) {
   return i < 3 ? wrench.force[i] : wrench.torque[i - 3];
 }

@@ -94,7 +94,7 @@ TEST_F(OfflineLoops, WhatLoopsDoNotHaveIsRefused) {
             "--loop-tolerance: the scene has no closures");
   for (const std::string text : {"0", "-1", "nan", "tight"}) {
     EXPECT_EQ(failure(start + "--loop-tolerance=" + text, 2),
-              "--loop-tolerance: '" + text + "' is no positive number");
+              "--loop-tolerance: '" + text + "' is not a positive number");
   }
   std::string named = pinned("0.5");
   write("comma.yaml", named.replace(named.find("pin"), 3, "'p,n'"));

@@ -227,7 +227,7 @@ TEST_F(OfflineTool, ColumnsOfOtherJointsAreNamedAndIgnored) {
         "position.lid\n0,1,2,3,?,?,?\n");
   const Run result = run("--urdf p.urdf --motion m.csv");
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.err, "note: m.csv: ignored, no coordinates of the robot: gripper, lid\n");
+  EXPECT_EQ(result.err, "note: m.csv: ignored, not coordinates of the robot: gripper, lid\n");
 }
 
 TEST_F(OfflineTool, DoubtsAboutTheRobotAreWarnings) {

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <cstring>
 
-/// Inlined in every build: no copy compiled for one instruction set can serve another. But for the
-/// address sanitizer's checks, which would take the compiler minutes and gigabytes.
+/// Inlined in every build: no copy compiled for one instruction set can serve another. Builds with
+/// the address sanitizer are excepted, as its checks would take the compiler minutes and gigabytes.
 #if defined(__SANITIZE_ADDRESS__)
 #define VWD_INLINE inline
 #define VWD_LAMBDA

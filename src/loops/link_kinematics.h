@@ -1,0 +1,88 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "loops/closure_wrench.h"
+#include "virtual_work_dynamics/mechanism.h"
+
+namespace virtual_work_dynamics {
+
+/// A joint between two links.
+struct PathStep {
+  int joint;
+  double sign;  ///< 1: moves the second of the two links, -1: the first
+};
+
+/// Poses and motions of all links of the tree, in root axes. What the joint types mean to closed
+/// loops stands here. Nothing after construction allocates.
+class LinkKinematics {
+ public:
+  explicit LinkKinematics(const Mechanism& mechanism);
+
+  void setPosition(const Eigen::VectorXd& q);
+  /// At the present position.
+  void setMotion(const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd);
+
+  const Eigen::Matrix3d& axesOf(int link) const { return links_[static_cast<std::size_t>(link)].R; }
+  const Eigen::Vector3d& originOf(int link) const {
+    return links_[static_cast<std::size_t>(link)].o;
+  }
+  /// Axis of a joint; zero for fixed ones.
+  const Eigen::Vector3d& axisOf(int joint) const {
+    return links_[static_cast<std::size_t>(joint) + 1].z;
+  }
+
+  /// A frame F that is fixed on a link.
+  struct Frame {
+    int link = 0;
+    Eigen::Matrix3d R_LF;
+    Eigen::Vector3d p_LoFo_L;
+  };
+  Eigen::Vector3d originOf(const Frame& frame) const {
+    return originOf(frame.link) + axesOf(frame.link) * frame.p_LoFo_L;
+  }
+  /// Axis i: 0, 1 or 2.
+  Eigen::Vector3d axisOf(const Frame& frame, int i) const {
+    return axesOf(frame.link) * frame.R_LF.col(i);
+  }
+  Eigen::Matrix3d axesOf(const Frame& frame) const { return axesOf(frame.link) * frame.R_LF; }
+  /// Its origin and what its link does there: m, m/s, rad/s, m/s^2, rad/s^2.
+  struct Point {
+    Eigen::Vector3d o, v, w, a, alpha;
+  };
+  Point pointOf(const Frame& frame) const;
+
+  /// The coordinate that moves a joint; -1: it is fixed.
+  int coordinateOf(const PathStep& step) const {
+    return joints_[static_cast<std::size_t>(step.joint)].coordinate;
+  }
+  /// Generalized force, for the coordinate that moves the joint, of a wrench on the second link at
+  /// a point and its opposite on the first.
+  double workOf(const PathStep& step, const Eigen::Vector3d& at, const ClosureWrench& wrench) const;
+
+ private:
+  struct JointConstants {
+    int parent_link, coordinate;
+    bool slides;
+    double multiplier, offset;
+    Eigen::Matrix3d R_PK;
+    Eigen::Vector3d p_PoKo_P, axis_K;
+  };
+  struct LinkState {
+    Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d o = Eigen::Vector3d::Zero();
+    Eigen::Vector3d z = Eigen::Vector3d::Zero();  // axis of its joint
+    Eigen::Vector3d v = Eigen::Vector3d::Zero(), w = v, a = v, alpha = v;
+  };
+  void moveLink(std::size_t k, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd);
+
+  std::vector<JointConstants> joints_;
+  std::vector<LinkState> links_;
+};
+
+/// Joints between two links, fixed ones included, in the mechanism's order.
+std::vector<PathStep> pathBetween(const Mechanism& mechanism, int first_link, int second_link);
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,49 @@
+#include "scene/closure_types.h"
+
+#include <algorithm>
+
+namespace virtual_work_dynamics {
+
+namespace {
+
+using Kind = ClosureDemand::Kind;
+using Type = ClosureType;
+
+constexpr ClosureDemand kX{Kind::kAlong, 0, 0}, kY{Kind::kAlong, 1, 0}, kZ{Kind::kAlong, 2, 0};
+// Axes of P and C: what keeps both z alike, what then keeps the frames from turning about z, and
+// what a universal joint's cross does.
+constexpr ClosureDemand kXz{Kind::kNormal, 0, 2}, kYz{Kind::kNormal, 1, 2};
+constexpr ClosureDemand kXy{Kind::kNormal, 0, 1};
+constexpr ClosureDemand kZx{Kind::kNormal, 2, 0};
+constexpr ClosureDemand kRod{Kind::kDistance, 0, 0};
+
+constexpr auto kNone = std::nullopt;
+
+}  // namespace
+
+int ClosureTypeTraits::count(ClosureDemand::Kind kind) const {
+  return static_cast<int>(
+      std::count_if(demands.begin(), demands.begin() + conditions,
+                    [&](const ClosureDemand& demand) { return demand.kind == kind; }));
+}
+
+// The order of conditions is that of their multipliers.
+const std::vector<ClosureTypeTraits>& closureTypes() {
+  static const std::vector<ClosureTypeTraits> types = {
+      {Type::kFixed, "fixed", kNone, 6, {kX, kY, kZ, kXz, kYz, kXy}},
+      {Type::kRevolute, "revolute", Unit::kRadian, 5, {kX, kY, kZ, kXz, kYz}},
+      {Type::kPrismatic, "prismatic", Unit::kMetre, 5, {kX, kY, kXz, kYz, kXy}},
+      {Type::kCylindrical, "cylindrical", kNone, 4, {kX, kY, kXz, kYz}},
+      {Type::kUniversal, "universal", kNone, 4, {kX, kY, kZ, kZx}},
+      {Type::kSpherical, "spherical", kNone, 3, {kX, kY, kZ}},
+      {Type::kPlanar, "planar", kNone, 3, {kZ, kXz, kYz}},
+      {Type::kDistance, "distance", kNone, 1, {kRod}}};
+  return types;
+}
+
+const ClosureTypeTraits& traitsOf(ClosureType type) {
+  return *std::find_if(closureTypes().begin(), closureTypes().end(),
+                       [&](const ClosureTypeTraits& traits) { return traits.type == type; });
+}
+
+}  // namespace virtual_work_dynamics

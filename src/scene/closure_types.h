@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/scene.h"
+
+namespace virtual_work_dynamics {
+
+/// What a closure demands of its parent frame P and its child frame C.
+struct ClosureDemand {
+  enum class Kind {
+    kAlong,    ///< the origins do not part along axis a of P
+    kNormal,   ///< axis a of P stays normal to axis b of C
+    kDistance  ///< the origins keep their distance
+  };
+  Kind kind = Kind::kDistance;
+  int a = 0, b = 0;
+};
+
+/// A type of closure.
+struct ClosureTypeTraits {
+  ClosureType type;
+  const char* name;  ///< as in a scene
+  /// What the motion along or about its one free axis measures, z of P; not given: it has none, or
+  /// more than one.
+  std::optional<Unit> free_axis;
+  int conditions;  ///< how many of the following it has
+  std::array<ClosureDemand, 6> demands;
+
+  int count(ClosureDemand::Kind kind) const;
+  bool hasLength() const { return count(ClosureDemand::Kind::kDistance) > 0; }
+  bool canTurn() const { return count(ClosureDemand::Kind::kNormal) < 3; }
+};
+
+/// All types.
+const std::vector<ClosureTypeTraits>& closureTypes();
+const ClosureTypeTraits& traitsOf(ClosureType type);
+
+}  // namespace virtual_work_dynamics
