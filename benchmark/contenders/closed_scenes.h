@@ -18,8 +18,7 @@ bool takesSeconds(const std::string& name);
 
 /// Makes the scene with its states, the same in every run. Actuated joints have random positions
 /// within a range about the assembly, and random velocities and accelerations;
-/// ClosedLoopDynamics::complete() adds the other joints on a path of small steps from one state to
-/// the next.
+/// Dynamics::complete() adds the other joints on a path of small steps from one state to the next.
 /// @throws Error when there is no such scene or the loops do not close on the way, UrdfError,
 ///   SceneError, FileError.
 BenchmarkScene makeClosedScene(const std::string& name);

@@ -28,8 +28,8 @@ void offerMujoco(const BenchmarkScene& scene, std::vector<Offer>& offers);
 void offerDart(const BenchmarkScene& scene, std::vector<Offer>& offers);
 #endif
 
-/// Appends ClosedLoopDynamics for closed loops, with the whole motion given, or only that of the
-/// actuated joints.
+/// Appends Dynamics for closed loops, with the whole motion given, or only that of the actuated
+/// joints.
 void offerOwnLoops(const BenchmarkScene& scene, std::vector<Offer>& offers);
 /// Appends one linear system of all bodies, and Lagrange's equations with multipliers, for closed
 /// loops of up to 30 joints.

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "closed_loops.h"
 #include "maximal_coordinates_oracle.h"
 #include "stability/random_numbers.h"
 #include "stability/sweeps.h"
-#include "virtual_work_dynamics/closed_loop_dynamics.h"
 
 namespace virtual_work_dynamics {
 
@@ -83,7 +83,7 @@ class LoopJudge {
   Mechanism mechanism_;
   Scene scene_;
   std::vector<std::string> names_;
-  ClosedLoopDynamics dynamics_;
+  ClosedLoops dynamics_;
   double size_ = 0;  // largest distance of the origin of a joint or closure from the root's
   int depth_ = 0;
 };

@@ -121,6 +121,7 @@ class Dynamics::Workspace {
   friend class SampleRows;
   struct Impl;
   explicit Workspace(const Dynamics::Impl& plan);
+  Impl& memoryFor(const Dynamics::Impl& plan);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -83,7 +83,7 @@ struct LoopResults {
 /// Results of one sample, in the order of the Request.
 struct Results {
   /// Of each generalized coordinate, N m or N, zero where it is passive; then of each actuated
-  /// closure. Empty when the request leaves efforts out.
+  /// closure. Empty when the request of an open chain leaves efforts out.
   Eigen::VectorXd effort;
   std::vector<Wrench> child_axes;  ///< of Request::child_axes
   std::vector<Wrench> root_axes;   ///< of Request::root_axes

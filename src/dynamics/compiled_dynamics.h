@@ -25,14 +25,13 @@ struct Dynamics::Impl {
   Eigen::VectorXd assembly;
 };
 
-/// The inside of a Dynamics::Workspace: one of the two.
+/// The inside of a Dynamics::Workspace.
 struct Dynamics::Workspace::Impl {
+  const Dynamics::Impl* plan;  // only compared
+
+  // One of the two.
   std::optional<virtual_work_dynamics::Workspace> chain;
   std::optional<ClosedLoopDynamics::Workspace> loops;
-
-  /// @throws MotionError when the workspace is not of that kind; its plan compares the rest.
-  virtual_work_dynamics::Workspace& ofChain();
-  ClosedLoopDynamics::Workspace& ofLoops();
 };
 
 }  // namespace virtual_work_dynamics

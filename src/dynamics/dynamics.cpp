@@ -5,6 +5,7 @@
 #include "base/number_text.h"
 #include "dynamics/compiled_dynamics.h"
 #include "loops/cut_tree.h"
+#include "scene/input_checks.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -109,11 +110,17 @@ Dynamics::Workspace Dynamics::makeWorkspace() const {
 }
 
 bool Dynamics::complete(Motion& motion, Workspace& workspace) const {
-  return !impl_->loops || impl_->loops->complete(motion, workspace.impl_->ofLoops());
+  Workspace::Impl& memory = workspace.memoryFor(*impl_);
+  if (impl_->loops) return impl_->loops->complete(motion, *memory.loops);
+  requireLengths(motion, coordinates());
+  return true;
 }
 
 bool Dynamics::completeFromCloseBy(Motion& motion, Workspace& workspace) const {
-  return !impl_->loops || impl_->loops->completeFromCloseBy(motion, workspace.impl_->ofLoops());
+  Workspace::Impl& memory = workspace.memoryFor(*impl_);
+  if (impl_->loops) return impl_->loops->completeFromCloseBy(motion, *memory.loops);
+  requireLengths(motion, coordinates());
+  return true;
 }
 
 std::string Dynamics::whyOpen(const Motion& motion, Workspace& workspace) const {
@@ -132,34 +139,26 @@ std::string Dynamics::whyOpen(const Motion& motion, Workspace& workspace) const 
 }
 
 void Dynamics::compute(const Motion& motion, Workspace& workspace) const {
-  if (impl_->chain) {
-    impl_->chain->compute(motion, workspace.impl_->ofChain());
-  } else {
-    impl_->loops->compute(motion, workspace.impl_->ofLoops());
-  }
+  Workspace::Impl& memory = workspace.memoryFor(*impl_);
+  if (impl_->chain) impl_->chain->compute(motion, *memory.chain);
+  if (impl_->loops) impl_->loops->compute(motion, *memory.loops);
 }
 
 void Dynamics::compute(const Motion& motion, const Load& load, Workspace& workspace) const {
-  if (impl_->chain) {
-    impl_->chain->compute(motion, load, workspace.impl_->ofChain());
-  } else {
-    impl_->loops->compute(motion, load, workspace.impl_->ofLoops());
-  }
-}
-
-Workspace& Dynamics::Workspace::Impl::ofChain() {
-  if (!chain) throw MotionError("the workspace belongs to another Dynamics");
-  return *chain;
-}
-
-ClosedLoopDynamics::Workspace& Dynamics::Workspace::Impl::ofLoops() {
-  if (!loops) throw MotionError("the workspace belongs to another Dynamics");
-  return *loops;
+  Workspace::Impl& memory = workspace.memoryFor(*impl_);
+  if (impl_->chain) impl_->chain->compute(motion, load, *memory.chain);
+  if (impl_->loops) impl_->loops->compute(motion, load, *memory.loops);
 }
 
 Dynamics::Workspace::Workspace(const Dynamics::Impl& plan) : impl_(new Impl) {
+  impl_->plan = &plan;
   if (plan.chain) impl_->chain.emplace(plan.chain->makeWorkspace());
   if (plan.loops) impl_->loops.emplace(plan.loops->makeWorkspace());
+}
+
+Dynamics::Workspace::Impl& Dynamics::Workspace::memoryFor(const Dynamics::Impl& plan) {
+  if (impl_->plan != &plan) throw MotionError("the workspace belongs to another Dynamics");
+  return *impl_;
 }
 
 Dynamics::Workspace::~Workspace() = default;

@@ -66,7 +66,7 @@ void expectLagrangeAgrees(ClosedChain& chain, int samples, int& compared) {
   const Mechanism& mechanism = chain.mechanism();
   const Scene& scene = chain.scene();
   ClosedLoopResults results(mechanism, scene);
-  ClosedLoopDynamics& dynamics = results.dynamics;
+  ClosedLoops& dynamics = results.dynamics;
   Motion motion(mechanism.coordinates().size());
   for (int n = 0; n < samples; ++n) {
     const Motion random = chain.builder().motion();

@@ -12,6 +12,7 @@
 #include "virtual_work_dynamics/certificates.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/error_bound.h"
+#include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/lagrange_dynamics.h"
 
 namespace virtual_work_dynamics {
@@ -230,7 +231,7 @@ TEST(ClosedLoopRefusals, Requests) {
   const Scene scene = slider_crank.scene("joint_1");
   Request request;
   request.child_axes = {"pin", "pin"};
-  const auto make = [&]() { ClosedLoopDynamics(slider_crank.mechanism(), scene, request); };
+  const auto make = [&]() { ClosedLoops(slider_crank.mechanism(), scene, request); };
   expectError(make, "reactions: 'pin' is requested twice");
   request.child_axes = {"joint_9"};
   expectError(make, "reactions: there is no joint or closure 'joint_9'");
@@ -238,14 +239,30 @@ TEST(ClosedLoopRefusals, Requests) {
 
 TEST(ClosedLoopRefusals, MotionOfAnotherMechanism) {
   const SliderCrank slider_crank;
-  ClosedLoopDynamics dynamics(slider_crank.mechanism(), slider_crank.scene("joint_1"), Request());
+  ClosedLoops dynamics(slider_crank.mechanism(), slider_crank.scene("joint_1"));
   Motion motion(2);
   EXPECT_THROW(dynamics.compute(motion), MotionError);
   EXPECT_THROW(dynamics.complete(motion), MotionError);
   motion = Motion(3);
   EXPECT_THROW(dynamics.complete(motion, {true}), MotionError);
-  EXPECT_THROW(dynamics.setAppliedWrench(0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()),
-               SceneError);
+  Load load;
+  load.wrenches.resize(1);
+  EXPECT_THROW(dynamics.compute(motion, load), SceneError);
+}
+
+TEST(ClosedLoopRefusals, WorkspaceOfAnother) {
+  const SliderCrank slider_crank;
+  const Mechanism mechanism = slider_crank.mechanism();
+  const Scene scene = slider_crank.scene("joint_1");
+  const ClosedLoopDynamics one(mechanism, scene, Request()), other(mechanism, scene, Request());
+  ClosedLoopDynamics::Workspace of_one = one.makeWorkspace();
+  Motion motion = SliderCrank::motion(0.7, 2, 1);
+  EXPECT_THROW(other.compute(motion, of_one), MotionError);
+  EXPECT_THROW(other.compute(motion, Load(), of_one), MotionError);
+  EXPECT_THROW(other.complete(motion, of_one), MotionError);
+  EXPECT_THROW(other.completeFromCloseBy(motion, of_one), MotionError);
+  EXPECT_THROW(other.complete(motion, {true, false, false}, of_one), MotionError);
+  EXPECT_NO_THROW(one.compute(motion, of_one));
 }
 
 // Without the closures their numbers would be wrong.

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "virtual_work_dynamics/closed_loop_dynamics.h"
+#include "closed_loops.h"
 
 namespace virtual_work_dynamics {
 
@@ -27,7 +27,7 @@ class ClosedLoopResults {
     return dynamics.rootAxesDetermined()[indexOf(name)];
   }
 
-  ClosedLoopDynamics dynamics;
+  ClosedLoops dynamics;
 
  private:
   static Request everythingOf(const Mechanism& mechanism, const Scene& scene) {

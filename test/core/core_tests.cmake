@@ -32,14 +32,16 @@ set(core_test_files
   test/core/closed_loop_refusals_test.cpp
   test/core/closed_loop_singular_test.cpp
   test/core/closed_loop_tree_test.cpp
+  test/core/dynamics_test.cpp
+  test/core/dynamics_use_test.cpp
   test/core/error_bound_test.cpp
+  test/core/existence_test.cpp
   test/core/instruction_set_test.cpp
   test/core/inverse_dynamics_test.cpp
   test/core/joint_terms_test.cpp
   test/core/kernel_accuracy_test.cpp
   test/core/lagrange_dynamics_test.cpp
   test/core/loop_conditions_test.cpp
-  test/core/loop_follower_test.cpp
   test/core/loop_kinematics_test.cpp
   test/core/loop_oracles_test.cpp
   test/core/loop_residuals_test.cpp
@@ -58,6 +60,7 @@ set(core_test_files
   test/core/offline_loops_threads_test.cpp
   test/core/offline_plan_test.cpp
   test/core/offline_test.cpp
+  test/core/passive_joints_test.cpp
   test/core/plan_merging_test.cpp
   test/core/plan_reduction_test.cpp
   test/core/plan_summary_test.cpp
@@ -74,6 +77,7 @@ set(core_test_files
   test/core/reference_test.cpp
   test/core/run_time_histogram_test.cpp
   test/core/sample_block_test.cpp
+  test/core/sample_rows_test.cpp
   test/core/scene_reader_loops_test.cpp
   test/core/scene_reader_test.cpp
   test/core/sine_cosine_test.cpp

@@ -112,6 +112,9 @@ class FencedBlock {
   }
 
   void compute(BlockInverseDynamics<Real>& dynamics) { dynamics.compute(layout_, in(), out()); }
+  void compute(BlockInverseDynamics<Real>& dynamics, const Load& load) {
+    dynamics.compute(layout_, in(), load, out());
+  }
 
   MotionBlock<Real> in() { return {samples_, array(0), array(1), array(2)}; }
   /// The result arrays; those that were not requested are null.
@@ -119,6 +122,11 @@ class FencedBlock {
 
   PlainResults<Real> sample(std::size_t n) const {
     return {numbers(3, n), numbers(4, n), numbers(5, n), numbers(6, n), numbers(7, n)};
+  }
+  std::vector<PlainResults<Real>> samples() const {
+    std::vector<PlainResults<Real>> samples;
+    for (std::size_t n = 0; n < samples_; ++n) samples.push_back(sample(n));
+    return samples;
   }
 
   bool surroundingsUntouched() const {
@@ -154,9 +162,18 @@ std::vector<PlainResults<Real>> blockResults(
   FencedBlock<Real> block(dynamics, motions, layout, edge);
   block.compute(dynamics);
   EXPECT_TRUE(block.surroundingsUntouched());
-  std::vector<PlainResults<Real>> results;
-  for (std::size_t n = 0; n < motions.size(); ++n) results.push_back(block.sample(n));
-  return results;
+  return block.samples();
+}
+
+/// All samples through one block, with a load.
+template <typename Real>
+std::vector<PlainResults<Real>> blockResults(BlockInverseDynamics<Real>& dynamics,
+                                             const std::vector<Motion>& motions, BlockLayout layout,
+                                             const Load& load) {
+  FencedBlock<Real> block(dynamics, motions, layout);
+  block.compute(dynamics, load);
+  EXPECT_TRUE(block.surroundingsUntouched());
+  return block.samples();
 }
 
 template <typename Real>

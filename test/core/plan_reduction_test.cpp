@@ -318,8 +318,9 @@ TEST(PlanReduction, AppliedWrenchesElsewhereDoNotMatter) {
   EXPECT_EQ(with_wrench.summary().multiplications, without_wrench.summary().multiplications);
   const InverseDynamics dynamics(mechanism, scene, request);
   Workspace workspace = dynamics.makeWorkspace();
-  EXPECT_NO_THROW(workspace.setAppliedWrench(0, {7, 8, 9}, {1, 2, 3}));
-  dynamics.compute(motion, workspace);
+  Load load(scene);
+  load.wrenches[0] = {{7, 8, 9}, {1, 2, 3}};
+  EXPECT_NO_THROW(dynamics.compute(motion, load, workspace));
   expectSame(workspace.childAxes()[0], without_wrench.child("joint_4"));
 }
 

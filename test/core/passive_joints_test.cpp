@@ -1,8 +1,10 @@
+#include "virtual_work_dynamics/passive_joints.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "loops/follower.h"
+#include "loops/passive.h"
 #include "slider_crank.h"
 
 namespace virtual_work_dynamics {
@@ -11,14 +13,16 @@ namespace {
 // Newton's method ends at rounding errors of lengths of a metre.
 constexpr double kClosed = 1e-12;
 constexpr double kTurn = 6.283185307179586;
+const Request kNothing{false, {}, {}, false, false};
 
 /// A slider-crank that is followed from its assembly at 0.7 rad.
 class FollowedSliderCrank : public testing::Test {
  protected:
   FollowedSliderCrank()
       : mechanism_(slider_crank_.mechanism()),
-        dynamics_(mechanism_, slider_crank_.scene("joint_1"), Request{false, {}, {}, false, false}),
-        follower_(mechanism_, dynamics_) {}
+        dynamics_(mechanism_, slider_crank_.scene("joint_1"), kNothing),
+        workspace_(dynamics_.makeWorkspace()),
+        passive_(mechanism_, dynamics_) {}
 
   void expectFollowed(double angle, double rate, double acceleration) {
     const Motion expected = SliderCrank::motion(angle, rate, acceleration);
@@ -26,7 +30,7 @@ class FollowedSliderCrank : public testing::Test {
     motion.q[0] = expected.q[0];
     motion.qd[0] = expected.qd[0];
     motion.qdd[0] = expected.qdd[0];
-    ASSERT_TRUE(follower_.complete(motion, dynamics_)) << angle;
+    ASSERT_TRUE(passive_.complete(motion, dynamics_, workspace_)) << angle;
     EXPECT_EQ(motion.q[0], angle);
     EXPECT_NEAR(std::remainder(motion.q[1] - expected.q[1], kTurn), 0, kClosed) << angle;
     EXPECT_NEAR(motion.q[2], expected.q[2], kClosed) << angle;
@@ -36,8 +40,9 @@ class FollowedSliderCrank : public testing::Test {
 
   SliderCrank slider_crank_;
   Mechanism mechanism_;
-  ClosedLoopDynamics dynamics_;
-  LoopFollower follower_;
+  Dynamics dynamics_;
+  Dynamics::Workspace workspace_;
+  PassiveJoints passive_;
 };
 
 TEST_F(FollowedSliderCrank, KeepsItsBranchOverGapsAndTurns) {
@@ -47,33 +52,33 @@ TEST_F(FollowedSliderCrank, KeepsItsBranchOverGapsAndTurns) {
 }
 
 TEST_F(FollowedSliderCrank, IsWhereItWasAfterAFailure) {
-  ClosedLoopDynamics by_slider(mechanism_, slider_crank_.scene("joint_3"),
-                               Request{false, {}, {}, false, false});
-  LoopFollower follower(mechanism_, by_slider);
-  const Eigen::VectorXd before = follower.position();
+  const Dynamics by_slider(mechanism_, slider_crank_.scene("joint_3"), kNothing);
+  Dynamics::Workspace workspace = by_slider.makeWorkspace();
+  PassiveJoints passive(mechanism_, by_slider);
+  const Eigen::VectorXd before = passive.position();
   Motion motion(3);
   motion.q[2] = 1.01 * (SliderCrank::kCrank + SliderCrank::kRod);
-  EXPECT_FALSE(follower.complete(motion, by_slider));
-  EXPECT_EQ(follower.position(), before);
+  EXPECT_FALSE(passive.complete(motion, by_slider, workspace));
+  EXPECT_EQ(passive.position(), before);
 }
 
 // A stream of positions out of reach must not hold up what comes behind it.
 TEST_F(FollowedSliderCrank, GivesUpSoon) {
-  ClosedLoopDynamics by_slider(mechanism_, slider_crank_.scene("joint_3"),
-                               Request{false, {}, {}, false, false});
-  LoopFollower follower(mechanism_, by_slider);
+  const Dynamics by_slider(mechanism_, slider_crank_.scene("joint_3"), kNothing);
+  Dynamics::Workspace workspace = by_slider.makeWorkspace();
+  PassiveJoints passive(mechanism_, by_slider);
   const double reach = SliderCrank::kCrank + SliderCrank::kRod;
   Motion motion(3);
   for (const double beyond : {1e-6, 1e-3, 0.1, 1.0, 100.0}) {
     motion.q[2] = reach + beyond;
-    EXPECT_FALSE(follower.complete(motion, by_slider)) << beyond;
-    EXPECT_GT(follower.searches(), 1);
-    EXPECT_LE(follower.searches(), 40) << beyond;
+    EXPECT_FALSE(passive.complete(motion, by_slider, workspace)) << beyond;
+    EXPECT_GT(passive.searches(), 1);
+    EXPECT_LE(passive.searches(), 40) << beyond;
   }
   const Motion expected = SliderCrank::motion(0.6, 0, 0);
   motion.q[2] = expected.q[2];
-  ASSERT_TRUE(follower.complete(motion, by_slider));
-  EXPECT_EQ(follower.searches(), 1);
+  ASSERT_TRUE(passive.complete(motion, by_slider, workspace));
+  EXPECT_EQ(passive.searches(), 1);
   EXPECT_NEAR(motion.q[0], 0.6, kClosed);
 }
 
@@ -81,33 +86,61 @@ TEST_F(FollowedSliderCrank, GivesUpSoon) {
 TEST_F(FollowedSliderCrank, SearchesNoMoreThanItSays) {
   for (const double angle : {3.8, 0.7, 3.8, 1.0}) {
     expectFollowed(angle, 0, 0);
-    EXPECT_GT(follower_.searches(), 10);
-    EXPECT_LE(follower_.searches(), LoopFollower::kMostSearches);
+    EXPECT_GT(passive_.searches(), 10);
+    EXPECT_LE(passive_.searches(), PassiveJoints::kMostSearches);
   }
 }
 
 TEST_F(FollowedSliderCrank, GoesOnFromWhereItIsMovedTo) {
   // The other branch of a slider that is given: the crank below its way.
-  ClosedLoopDynamics by_slider(mechanism_, slider_crank_.scene("joint_3"),
-                               Request{false, {}, {}, false, false});
-  LoopFollower follower(mechanism_, by_slider);
-  follower.moveTo(SliderCrank::motion(-1.2, 0, 0).q);
+  const Dynamics by_slider(mechanism_, slider_crank_.scene("joint_3"), kNothing);
+  Dynamics::Workspace workspace = by_slider.makeWorkspace();
+  PassiveJoints passive(mechanism_, by_slider);
+  passive.moveTo(SliderCrank::motion(-1.2, 0, 0).q);
   const Motion expected = SliderCrank::motion(-1.1, 0, 0);
   Motion motion(3);
   motion.q[2] = expected.q[2];
-  ASSERT_TRUE(follower.complete(motion, by_slider));
+  ASSERT_TRUE(passive.complete(motion, by_slider, workspace));
   EXPECT_NEAR(motion.q[0], -1.1, kClosed);
+}
+
+// What it hands back needs no second search: computing goes on from the same position.
+TEST_F(FollowedSliderCrank, LeavesTheWorkspaceAtItsPosition) {
+  Motion motion(3);
+  motion.q[0] = 1.1;
+  motion.qd[0] = 2;
+  ASSERT_TRUE(passive_.complete(motion, dynamics_, workspace_));
+  EXPECT_EQ(passive_.position(), motion.q);
+  dynamics_.compute(motion, workspace_);
+  EXPECT_LE(workspace_.results().loops.residuals[0].position, kClosed);
+  EXPECT_LE(workspace_.results().loops.residuals[0].acceleration, kClosed);
+}
+
+TEST(PassiveJoints, AnOpenChainPassesAtOnce) {
+  RobotBuilder builder = chainOf(3);
+  const Mechanism mechanism = builder.build();
+  const Dynamics dynamics(mechanism, Scene());
+  Dynamics::Workspace workspace = dynamics.makeWorkspace();
+  PassiveJoints passive(mechanism, dynamics);
+  for (const Motion& motion : builder.motions(3)) {
+    Motion completed = motion;
+    EXPECT_TRUE(passive.complete(completed, dynamics, workspace));
+    EXPECT_EQ(completed.q, motion.q);
+    EXPECT_EQ(completed.qd, motion.qd);
+    EXPECT_EQ(completed.qdd, motion.qdd);
+    EXPECT_EQ(passive.searches(), 0);
+  }
 }
 
 TEST(ActuatedClosures, SayHowFarTheyHaveTurned) {
   const SliderCrank slider_crank;
   const Mechanism mechanism = slider_crank.mechanism();
-  ClosedLoopDynamics dynamics(mechanism, slider_crank.scene("pin"), Request());
+  ClosedLoops dynamics(mechanism, slider_crank.scene("pin"));
   const Motion motion = SliderCrank::motion(2.0, 1.5, 0);
   dynamics.compute(motion);
   // The slider, its child, does not turn; the rod does.
-  EXPECT_NEAR(dynamics.actuatedClosurePositions()[0], -(motion.q[0] + motion.q[1]), kClosed);
-  EXPECT_NEAR(dynamics.actuatedClosureVelocities()[0], -(motion.qd[0] + motion.qd[1]), kClosed);
+  EXPECT_NEAR(dynamics.actuatedPositions()[0], -(motion.q[0] + motion.q[1]), kClosed);
+  EXPECT_NEAR(dynamics.actuatedVelocities()[0], -(motion.qd[0] + motion.qd[1]), kClosed);
 }
 
 TEST(ActuatedClosures, SayHowFarTheyHaveSlid) {
@@ -139,10 +172,10 @@ TEST(ActuatedClosures, SayHowFarTheyHaveSlid) {
   for (int i = 0; i < 4; ++i) {
     scene.assembly.push_back({"joint_" + std::to_string(i + 1), motion.q[i]});
   }
-  ClosedLoopDynamics dynamics(mechanism, scene, Request());
+  ClosedLoops dynamics(mechanism, scene);
   dynamics.compute(motion);
-  EXPECT_NEAR(dynamics.actuatedClosurePositions()[0], crank.q[2] - 0.2, kClosed);
-  EXPECT_NEAR(dynamics.actuatedClosureVelocities()[0], crank.qd[2], kClosed);
+  EXPECT_NEAR(dynamics.actuatedPositions()[0], crank.q[2] - 0.2, kClosed);
+  EXPECT_NEAR(dynamics.actuatedVelocities()[0], crank.qd[2], kClosed);
 }
 
 }  // namespace

@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "virtual_work_dynamics/closed_loop_dynamics.h"
+#include "closed_loops.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
 
 /// All results of ClosedLoopDynamics for one sample, by name.
-class LoopResults {
+class NamedLoopResults {
  public:
-  LoopResults(const Mechanism& mechanism, const Scene& scene, const Motion& motion)
+  NamedLoopResults(const Mechanism& mechanism, const Scene& scene, const Motion& motion)
       : mechanism_(mechanism),
         names_(namesOf(mechanism, scene)),
         dynamics_(mechanism, scene, request()) {
@@ -28,7 +28,7 @@ class LoopResults {
 
   /// Names of the reactions: "ground", joints, closures.
   const std::vector<std::string>& names() const { return names_; }
-  const ClosedLoopDynamics& dynamics() const { return dynamics_; }
+  const ClosedLoops& dynamics() const { return dynamics_; }
 
   double effort(const std::string& joint) const { return dynamics_.effort()[coordinate(joint)]; }
   bool effortDetermined(const std::string& joint) const {
@@ -64,7 +64,7 @@ class LoopResults {
 
   const Mechanism& mechanism_;
   std::vector<std::string> names_;
-  ClosedLoopDynamics dynamics_;
+  ClosedLoops dynamics_;
 };
 
 /// Component i of a wrench, 0 to 5: fx fy fz tx ty tz.
