@@ -12,7 +12,7 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// Moving joints of loops when the policy weighs their reactions.
+// Requests the moving joints of loops when the policy weighs their reactions.
 Request effortRequest(const Mechanism& mechanism, const LoopScene& loops,
                       const std::vector<LoopGroup>& groups) {
   Request request;
@@ -79,7 +79,7 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& of, const Scene& scene, const Re
   setUsual();
 }
 
-// The size of the loops is known for good once they are closed.
+// The final size of the loops is known once they are closed.
 void ClosedLoopDynamics::Impl::close(const Scene& scene) {
   kinematics.setPosition(loops.start);
   const double start_length = loops.length.value_or(loopLength(groups, kinematics));
@@ -90,8 +90,8 @@ void ClosedLoopDynamics::Impl::close(const Scene& scene) {
   requireHeld(mechanism, loops, assembly, solvers.completion, solvers.kinematics, solvers.forces);
 }
 
-// Flags of a regular position, once and for all: what exists in a singular one must not depend on
-// which positions were met before.
+// Finds the flags of a regular position once: what exists in a singular one must not depend on the
+// positions met before.
 void ClosedLoopDynamics::Impl::setUsual() {
   Workspace::Impl workspace(*this);
   LoopSolvers& solvers = workspace.solvers;
@@ -165,9 +165,9 @@ bool ClosedLoopDynamics::complete(Motion& motion, const std::vector<bool>& given
   LoopSolvers& solvers = workspace.solversOf(*impl_);
   requireLengths(motion, coordinates());
   if (given.size() != impl_->loops.actuated.size()) {
-    throw MotionError("motion: " + std::to_string(given.size()) +
-                      " coordinates are given or not, the mechanism has " +
-                      std::to_string(coordinates()));
+    throw MotionError("motion: 'given' has " + std::to_string(given.size()) +
+                      " entries, the mechanism has " + std::to_string(coordinates()) +
+                      " coordinates");
   }
   return solvers.completion.complete(solvers.kinematics, motion, given);
 }

@@ -52,7 +52,7 @@ void ClosedLoopDynamics::Workspace::Impl::compute(const Motion& motion, const Lo
   setExistence();
 }
 
-// Efforts of the open tree: what closures and actuators are to balance.
+// Computes the efforts of the open tree, which closures and actuators have to balance.
 void ClosedLoopDynamics::Workspace::Impl::push(const Motion& motion, const Load& load) {
   solvers.kinematics.setPosition(motion.q);
   std::copy(load.wrenches.begin(), load.wrenches.end(), first_load_.wrenches.begin());
@@ -97,7 +97,7 @@ void ClosedLoopDynamics::Workspace::Impl::solve() {
   }
 }
 
-// Reactions by (3.8) with the closures' wrenches applied to both of their links.
+// Computes reactions by (3.8) with the closures' wrenches applied to both of their links.
 void ClosedLoopDynamics::Workspace::Impl::react(const Motion& motion) {
   const LoopKinematics& kinematics = solvers.kinematics;
   std::vector<Wrench>& load = second_load_.wrenches;
@@ -162,8 +162,9 @@ void ClosedLoopDynamics::Workspace::Impl::setDeterminacy() {
   }
 }
 
-// The one rule: in a singular position a result has a value when it is determined there, or when it
-// is not determined in regular positions either, where the scene's policy chooses it.
+// This rule holds everywhere: in a singular position a result has a value when it is determined
+// there, or when it is not determined in regular positions either, so that the scene's policy
+// chooses it.
 void ClosedLoopDynamics::Workspace::Impl::setExistence() {
   LoopResults& loops = results.loops;
   const bool regular = !results.singular();

@@ -61,7 +61,7 @@ std::vector<Condition> rowsOf(const Closure& closure) {
   return rows;
 }
 
-// Those that move the links relative to each other, ascending.
+// Finds the coordinates that move the links relative to each other, ascending.
 std::vector<int> coordinatesOn(const Mechanism& mechanism, const std::vector<PathStep>& path) {
   std::vector<int> coordinates;
   for (const PathStep& step : path) {
@@ -122,7 +122,7 @@ void ClosureConditions::setPosition(const LoopState& state, ConditionRows rows) 
       wrench.moment = b.cross(a);
     }
   }
-  // A row of A is the generalized force of the wrench of its multiplier.
+  // A row of A is the generalized force of the wrench that a multiplier of one exerts.
   for (const int coordinate : coordinates()) {
     for (int i = 0; i < traits_.conditions; ++i) rows.A(i, coordinate) = 0;
   }

@@ -19,10 +19,12 @@
 
 namespace virtual_work_dynamics {
 
-/// The solvers of all groups of loops, at one position. One thread.
+/// The solvers of all groups of loops, at one position. Serves one thread.
 struct LoopSolvers {
   /// `mechanism`, `loops` and `groups` must outlive it.
-  /// @param start copied   @param length of the loops, m   @param closures how many there are
+  /// @param start where they begin; copied
+  /// @param length of the loops, m
+  /// @param closures their number
   LoopSolvers(const Mechanism& mechanism, const LoopScene& loops,
               const std::vector<LoopGroup>& groups, const LoopKinematics& start, double length,
               std::size_t closures);
@@ -34,7 +36,7 @@ struct LoopSolvers {
   LoopResiduals residuals;
 };
 
-/// What a ClosedLoopDynamics was compiled to; nothing of it changes after construction.
+/// The compiled form of a ClosedLoopDynamics; it does not change after construction.
 struct ClosedLoopDynamics::Impl {
   Impl(const Mechanism& mechanism, const Scene& scene, const Request& wanted);
   Impl(const Impl&) = delete;  // solvers refer to it
@@ -46,8 +48,8 @@ struct ClosedLoopDynamics::Impl {
   PointSprings springs;
   Scene bare_tree;  // without closures and springs
   Scene tree;
-  std::size_t own_wrenches;  // of the scene, the first ones of the tree's
-  Load own_load;             // their values in the scene
+  std::size_t own_wrenches;  // number of the scene's, the first of the tree's
+  Load own_load;             // values of the scene's own wrenches
   std::size_t closures;
   std::vector<std::string> actuated_closures;
   LoopKinematics kinematics;  // at the assembly
@@ -55,10 +57,10 @@ struct ClosedLoopDynamics::Impl {
   double length = 1;
   Eigen::VectorXd assembly;
   std::unique_ptr<LoopReactions> child_axes, root_axes;  // to be copied
-  // Efforts of the tree without closures, then reactions with them.
+  // The first pass gives efforts of the tree without closures, the second reactions with them.
   std::unique_ptr<InverseDynamics> first_pass, second_pass;
   std::vector<int> reaction_joints;  // of the first pass
-  // What is determined in regular positions; see LoopResults::effort_exists.
+  // Results that are determined in regular positions; see LoopResults::effort_exists.
   std::vector<bool> effort_usual;
   std::vector<Determined> child_axes_usual, root_axes_usual;
 
@@ -91,7 +93,7 @@ struct ClosedLoopDynamics::Workspace::Impl {
   Load first_load_, second_load_;
   std::vector<Wrench> tree_reactions_;   // by joint
   std::vector<ClosureWrench> closures_;  // by closure
-  std::vector<double> effort_freedoms_;  // sums of squares, of the least
+  std::vector<double> effort_freedoms_;  // sums of squared changes over leastChange()
   Motion rest_;
 };
 

@@ -73,7 +73,7 @@ void LoopKinematics::subtractConstants() {
 
 void LoopKinematics::adoptConstants() {
   adopted_ = true;
-  placed_ = false;  // conditions are no longer those of the position
+  placed_ = false;  // values_ are no longer those of the position
 }
 
 void LoopKinematics::setMotion(const Motion& motion) {

@@ -4,7 +4,7 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// Whether each joint carries the link.
+// Tells for each joint whether it carries the link.
 std::vector<bool> carriersOf(const Mechanism& mechanism, int link) {
   std::vector<bool> carries(mechanism.joints().size(), false);
   while (link > 0) {

@@ -85,7 +85,7 @@ void LoopReactions::addChanges(const std::vector<LoopGroup>& groups) {
   }
 }
 
-// From a wrench in root axes.
+// Turns a wrench in root axes into the one that is reported.
 ClosureWrench LoopReactions::reported(const LoopKinematics& kinematics, const Item& item,
                                       ClosureWrench wrench) const {
   const bool of_closure = item.closure >= 0;

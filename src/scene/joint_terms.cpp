@@ -12,7 +12,7 @@ namespace {
 void requireAtLeastZero(const std::string& where, const char* key, double value) {
   if (value >= 0 && std::isfinite(value)) return;
   throw SceneError(where + ": " + key + " = " + numberText(value) +
-                   " is not a number that is at least zero");
+                   " is neither zero nor a positive number");
 }
 
 void check(const JointTerms& terms) {

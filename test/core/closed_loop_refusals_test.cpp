@@ -109,7 +109,7 @@ TEST(ClosedLoopRefusals, Springs) {
   refused([](PointSpring& s) { s.stiffness = 0; },
           "springs: 's': stiffness = 0 is not a positive number");
   refused([](PointSpring& s) { s.rest_length = -1; },
-          "springs: 's': rest_length = -1 is not a number that is at least zero");
+          "springs: 's': rest_length = -1 is neither zero nor a positive number");
   expectRefusal(
       [&](Scene& scene) {
         scene.springs = {spring, spring};
