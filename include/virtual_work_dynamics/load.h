@@ -9,11 +9,11 @@ namespace virtual_work_dynamics {
 
 /// Force and torque of every applied wrench of a scene at one instant, in the scene's order: an
 /// argument of computations that replaces the values in the scene. Links, points of action and axes
-/// are the scene's.
+/// stay those of the scene.
 struct Load {
-  /// A scene without applied wrenches.
+  /// The load of a scene without applied wrenches.
   Load() = default;
-  /// The values in the scene. Allocates.
+  /// The load with the values in the scene. Allocates.
   explicit Load(const Scene& scene);
 
   std::vector<Wrench> wrenches;

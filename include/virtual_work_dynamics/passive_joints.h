@@ -9,26 +9,27 @@
 namespace virtual_work_dynamics {
 
 /// Follows the passive joints of a mechanism from one position to the next, on the branch of its
-/// closed loops that they are on. An open chain has none, and its motions pass as they are. Does
-/// not allocate after construction.
+/// closed loops that they are on. An open chain has no passive joints, and its motions stay as they
+/// are. Does not allocate after construction.
 class PassiveJoints {
  public:
-  /// Starts at the assembly; actuated coordinates will be given.
+  /// Starts at the assembly. The motions to come give the actuated coordinates.
   PassiveJoints(const Mechanism& mechanism, const Dynamics& dynamics);
 
   /// Completes a motion that gives the actuated coordinates; `workspace` is then at its position.
-  /// False, at the position before, when
-  /// the loops cannot be closed or do not determine how the passive joints move; `motion` is then
-  /// the last that was tried. Searches kMostSearches times at most, each for a bounded number of
-  /// steps.
+  /// Returns false, and stays at the position before, when the loops cannot be closed or do not
+  /// determine how the passive joints move; `motion` is then the last one tried. Makes at most
+  /// kMostSearches searches, each of a bounded number of steps.
   bool complete(Motion& motion, const Dynamics& dynamics, Dynamics::Workspace& workspace);
 
+  /// The most searches that one complete() makes.
   static constexpr int kMostSearches = 256;
-  /// How many complete() made.
+  /// Number of searches that the last complete() made.
   int searches() const { return searches_; }
 
   /// The position that was found last.
   const Eigen::VectorXd& position() const { return closed_; }
+  /// Continues from a position that was found elsewhere.
   void moveTo(const Eigen::VectorXd& position) { closed_ = position; }
 
  private:
@@ -43,7 +44,7 @@ class PassiveJoints {
   bool turnsFar(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
 
   std::vector<Eigen::Index> given_;
-  std::vector<bool> wraps_;  // of the given ones: whole turns make no difference
+  std::vector<bool> wraps_;  // by given_: whether whole turns make no difference
   std::vector<Eigen::Index> turning_;
   int searches_ = 0, failures_ = 0;
   Motion completed_;

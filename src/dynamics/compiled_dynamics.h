@@ -8,28 +8,28 @@
 
 namespace virtual_work_dynamics {
 
-/// The inside of a Dynamics.
+/// What a Dynamics was compiled to.
 struct Dynamics::Impl {
   Impl(const Mechanism& mechanism, const Scene& scene, const Request& request,
        InstructionSet instruction_set);
 
-  // One of the two.
+  // Exactly one of the two is set.
   std::optional<InverseDynamics> chain;
   std::optional<ClosedLoopDynamics> loops;
 
   Scene tree;
   Request tree_request;
-  Load own_load;  // of the scene
+  Load own_load;  // values in the scene
   std::vector<std::string> effort_names, closure_names;
   std::vector<bool> actuated;
   Eigen::VectorXd assembly;
 };
 
-/// The inside of a Dynamics::Workspace.
+/// The memory behind a Dynamics::Workspace.
 struct Dynamics::Workspace::Impl {
-  const Dynamics::Impl* plan;  // only compared
+  const Dynamics::Impl* plan;  // compared with the plan of a call
 
-  // One of the two.
+  // Exactly one of the two is set.
   std::optional<virtual_work_dynamics::Workspace> chain;
   std::optional<ClosedLoopDynamics::Workspace> loops;
 };

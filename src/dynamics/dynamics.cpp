@@ -12,7 +12,7 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// Relative. Misfits below it are rounding errors, and what hinders is the position.
+// Relative misfit below which the loops count as closed, so that the position is what hinders.
 constexpr double kClosed = 1e-9;
 
 Request everything(const Mechanism& mechanism, const Scene& scene) {
@@ -130,8 +130,8 @@ std::string Dynamics::whyOpen(const Motion& motion, Workspace& workspace) const 
       found.relative_residuals.begin(), found.relative_residuals.end(),
       [](const auto& one, const auto& other) { return one.position < other.position; });
   if (worst == found.relative_residuals.end() || worst->position <= kClosed) {
-    return "the closures do not determine how the passive joints move: a singular position; give "
-           "the motion of all joints";
+    return "the position is singular: the closures do not determine how the passive joints move; "
+           "give the motion of all joints";
   }
   const auto closure = static_cast<std::size_t>(worst - found.relative_residuals.begin());
   return "the loops cannot be closed: closure '" + impl_->closure_names[closure] +

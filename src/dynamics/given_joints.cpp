@@ -4,7 +4,7 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// "'a', 'b' and 3 more": an error is one line.
+// Lists names like "'a', 'b' and 3 more", as an error is one line.
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 8;
   std::string text;

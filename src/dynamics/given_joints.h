@@ -15,10 +15,10 @@ class GivenJoints {
  public:
   GivenJoints(const Mechanism& mechanism, const Dynamics& dynamics);
 
-  /// What is wrong with a motion that gives these coordinates, or nothing; one line without its
-  /// end.
+  /// What is wrong with a motion that gives these coordinates, in one line without a line end, or
+  /// nothing.
   std::optional<std::string> problem(const std::vector<bool>& given) const;
-  /// Whether one of them is passive.
+  /// Whether one of the given coordinates is passive.
   bool givesPassive(const std::vector<bool>& given) const;
 
  private:

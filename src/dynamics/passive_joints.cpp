@@ -6,11 +6,11 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// A position that is searched for from another, with no joint turned farther than this, rad, is on
-// the same branch as that; shorter than any way from one branch to another but near singular ones.
+// Angle, rad: a position that a search finds from another without turning any joint farther is on
+// the same branch. Except near singular positions, every way from one branch to another is longer.
 constexpr double kFar = 0.3;
-// Shortest pieces of a way that may end where the loops cannot be closed, as it happens at singular
-// positions, before the rest of the way is given up.
+// Number of shortest pieces of a way that may end where the loops cannot be closed, as happens at
+// singular positions, before the rest of the way is given up.
 constexpr int kMostFailures = 4;
 constexpr double kTurn = 6.283185307179586476925286766559;
 
@@ -24,8 +24,7 @@ bool wraps(const Mechanism& mechanism, const Joint& wanted) {
 
 }  // namespace
 
-// How often a way is halved at most; whole turns between two positions come down to a tenth of
-// kFar.
+// The most halvings of a way; they bring whole turns between two positions down to a tenth of kFar.
 constexpr int PassiveJoints::kHalvings;
 constexpr int PassiveJoints::kMostSearches;
 
@@ -49,18 +48,18 @@ bool PassiveJoints::complete(Motion& motion, const Dynamics& dynamics,
   setNearest(motion);
   searches_ = failures_ = 0;
   bool closes = follow(motion, kHalvings, dynamics, workspace);
-  // From where the way ends: the caller wants to know how far the loops stay open at the position
-  // itself. Where they close after all, the way there led through a gap.
+  // Searches from where the way ends, as the caller wants to know how far the loops stay open at
+  // the position itself. Where they close after all, the way there led through a gap.
   if (givenUp()) closes = search(motion, targets_[kHalvings], dynamics, workspace);
   closed_ = closes ? completed_.q : before_;
-  // What was given stays as it is, with its whole turns.
+  // Given positions stay as they are, with their whole turns.
   for (const Eigen::Index i : given_) completed_.q[i] = motion.q[i];
   motion = completed_;
   return closes;
 }
 
-// What the motion gives, without the whole turns by which drivers wrap: the way back over a whole
-// turn may pass singular positions.
+// Takes the given positions without the whole turns by which drivers wrap: the way back over a
+// whole turn may pass singular positions.
 void PassiveJoints::setNearest(const Motion& motion) {
   Eigen::VectorXd& nearest = targets_[kHalvings];
   nearest = closed_;
@@ -71,7 +70,7 @@ void PassiveJoints::setNearest(const Motion& motion) {
   }
 }
 
-// Brings what the motion gives to the target, and the passive joints along.
+// Moves the given joints to the target and takes the passive joints along.
 bool PassiveJoints::follow(const Motion& motion, int halvings, const Dynamics& dynamics,
                            Dynamics::Workspace& workspace) {
   const auto place = static_cast<std::size_t>(halvings);
@@ -88,7 +87,7 @@ bool PassiveJoints::follow(const Motion& motion, int halvings, const Dynamics& d
   return closes;
 }
 
-// From the position that was found last.
+// Searches for `target` from the position that was found last.
 bool PassiveJoints::search(const Motion& motion, const Eigen::VectorXd& target,
                            const Dynamics& dynamics, Dynamics::Workspace& workspace) {
   ++searches_;

@@ -8,13 +8,13 @@
 
 namespace virtual_work_dynamics {
 
-/// Computes rows of a MotionTable a block at a time and hands the results out row by row: several
-/// samples in each vector instruction in an open chain, one after the other with closed loops, and
-/// in both cases divided among threads.
+/// Computes rows of a MotionTable a block at a time and hands the results out row by row: in an
+/// open chain several samples in each vector instruction, with closed loops one after the other, in
+/// both cases divided among threads.
 class SampleRows {
  public:
   /// @param dynamics must outlive it.
-  /// @param capacity most rows of a block.
+  /// @param capacity the most rows of a block.
   /// @throws Error when `threads` is less than 1.
   SampleRows(const Dynamics& dynamics, std::size_t capacity, int threads = 1);
   ~SampleRows();
@@ -25,23 +25,24 @@ class SampleRows {
 
   /// Computes rows [first, first + count) of `table`, whose joints are the generalized coordinates
   /// in their order and which has velocities and accelerations. Does not allocate.
-  /// @throws MotionError when the table is not such a one, or has fewer rows, or count is more than
-  ///   capacity().
+  /// @throws MotionError when the table differs from that, has fewer rows, or when count is more
+  ///   than capacity().
   void compute(const MotionTable& table, std::size_t first, std::size_t count);
 
   /// Results of row `index` of the last block; valid until another one is read or computed. Does
-  /// not allocate. @throws MotionError when there is no such row.
+  /// not allocate.
+  /// @throws MotionError when there is no such row.
   const Results& read(std::size_t index);
 
  private:
   struct Chain;
   struct Loops;
-  std::unique_ptr<Chain> chain_;  // one of the two
+  std::unique_ptr<Chain> chain_;  // exactly one of the two is set
   std::unique_ptr<Loops> loops_;
 };
 
-/// Row `row` of a table of all coordinates, with velocities and accelerations. Does not allocate
-/// when `motion` has their lengths.
+/// Copies row `row` of a table of all coordinates, with velocities and accelerations, into
+/// `motion`. Does not allocate when `motion` has the lengths already.
 void takeRow(const MotionTable& table, std::size_t row, Motion& motion);
 
 }  // namespace virtual_work_dynamics

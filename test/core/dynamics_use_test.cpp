@@ -234,8 +234,8 @@ TEST(DynamicsUse, SaysWhyLoopsAreOpen) {
   motion = SliderCrank::motion(0, 0, 0);
   ASSERT_FALSE(dynamics.complete(motion, workspace));
   EXPECT_EQ(dynamics.whyOpen(motion, workspace),
-            "the closures do not determine how the passive joints move: a singular position; give "
-            "the motion of all joints");
+            "the position is singular: the closures do not determine how the passive joints move; "
+            "give the motion of all joints");
 }
 
 // Of two closures, the one that is open furthest.

@@ -83,8 +83,8 @@ TEST_F(OfflineLoops, TheDriveAloneDoesNotSayHowTheOthersLeaveASingularPosition) 
         "time,position.drive,velocity.drive,acceleration.drive\n0,1.5,1,0\n"
         "0.1,1.5707963267948966,1,0\n");
   EXPECT_EQ(failure("--scene s.yaml --motion m.csv"),
-            "m.csv: line 3: the closures do not determine how the passive joints move: a singular "
-            "position; give the motion of all joints");
+            "m.csv: line 3: the position is singular: the closures do not determine how the "
+            "passive joints move; give the motion of all joints");
 }
 
 TEST_F(OfflineLoops, WhatLoopsDoNotHaveIsRefused) {

@@ -111,7 +111,7 @@ TEST_F(OfflineLoopThreads, ARowThatViolatesALoopIsNamedBeforeOneThatIsSingular) 
     write("m.csv", text);
     const Run one = expectSame("", 1);
     EXPECT_NE(one.err.find(violated ? "line 107: the positions violate"
-                                    : "line 112: the closures do not determine"),
+                                    : "line 112: the position is singular"),
               std::string::npos)
         << one.err;
   }
