@@ -85,8 +85,8 @@ CompletedMotion::CompletedMotion(const std::string& path, const Mechanism& mecha
   if (velocities_follow_) follow.push_back("velocities");
   if (accelerations_follow_) follow.push_back("accelerations");
   if (!follow.empty()) {
-    std::cerr << "note: " << path << ": of passive joints, by the closures: " << joined(follow)
-              << "\n";
+    std::cerr << "note: " << path
+              << ": of passive joints, computed from the closures: " << joined(follow) << "\n";
   }
 }
 

@@ -115,7 +115,7 @@ void printCost(std::ostream& out, const Scene& scene, const Dynamics& dynamics) 
   out << "closed loops are solved, sample by sample: " << conditionsOf(scene) << " conditions of "
       << scene.closures.size() << (scene.closures.size() == 1 ? " closure" : " closures") << ", "
       << scene.springs.size() << (scene.springs.size() == 1 ? " spring" : " springs")
-      << "; the tree is gone through twice, first for efforts alone; not counted above\n";
+      << "; the tree is computed twice, first for efforts alone; this is not counted above\n";
 }
 
 }  // namespace virtual_work_dynamics

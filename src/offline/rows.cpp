@@ -117,17 +117,17 @@ std::string Rows::warning() const {
   std::string text;
   if (overflowed_ > 0) {
     text = "warning: " + file_.path + ": results of " + rows(overflowed_) +
-           " overflow, first of line " + std::to_string(first_line_) + "; their cells are empty\n";
+           " overflow, first in line " + std::to_string(first_line_) + "; their cells are empty\n";
   }
   if (singular_ > 0) {
     text += "warning: " + file_.path + ": " + rows(singular_) +
             " in singular positions, first in line " + std::to_string(first_singular_line_) +
-            "; cells of what has no value there are empty\n";
+            "; cells of results without a value there are empty\n";
   }
   if (conditions_.close() > 0) {
     text += "warning: " + file_.path + ": " + rows(conditions_.close()) +
             " close to singular positions, " + conditions_.worst(file_) +
-            ": forces may be as many times the load\n";
+            ": forces may exceed the load by this factor\n";
   }
   return text;
 }

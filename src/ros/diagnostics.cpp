@@ -111,7 +111,7 @@ void Diagnostics::summarize(DiagnosticStatusWrapper& status, const Before& now,
   }
   if (now.restarts > before_.restarts && now.motions == before_.motions) {
     status.mergeSummaryf(DiagnosticStatus::WARN,
-                         "no result of joint states: their stamps made the estimator start anew "
+                         "no result from joint states: their stamps made the estimator restart "
                          "%llu times (see ~estimator/max_gap)",
                          static_cast<unsigned long long>(now.restarts - before_.restarts));
   }

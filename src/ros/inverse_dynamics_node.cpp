@@ -113,13 +113,13 @@ bool InverseDynamicsNode::push(const JointSample& sample) {
       estimator_.push(sample.stamp_ns, sample.coordinates, sample.q, sample.qd, sample.count);
   if (verdict == Verdict::kEqualStamp) {
     drop(joint_state_subscriber_.getTopic(), DropReason::kEqualStamp,
-         "its stamp " + stampText(sample.stamp_ns) + " was there before");
+         "its stamp " + stampText(sample.stamp_ns) + " was received before");
     return false;
   }
   if (verdict != Verdict::kAccepted) counters_.restarts.add();
   if (verdict == Verdict::kRestartedGap) reportGap();
   if (verdict == Verdict::kRestartedBack && restart_throttle_.open()) {
-    ROS_INFO("%s: time went back to stamp %s: the estimator starts anew",
+    ROS_INFO("%s: time went back to stamp %s: the estimator restarts",
              joint_state_subscriber_.getTopic().c_str(), stampText(sample.stamp_ns).c_str());
   }
   if (verdict != Verdict::kAccepted) window_filled_ = false;
@@ -140,7 +140,7 @@ void InverseDynamicsNode::reportGap() {
       joint_state_subscriber_.getTopic() + ": a gap of " +
       numberText(static_cast<double>(estimator_.latestGap()) / 1e9) +
       " s is longer than ~estimator/max_gap = " + numberText(task_.estimator.max_gap) +
-      " s: the estimator starts anew";
+      " s: the estimator restarts";
   if (window_filled_) {
     ROS_INFO("%s", text.c_str());
   } else {
@@ -184,7 +184,7 @@ void InverseDynamicsNode::take(const trajectory_msgs::JointTrajectory& message, 
   const std::string topic = trajectory_subscriber_.getTopic();
   const ros::Time start = message.header.stamp.isZero() ? receipt : message.header.stamp;
   if (start.isZero()) {
-    drop(topic, DropReason::kNoTime, "its stamp is zero, and /clock has not come yet");
+    drop(topic, DropReason::kNoTime, "its stamp is zero, and /clock has not been received yet");
     return;
   }
   auto rejection = trajectories_.convert(message, static_cast<std::int64_t>(start.toNSec()),
@@ -296,7 +296,7 @@ void InverseDynamicsNode::adaptPlan() {
     plans_.offer(std::move(plan));
     audience_ = audience;
   } catch (const std::exception& error) {
-    ROS_ERROR("what is computed stays as it is, as the change that subscribers make failed: %s",
+    ROS_ERROR("the change of subscribers failed, and what is computed stays as it is: %s",
               error.what());
   }
 }
@@ -309,14 +309,14 @@ void InverseDynamicsNode::watchJoints(Clock::time_point now) {
   const std::vector<std::string> in_vain = joint_watch_.notNeeded(true);
   if (!in_vain.empty()) {
     ROS_WARN(
-        "%s: passive joints %s have come, but not %s: they are ignored, and all of them follow "
-        "from the closures",
+        "%s: passive joints %s are given, but not %s: they are ignored, and the motion of all "
+        "passive joints follows from the closures",
         joint_state_subscriber_.getTopic().c_str(), shortList(in_vain).c_str(),
         shortList(joint_watch_.notNeeded(false)).c_str());
   }
   const std::vector<std::string> missing = joint_watch_.neverSeen();
   if (missing.empty()) return;
-  ROS_WARN("%s: after 5 s still without joints %s; nothing is published until all have come",
+  ROS_WARN("%s: joints %s have not been received in 5 s; nothing is published until all have been",
            joint_state_subscriber_.getTopic().c_str(), shortList(missing).c_str());
 }
 

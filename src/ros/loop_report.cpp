@@ -82,7 +82,7 @@ LoopReport::LoopReport(const Dynamics& dynamics, Names reactions, LoopRecord& re
 void LoopReport::add(DiagnosticStatusWrapper& status) {
   if (!closed_) return;
   const LoopRecord::Report report = record_.take();
-  status.add("passive joints", report.passive_given ? "given" : "by the closures");
+  status.add("passive joints", report.passive_given ? "given" : "from the closures");
   if (report.news) latest_ = report;
   status.add("samples that violate a loop", report.violations);
   status.add("samples in singular positions", report.singular);
@@ -140,7 +140,7 @@ void LoopReport::addConditions(DiagnosticStatusWrapper& status,
   status.mergeSummary(DiagnosticStatus::WARN,
                       "close to a singular position of the loops through " + shortList(loops) +
                           ", condition " + shortNumber(largestOf(conditions)) +
-                          ": forces may be as many times the load; ~condition_warn is " +
+                          ": forces may exceed the load by this factor; ~condition_warn is " +
                           numberText(limits_.condition));
 }
 

@@ -74,7 +74,7 @@ void MotionCompleter::complete(TrajectoryMotion& trajectory, const Dynamics& dyn
   } else {
     return;
   }
-  if (!trajectory.completion.empty()) trajectory.completion += "; passive joints by the closures";
+  if (!trajectory.completion.empty()) trajectory.completion += "; passive joints from the closures";
 }
 
 void MotionCompleter::follow(TrajectoryMotion& trajectory, const Dynamics& dynamics,

@@ -70,7 +70,7 @@ void RobotTask::log(const InverseDynamicsParameters& parameters) const {
   const auto& names = mechanism.coordinateNames();
   const Eigen::Vector3d& g = scene.gravity;
   const std::string accelerations =
-      scene.static_motion ? "static scene, no velocities nor accelerations"
+      scene.static_motion ? "static scene without velocities and accelerations"
       : !estimator.estimate
           ? "accelerations of joint states taken as zero"
           : "accelerations of joint states estimated (window " + std::to_string(estimator.window) +

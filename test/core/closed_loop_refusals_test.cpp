@@ -68,14 +68,14 @@ TEST(ClosedLoopRefusals, Closures) {
       },
       "closures: 'pin': no joint moves 'link_5' relative to 'link_0'");
   expectRefusal([](Scene& scene) { pinOf(scene).name = "joint_2"; },
-                "closures: 'joint_2': a joint has that name, too");
+                "closures: 'joint_2': a joint has the same name");
   expectRefusal([](Scene& scene) { pinOf(scene).name = "ground"; },
                 "closures: 'ground': that name is reserved");
   expectRefusal([](Scene& scene) { pinOf(scene).name = ""; }, "closures: a closure has no name");
   expectRefusal([](Scene& scene) { scene.closures.push_back(pinOf(scene)); },
                 "closures: 'pin' is given twice");
   expectRefusal([](Scene& scene) { pinOf(scene).length = 1; },
-                "closures: 'pin': length is of the type distance only");
+                "closures: 'pin': only a closure of type distance has a length");
   expectRefusal(
       [](Scene& scene) {
         pinOf(scene).type = ClosureType::kDistance;

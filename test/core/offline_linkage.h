@@ -84,7 +84,8 @@ class OfflineLoops : public OfflineTool {
   }
 
   static constexpr char kFollow[] =
-      "note: m.csv: of passive joints, by the closures: positions, velocities, accelerations\n";
+      "note: m.csv: of passive joints, computed from the closures: positions, velocities, "
+      "accelerations\n";
 };
 
 }  // namespace virtual_work_dynamics

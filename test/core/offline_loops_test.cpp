@@ -179,8 +179,9 @@ TEST_F(OfflineLoops, TheMechanismStaysOnItsBranch) {
 TEST_F(OfflineLoops, AStaticSceneTakesPositionsOnly) {
   write("static.yaml", pinned("0.5") + "motion: static\n");
   write("m.csv", "time,position.drive\n0,0.3\n");
-  const NumberTable results = table("--scene static.yaml --motion m.csv",
-                                    "note: m.csv: of passive joints, by the closures: positions\n");
+  const NumberTable results =
+      table("--scene static.yaml --motion m.csv",
+            "note: m.csv: of passive joints, computed from the closures: positions\n");
   const LinkageTruth truth(0.3, 0, 0);
   expectClose(results.rows.at(0).at(1), truth.effort);
   expectClose(results.rows[0][static_cast<std::size_t>(results.column("reaction.pin.fz"))],
@@ -200,10 +201,10 @@ TEST_F(OfflineLoops, DerivativesThatAreMissingKeepTheLoopsClosed) {
   write("m.csv", drive);
   const std::string estimated =
       ": estimated from the rows around each row: velocities, accelerations\n";
-  const NumberTable of_all =
-      table("--scene s.yaml --motion all.csv",
-            "note: all.csv" + estimated +
-                "note: all.csv: of passive joints, by the closures: velocities, accelerations\n");
+  const NumberTable of_all = table("--scene s.yaml --motion all.csv",
+                                   "note: all.csv" + estimated +
+                                       "note: all.csv: of passive joints, computed from the "
+                                       "closures: velocities, accelerations\n");
   const NumberTable of_drive =
       table("--scene s.yaml --motion m.csv", "note: m.csv" + estimated + kFollow);
   ASSERT_EQ(of_all.rows.size(), 30u);
@@ -220,8 +221,8 @@ TEST_F(OfflineLoops, SingularPositionsLeaveOutWhatIsNotDetermined) {
   write("all.csv", kAllColumns + row(0, kStates[1]) + row(0.1, dead) + row(0.2, kStates[3]));
   const NumberTable results =
       table("--scene s.yaml --motion all.csv",
-            "warning: all.csv: 1 row in singular positions, first in line 3; cells of what is not "
-            "determined there are empty\n");
+            "warning: all.csv: 1 row in singular positions, first in line 3; cells of results "
+            "without a value there are empty\n");
   ASSERT_EQ(results.rows.size(), 3u);
   int left_out = 0;
   for (std::size_t j = 0; j < results.header.size(); ++j) {

@@ -249,7 +249,7 @@ TEST_F(OfflineTool, WhatOverflowsIsAnEmptyCellAndOneWarning) {
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(
         result.err,
-        "warning: m.csv: results of 2 rows overflow, first of line 4; their cells are empty\n");
+        "warning: m.csv: results of 2 rows overflow, first in line 4; their cells are empty\n");
     const NumberTable table = parseTable(result.out);
     ASSERT_EQ(table.rows.size(), 3u);
     EXPECT_TRUE(std::isfinite(table.rows[0][2]));
