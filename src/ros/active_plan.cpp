@@ -13,7 +13,7 @@ bool isEmpty(const Request& request) {
   return !request.efforts && request.child_axes.empty() && request.root_axes.empty();
 }
 
-// What is computed: what outputs need, and what certificates need.
+// Adds what certificates need to what outputs need.
 Request computed(const Request& request, PlanChecks checks) {
   return checks.certificates && !isEmpty(request) ? Certifier::extended(request) : request;
 }

@@ -27,8 +27,8 @@ struct ActiveOutput {
   std::unique_ptr<OutputMessage> message;
 };
 
-/// An audience compiled: plan, memory and messages that belong together, so that whatever is
-/// published from one of these is complete.
+/// The compiled plan of an audience, with the memory and the messages that belong to it, so that
+/// whatever is published from it is complete.
 struct ActivePlan {
   /// Compiles what the audience needs. Where nothing is requested, nothing is checked.
   /// @param reactions all that the scene asks for
@@ -36,7 +36,8 @@ struct ActivePlan {
              const std::vector<std::string>& reactions, Audience who, PlanChecks checks);
 
   bool wantsSamples() const { return wants_samples; }
-  /// Whether points of trajectories are wanted: by themselves, or for a message of them all.
+  /// Whether points of trajectories are wanted, each by itself or for a message of the whole
+  /// trajectory.
   bool wantsPoints() const { return !outputs.empty(); }
   bool wantsTrajectories() const { return wants_trajectories; }
 
@@ -46,19 +47,20 @@ struct ActivePlan {
   SampleRows points;  ///< of trajectories
   std::vector<ActiveOutput> outputs;
   bool wants_samples = false, wants_trajectories = false;
-  std::shared_ptr<CrossCheckSlot> cross_check;  ///< null: off
-  std::optional<Certifier> certifier;           ///< none: off
-  std::size_t ground = 0;  ///< with a certifier: where Results::child_axes has ground's reaction
-  Load tree_load;          ///< with a certifier: of the sample that is certified
-  /// Which of the scene's reactions the first results are; behind them stands what checks need.
+  std::shared_ptr<CrossCheckSlot> cross_check;  ///< null when off
+  std::optional<Certifier> certifier;           ///< empty when off
+  std::size_t ground = 0;  ///< with a certifier: place of ground's reaction in Results::child_axes
+  Load tree_load;          ///< with a certifier: load of the sample that is certified
+  /// Indices into the scene's reactions of the first results; the results after these are for
+  /// checks.
   std::vector<std::size_t> root_reactions, child_reactions;
 };
 
-/// One line for the user: what is computed.
+/// Says in one line for the user what is computed.
 std::string describe(const ActivePlan& plan);
 
-/// One line for the user: what a sample costs. Empty when nothing is computed, and with closed
-/// loops, whose operations depend on the position.
+/// Says in one line for the user what a sample costs. Empty when nothing is computed, and with
+/// closed loops, whose operations depend on the position.
 std::string operationsOf(const ActivePlan& plan);
 
 }  // namespace virtual_work_dynamics

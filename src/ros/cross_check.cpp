@@ -11,10 +11,10 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// How soon a sample is seen, as the thread that computes does not so much as wake another one.
+// Time after which a waiting sample is looked for: the computing thread does not wake this one.
 constexpr std::chrono::milliseconds kPoll{20};
 
-// Sums below this, that lose digits to denormal numbers, are not held against the results.
+// Sums below this lose digits to denormal numbers; differences are then relative to this.
 constexpr double kSmallestSum =
     std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 
@@ -32,7 +32,7 @@ double relative(double difference, double sum) {
   return difference / std::max(sum, kSmallestSum);
 }
 
-// Norms that neither overflow nor underflow pass over NaN.
+// Norms that neither overflow nor underflow ignore NaN, so NaN is tested for first.
 double distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Eigen::Vector3d difference = a - b;
   return difference.allFinite() ? difference.stableNorm() : std::numeric_limits<double>::infinity();
@@ -45,8 +45,8 @@ void keepLarger(double value, const char* what, const std::string& name,
   finding.where = what + name;
 }
 
-// Whatever else wants the processor goes first, also when the node was started with a real-time
-// priority, which threads inherit. Where the system refuses, priorities stay equal.
+// Lets everything else that wants the processor go first, also when the node was started with a
+// real-time priority, which threads inherit. Where the system refuses, priorities stay equal.
 void yieldToOthers() {
 #ifdef SCHED_IDLE
   sched_param none{};
@@ -84,14 +84,14 @@ bool CrossCheckSlot::offer(const Motion& motion, const Results& results) {
   State state = state_.load(std::memory_order_relaxed);
   if (state == State::kChecking) return false;
   if (state == State::kEmpty) offered_ = 0;
-  // The n-th in place of the one before with probability 1/n leaves all equally likely.
+  // If the n-th sample replaces the one before with probability 1/n, all are equally likely.
   ++offered_;
   if (state == State::kFull && random_() % offered_ != 0) return false;
   if (!state_.compare_exchange_strong(state, State::kWriting, std::memory_order_acquire)) {
     return false;
   }
   motion_ = motion;
-  effort_ = results.effort.head(effort_.size());  // behind them those of closures
+  effort_ = results.effort.head(effort_.size());  // those of closures come after them
   child_axes_ = results.child_axes;
   root_axes_ = results.root_axes;
   if (closed_) load_.wrenches = results.loops.tree_wrenches;
@@ -153,7 +153,7 @@ CrossCheck::~CrossCheck() {
 }
 
 void CrossCheck::watch(std::shared_ptr<CrossCheckSlot> slot) {
-  // What is replaced is deleted by whoever lets go of it last, outside the lock.
+  // The replaced slot is deleted outside the lock, by its last owner.
   const std::lock_guard<std::mutex> lock(mutex_);
   slot_.swap(slot);
 }

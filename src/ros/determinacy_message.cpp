@@ -32,7 +32,7 @@ void summarize(DiagnosticStatus& status, std::size_t open, const std::string& po
       position;
 }
 
-// Whether that changed anything.
+// Copies flags from their places; returns whether any changed.
 bool take(const std::vector<Determined>& results, const std::vector<std::size_t>& places,
           std::vector<Determined>& flags) {
   bool changed = false;
@@ -52,7 +52,7 @@ DeterminacyMessage::DeterminacyMessage(const std::string& robot, std::vector<std
       condition_warn_(condition_warn),
       root_axes_(reactions_.size()),
       child_axes_(reactions_.size()) {
-  determinacy_.rank = -1;  // like no other
+  determinacy_.rank = -1;  // differs from every real rank
   message_.status.resize(3);
   message_.status[0].name = "determinacy of efforts";
   message_.status[1].name = "determinacy of reactions, root axes";

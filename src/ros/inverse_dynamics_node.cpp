@@ -76,7 +76,8 @@ InverseDynamicsNode::~InverseDynamicsNode() {
   manager_.join();
 }
 
-// One message that cannot be dealt with, for want of memory say, does not end the node.
+// Drops a message whose processing throws, for example for lack of memory, and keeps the node
+// running.
 template <typename Work>
 void InverseDynamicsNode::guard(const ros::Subscriber& source, Work work) {
   try {
@@ -133,7 +134,8 @@ bool InverseDynamicsNode::push(const JointSample& sample) {
   return true;
 }
 
-// Joint states that are always too far apart would never give anything.
+// Warns when the window was not full before: joint states that are always too far apart never give
+// a result.
 void InverseDynamicsNode::reportGap() {
   if (!(window_filled_ ? restart_throttle_ : gap_throttle_).open()) return;
   const std::string text =

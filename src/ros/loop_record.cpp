@@ -9,7 +9,7 @@ constexpr double ClosureResidual::*kLevel[] = {
     &ClosureResidual::position, &ClosureResidual::velocity, &ClosureResidual::acceleration};
 
 void raise(std::atomic<double>& largest, double value) {
-  // Taken between the two lines, the larger value belongs to the next report.
+  // If take() runs between the two lines, the larger value belongs to the next report.
   if (value > largest.load(std::memory_order_relaxed)) {
     largest.store(value, std::memory_order_relaxed);
   }
@@ -68,7 +68,7 @@ void LoopRecord::recordResiduals(const Results& results) {
   if (violated) violations_.add();
 }
 
-// What somebody listens to and has no value.
+// Marks results that somebody listens to and that have no value.
 void LoopRecord::recordSingular(const Results& results, const ActivePlan& plan) {
   singular_.add();
   const auto mark = [](std::atomic<bool>& left_out, bool exists) {

@@ -8,7 +8,7 @@
 
 namespace virtual_work_dynamics {
 
-// Results written into messages that are there already.
+// Copies results into existing messages.
 
 template <typename Message>
 void copyVector(const Eigen::Vector3d& from, Message& to) {

@@ -52,7 +52,7 @@ bool MotionCompleter::complete(Motion& motion, const Dynamics& dynamics,
 }
 
 std::vector<bool> MotionCompleter::given(const TrajectoryMotion& trajectory) const {
-  std::vector<bool> given = actuated_;  // those that are left out rest where they were seen last
+  std::vector<bool> given = actuated_;  // actuated ones left out rest where seen last
   for (const int i : trajectory.coordinates) given[static_cast<std::size_t>(i)] = true;
   return given;
 }
@@ -99,8 +99,8 @@ void MotionCompleter::follow(TrajectoryMotion& trajectory, const Dynamics& dynam
   }
 }
 
-// Positions stay as they are given. Where these are far from closing the loops, so do the others,
-// and the residuals show it.
+// Completes velocities and accelerations. Positions stay as they are given; where these are far
+// from closing the loops, velocities and accelerations stay too, and the residuals show it.
 void MotionCompleter::completeDerivatives(TrajectoryMotion& trajectory, const Dynamics& dynamics,
                                           Dynamics::Workspace& workspace) {
   MotionTable& table = trajectory.table;

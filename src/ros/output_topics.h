@@ -17,12 +17,13 @@ namespace virtual_work_dynamics {
 /// audience may happen in different threads.
 class OutputTopics {
  public:
-  /// Advertises all outputs, and publishes what latched ones have to say at the start.
+  /// Advertises all outputs, and publishes what latched ones say at the start.
   /// @param queue_size messages each subscriber may be behind.
   /// @param callbacks queue on which `changed` is called when a subscriber comes or goes.
   OutputTopics(ros::NodeHandle private_node, const Outputs& outputs, int queue_size,
                ros::CallbackQueueInterface& callbacks, const std::function<void()>& changed);
 
+  /// The outputs that have subscribers now.
   Audience audience() const;
   /// The topics of an audience.
   std::vector<std::string> names(const Audience& audience) const;

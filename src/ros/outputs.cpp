@@ -42,7 +42,6 @@ ros::AdvertiseOptions advertised(const std::string& topic, std::uint32_t queue) 
 }
 
 // --- ~effort: names, the positions and velocities used, efforts
-// --------------------------------------
 
 class EffortMessage : public MessageOf<sensor_msgs::JointState> {
  public:
@@ -81,7 +80,7 @@ class EffortMessage : public MessageOf<sensor_msgs::JointState> {
     return std::find(exists.begin(), exists.end(), false) == exists.end();
   }
 
-  const Names names_;  // of all; the message has those of what exists
+  const Names names_;  // all names; the message has those of existing results
 };
 
 class EffortOutput : public Output {
@@ -102,7 +101,6 @@ class EffortOutput : public Output {
 };
 
 // --- ~reactions: every reaction in root axes (4.3), with the poses of the joint frames
-// ---------------
 
 class ReactionsMessage : public MessageOf<sensor_msgs::MultiDOFJointState> {
  public:
@@ -145,7 +143,7 @@ class ReactionsMessage : public MessageOf<sensor_msgs::MultiDOFJointState> {
     message_.twist.resize(twist_ ? count : 0);
   }
 
-  const Names names_;  // of all; the message has those of what exists
+  const Names names_;  // all names; the message has those of existing results
   const std::vector<std::size_t> places_;
   const bool twist_;
 };
@@ -175,7 +173,6 @@ class ReactionsOutput : public Output {
 };
 
 // --- ~reaction/<name>: the wrench in the child link's or the closure's own frame
-// ---------------------
 
 class WrenchMessage : public MessageOf<geometry_msgs::WrenchStamped> {
  public:
@@ -212,8 +209,7 @@ class WrenchOutput : public Output {
   std::string reaction_, topic_, frame_;
 };
 
-// --- ~determinacy: what rigid-body mechanics determines, latched; said again when it changes
-// ---------
+// --- ~determinacy: what rigid-body mechanics determines, latched; published again when it changes
 
 class DeterminacyOutputMessage : public OutputMessage {
  public:
@@ -264,12 +260,11 @@ class DeterminacyOutput : public Output {
 
  private:
   Names reactions_;
-  // One for all plans: what has been said stays said.
+  // One message for all plans, so that a new plan does not repeat it.
   std::shared_ptr<DeterminacyMessage> message_;
 };
 
 // --- ~joint_trajectory: the input trajectory with the efforts filled in
-// ------------------------------
 
 class TrajectoryMessage : public MessageOf<trajectory_msgs::JointTrajectory> {
  public:
@@ -290,7 +285,7 @@ class TrajectoryMessage : public MessageOf<trajectory_msgs::JointTrajectory> {
       const bool exists = sample.results.effortExists(static_cast<std::size_t>(i));
       efforts_(filled_, i) = exists ? sample.results.effort[i] : kNothing;
     }
-    // Complete or not at all.
+    // The message is published complete or not at all.
     exists_ = ++filled_ == efforts_.rows();
     if (exists_) message_ = withEfforts(*input_, *motion_, efforts_);
   }

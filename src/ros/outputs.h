@@ -21,22 +21,21 @@ struct OutputSample {
   const Results& results;
 };
 
-/// The message of one output in one plan, with names, frames and sizes set once. The computing
-/// thread's.
+/// The message of one output in one plan, with names, frames and sizes set once. Only the computing
+/// thread uses it.
 class OutputMessage {
  public:
   virtual ~OutputMessage() = default;
 
-  /// Outputs of trajectories: what the samples that follow are points of.
+  /// Begins a trajectory, whose points the next samples are; for outputs of trajectories.
   virtual void begin(const trajectory_msgs::JointTrajectory&, const TrajectoryMotion&) {}
-  /// Writes a sample. Allocates only where a result ceases or begins to exist, and for
-  /// trajectories.
+  /// Writes a sample. Allocates only when a result begins or ceases to exist, and for trajectories.
   virtual void fill(const OutputSample& sample) = 0;
-  /// Publishes what was written, if there is anything to say.
+  /// Publishes what was written, unless there is nothing to publish.
   virtual void publish(const ros::Publisher& topic) const = 0;
 };
 
-/// A message of one type, published as long as it exists.
+/// A message of one type, published when what was written has a value.
 template <typename Message>
 class MessageOf : public OutputMessage {
  public:
@@ -52,18 +51,18 @@ class MessageOf : public OutputMessage {
   bool exists_ = true;
 };
 
-/// An output of the node: its topic, what its subscribers need computed, and the message that this
-/// is written to. Everything about an output is in one class of outputs.cpp, with one line in the
-/// list there.
+/// An output of the node: its topic, what has to be computed for its subscribers, and the message
+/// for the results. Everything about an output is in one class of outputs.cpp, with one line in
+/// makeOutputs().
 class Output {
  public:
   virtual ~Output() = default;
 
   /// Name of the topic, below the node's own.
   virtual std::string topic() const = 0;
-  /// How it is advertised, except for who is told of subscribers.
+  /// How it is advertised, without callbacks for subscribers.
   virtual ros::AdvertiseOptions options(const std::string& topic, std::uint32_t queue) const = 0;
-  /// What there is to say before the first sample, to a latched topic.
+  /// Publishes what a latched topic says before the first sample.
   virtual void start(const ros::Publisher&) const {}
 
   /// Whether it has one message for each trajectory, rather than for each sample.
@@ -76,7 +75,7 @@ class Output {
 
 using Outputs = std::vector<std::unique_ptr<Output>>;
 
-/// What outputs depend on, apart from the plan.
+/// What outputs depend on in addition to the plan.
 struct OutputSettings {
   std::vector<std::string> reactions;        ///< joints and closures that the scene asks for
   std::vector<std::string> reaction_topics;  ///< their topics
@@ -93,7 +92,7 @@ Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
 /// Indices of the outputs that somebody listens to, ascending.
 using Audience = std::vector<std::size_t>;
 
-/// What an audience needs, and no more.
+/// The request of exactly what an audience needs.
 Request requestFor(const Outputs& outputs, const Audience& audience);
 
 }  // namespace virtual_work_dynamics

@@ -20,9 +20,9 @@ void PlanSwitch::collect() {
 }
 
 ActivePlan& PlanSwitch::current() {
-  // With the slot for the replaced plan still full, the switch waits for the next sample.
+  // While the slot for the replaced plan is still full, the switch waits for the next sample.
   if (offered_.load(std::memory_order_relaxed) != nullptr && retired_.load() == nullptr) {
-    // Only the compiling thread fills the slot, and it never leaves it empty again.
+    // Only the compiling thread fills offered_, and it does not empty it again.
     ActivePlan* const next = offered_.exchange(nullptr);
     retired_.store(current_);
     current_ = next;

@@ -21,7 +21,7 @@ Mechanism readRobot(const InverseDynamicsParameters& parameters) {
   }
 }
 
-// The estimator names its setting itself; what is wrong must show before anything is advertised.
+// Checks the settings before anything is advertised; the estimator names a wrong one itself.
 EstimatorSettings checkedSettings(const Mechanism& mechanism, EstimatorSettings settings,
                                   const Scene& scene) {
   try {
@@ -33,7 +33,7 @@ EstimatorSettings checkedSettings(const Mechanism& mechanism, EstimatorSettings 
   return settings;
 }
 
-// Of all that the scene asks for.
+// Compiles all that the scene asks for.
 Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const std::string& key) {
   if (mechanism.coordinates().empty()) {
     throw UrdfError("parameter " + key + ": robot '" + mechanism.name() +

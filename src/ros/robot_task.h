@@ -15,15 +15,15 @@
 
 namespace virtual_work_dynamics {
 
-/// What the parameters of inverse_dynamics_node make of the robot.
+/// The robot and the scene of inverse_dynamics_node, as its parameters give them.
 struct RobotTask {
   /// @throws Error, one line naming what is wrong with the robot, the scene or a parameter.
   explicit RobotTask(const InverseDynamicsParameters& parameters);
 
-  /// Tells the log what is to be computed, and of doubtful bodies.
+  /// Writes to the log what is to be computed, and warns of doubtful bodies.
   void log(const InverseDynamicsParameters& parameters) const;
 
-  /// Passive joints, by coordinate; none in an open chain.
+  /// Whether each coordinate is passive; none is in an open chain.
   std::vector<bool> passive() const;
 
   Mechanism mechanism;

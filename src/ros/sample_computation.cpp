@@ -76,14 +76,14 @@ SampleComputation::Outcome SampleComputation::finish(ActivePlan& plan, std::int6
   return Outcome::kDone;
 }
 
-// Singular positions need not bear the load.
+// Has a sample checked, unless its position is singular and so need not bear the load.
 void SampleComputation::check(ActivePlan& plan, const Results& results) {
   if (results.singular()) return;
   if (plan.cross_check) plan.cross_check->offer(motion_, results);
   if (!plan.certifier) return;
   plan.dynamics.getTreeLoad(results, plan.tree_load);
   tree_effort_ = results.effort.head(tree_effort_.size());
-  // Child axes of ground's reaction are the root link's.
+  // The child axes of ground's reaction are those of the root link.
   const Wrench& ground = results.child_axes[plan.ground];
   records_.certificates.record(
       plan.certifier->check(motion_, plan.tree_load, tree_effort_, ground));

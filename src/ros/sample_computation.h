@@ -15,7 +15,7 @@
 
 namespace virtual_work_dynamics {
 
-/// Where what is found about samples is kept; all outlive whoever writes to them.
+/// Records of what is found about samples; they outlive what writes to them.
 struct SampleRecords {
   Counters& counters;  ///< of samples, points and run times
   CertificateRecord& certificates;
@@ -23,26 +23,26 @@ struct SampleRecords {
 };
 
 /// Computes samples and trajectory points by the plan in use, writes its messages, and has results
-/// checked as the plan says. One thread. Does not allocate after construction.
+/// checked as the plan says. Serves one thread. Does not allocate after construction.
 class SampleComputation {
  public:
-  /// @param static_motion the scene takes velocities and accelerations as zero.
-  /// @param completer of motions of joint states; outlives this.
+  /// @param static_motion whether the scene takes velocities and accelerations as zero.
+  /// @param completer of motions of joint states; must outlive this.
   SampleComputation(Eigen::Index coordinates, bool static_motion, MotionCompleter& completer,
                     const SampleRecords& records);
 
-  /// Where the motion of the sample to compute next is to be put.
+  /// The motion of the sample to compute next, to be set by the caller.
   Motion& motion() { return motion_; }
 
-  /// What became of a sample; messages stay as they were unless it is done.
+  /// What became of a sample. Messages change only when it is kDone.
   enum class Outcome { kDone, kNotFinite, kOpenLoop };
 
-  /// The sample whose motion is motion(); messages of samples are written.
+  /// Computes the sample whose motion is motion() and writes messages of samples.
   Outcome compute(ActivePlan& plan, std::int64_t stamp_ns);
-  /// One point of a trajectory, by itself.
+  /// Computes one point of a trajectory by itself.
   Outcome compute(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t point);
-  /// The next point of a trajectory from the first on, as many at once as the plan takes. Writes
-  /// messages of trajectories, and those of samples where `as_sample`.
+  /// Computes the next point of a trajectory, beginning with the first, as many at once as the plan
+  /// takes. Writes messages of trajectories, and also those of samples if `as_sample`.
   Outcome computeNext(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t point,
                       bool as_sample);
 
@@ -60,7 +60,7 @@ class SampleComputation {
   MotionCompleter& completer_;
   SampleRecords records_;
   Motion motion_;
-  Eigen::VectorXd tree_effort_;  // without actuated closures
+  Eigen::VectorXd tree_effort_;  // without efforts of actuated closures
 };
 
 }  // namespace virtual_work_dynamics
