@@ -12,14 +12,15 @@ namespace virtual_work_dynamics {
 /// Certifies the rows of a file and remembers the worst.
 class CertifiedRows {
  public:
-  /// @param dynamics of an extended request; must outlive it
+  /// @param dynamics of a request from Certifier::extended(); must outlive it
   CertifiedRows(const Mechanism& mechanism, const Dynamics& dynamics)
       : dynamics_(dynamics),
         certifier_(mechanism, dynamics.tree()),
         ground_(Certifier::groundIndex(dynamics.request())) {}
 
-  /// Singular positions, which need not bear the load, are not certified.
-  /// @param line of the row in its file   @param cells gets one for each of kCertificateColumns
+  /// Certifies a row, unless its position is singular and so need not bear the load.
+  /// @param line of the row in its file
+  /// @param cells receives one for each of kCertificateColumns
   void check(const Motion& motion, const Results& results, std::size_t line,
              std::vector<double>& cells);
 
@@ -33,10 +34,10 @@ class CertifiedRows {
   Certifier certifier_;
   std::size_t ground_;
   Load load_;
-  double worst_ = -1;  ///< no row yet
+  double worst_ = -1;  ///< negative before the first row
   const char* worst_column_ = "";
   std::size_t worst_line_ = 0;
-  std::size_t uncertified_ = 0;  ///< rows whose certificates are not finite
+  std::size_t uncertified_ = 0;  ///< rows with certificates that are not finite
   std::size_t singular_ = 0;     ///< rows
 };
 

@@ -19,13 +19,13 @@ std::string joined(const Names& words) {
   return text;
 }
 
-// All coordinates, or the actuated ones where no passive joint is given.
+// Chooses all coordinates, or the actuated ones when no passive joint is given.
 JointChoice choiceOf(const std::string& path, const Mechanism& mechanism,
                      const Dynamics& dynamics) {
   return [&path, &mechanism, &dynamics](const Names& header) {
     const Names& all = mechanism.coordinateNames();
     const GivenJoints rule(mechanism, dynamics);
-    // The file's reader names the actuated ones that are missing.
+    // The file's reader names missing actuated joints.
     std::vector<bool> given = dynamics.actuated();
     for (std::size_t i = 0; i < all.size(); ++i) {
       if (std::find(header.begin(), header.end(), all[i]) != header.end()) given[i] = true;
@@ -39,7 +39,7 @@ JointChoice choiceOf(const std::string& path, const Mechanism& mechanism,
   };
 }
 
-// Columns of all coordinates; those that were not there are zero.
+// Widens the table to columns of all coordinates; new columns are zero.
 void widen(const Mechanism& mechanism, MotionTable& table) {
   const Names& all = mechanism.coordinateNames();
   for (Eigen::MatrixXd* columns : {&table.positions, &table.velocities, &table.accelerations}) {

@@ -11,13 +11,13 @@
 namespace virtual_work_dynamics {
 
 /// The recorded motion of all coordinates of a mechanism. A file that gives all joints is taken as
-/// it is and held against the loops, if there are any; one that gives the actuated joints only is
-/// completed by the closures, row by row.
+/// it is and checked against the loops, if there are any. One that gives only the actuated joints
+/// is completed by the closures, row by row.
 class CompletedMotion {
  public:
   /// Reads the file. Derivatives that it lacks are estimated for the joints that it gives, and
   /// follow from the closures for the others.
-  /// @param tolerance of the loops, relative
+  /// @param tolerance for relative residuals of the loops
   /// @throws FileError naming joints that are missing.
   CompletedMotion(const std::string& path, const Mechanism& mechanism, const Scene& scene,
                   const Dynamics& dynamics, double tolerance);
@@ -31,17 +31,18 @@ class CompletedMotion {
     return positions_follow_ || velocities_follow_ || accelerations_follow_;
   }
   /// Completes a row of file(). Positions that it lacks are searched for from those of the row
-  /// completed before, of the first row from the assembly.
+  /// completed before; for the first row, from the assembly.
   /// @throws FileError naming line, closure and amount when the loops cannot be closed.
   void complete(std::size_t row, const Dynamics& dynamics, Dynamics::Workspace& workspace);
-  /// @throws FileError naming line, closure and amount when the row, computed, violates a loop.
+  /// Checks that a row closes the loops.
+  /// @throws FileError naming line, closure and amount when the computed row violates a loop.
   void check(std::size_t row, const Results& computed) const;
 
  private:
   std::vector<std::string> closures_;
   double tolerance_;
   MotionFile file_;
-  // What of the passive joints follows from the closures.
+  // Whether the passive joints' positions, velocities and accelerations follow from the closures.
   bool positions_follow_ = false, velocities_follow_ = false, accelerations_follow_ = false;
   Motion row_;
   PassiveJoints passive_;

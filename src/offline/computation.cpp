@@ -8,11 +8,11 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Rows of a thread between two hand-overs.
+// Rows that a thread computes between two hand-overs.
 constexpr std::size_t kRowsAtOnce = 512;
 constexpr std::size_t kClosedRowsAtOnce = 64;
 
-// No more than have a row each.
+// Limits threads to the number of rows.
 int usefulThreads(int threads, std::size_t rows) {
   const std::size_t most = std::max<std::size_t>(1, rows);
   return static_cast<int>(std::min(static_cast<std::size_t>(threads), most));
@@ -62,7 +62,7 @@ Computation::Block Computation::complete(std::size_t start) {
       motion_.complete(start + block.count, dynamics_, workspace_);
     }
   } catch (const FileError&) {
-    block.open = std::current_exception();  // rows before it may be wrong as well
+    block.open = std::current_exception();  // rethrown when the rows before it were checked
   }
   return block;
 }

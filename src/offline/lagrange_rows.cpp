@@ -6,7 +6,7 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// `in_tree`: those of `names` that the tree has, in the same order.
+// `in_tree` holds those of `names` that the tree has, in the same order.
 std::vector<int> placesOf(const std::vector<std::string>& names,
                           const std::vector<std::string>& in_tree) {
   std::vector<int> places;

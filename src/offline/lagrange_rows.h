@@ -7,23 +7,23 @@
 
 namespace virtual_work_dynamics {
 
-/// Efforts and reactions of joints by Lagrange's equations, in long double. Of closed loops they
-/// take what acts in the closures from the solution and find all else by themselves, on the tree
-/// with these wrenches applied to it: that the efforts of passive joints vanish says that the
-/// solution is one.
+/// Efforts and reactions of joints by Lagrange's equations, in long double. With closed loops they
+/// take the closures' wrenches from the solution and find everything else by themselves, on the
+/// tree with these wrenches applied to it. The efforts of passive joints vanish when the solution
+/// is right.
 class LagrangeRows {
  public:
-  /// Of the request of `dynamics`, which must outlive it.
+  /// Computes the request of `dynamics`, which must outlive it.
   LagrangeRows(const Mechanism& mechanism, const Dynamics& dynamics);
 
-  /// The results with efforts and reactions of joints replaced; those of closures, and of actuated
-  /// closures, stay. Valid until it is called again.
+  /// Returns the results with efforts and reactions of joints replaced; reactions of closures and
+  /// efforts of actuated closures stay. Valid until the next call.
   const Results& compute(const Motion& motion, const Results& results);
 
  private:
   const Dynamics& dynamics_;
   LagrangeDynamics<long double> lagrange_;
-  // Where the entries of the request are in that of the tree; -1: a closure.
+  // By entry of the request: its place in the tree's request; -1 for a closure.
   std::vector<int> child_places_, root_places_;
   Load load_;
   Results results_;

@@ -48,7 +48,7 @@ void printCount(std::ostream& out, const std::string& what, int count) {
   out << "  " << what << ": " << count << "\n";
 }
 
-// "pin (fz tx ty)" for each reaction with components that are not determined.
+// Lists each reaction with components that are not determined, as "pin (fz tx ty)".
 Names undeterminedReactions(const Names& names, const std::vector<Determined>& flags) {
   Names texts;
   for (std::size_t i = 0; i < names.size(); ++i) {

@@ -35,7 +35,7 @@ Scene loadScene(const Arguments& arguments) {
   return scene;
 }
 
-// What is written.
+// The request of what is written.
 Request requestOf(const Mechanism& mechanism, const Scene& scene, const Arguments& arguments) {
   Request request;
   request.efforts = !arguments.no_efforts;
@@ -44,12 +44,12 @@ Request requestOf(const Mechanism& mechanism, const Scene& scene, const Argument
   return request;
 }
 
-// What is computed for it: certificates take results of their own, behind the others.
+// The request of what is computed: certificates need results of their own, after the others.
 Request computedFor(const Request& written, const Arguments& arguments) {
   return arguments.certificates ? Certifier::extended(written) : written;
 }
 
-// Of the table that is written.
+// The columns of the table that is written.
 Columns columnsOf(const Dynamics& dynamics, const Request& written, const Arguments& arguments) {
   Columns columns;
   if (written.efforts) columns.efforts = dynamics.effortNames();
@@ -62,7 +62,7 @@ Columns columnsOf(const Dynamics& dynamics, const Request& written, const Argume
   return columns;
 }
 
-// What the command line asks for and open chains do not have.
+// Refuses options that open chains do not have.
 void refuseByLoops(const Arguments& arguments, bool loops) {
   if (arguments.loop_tolerance && !loops) {
     throw UsageError("--loop-tolerance: the scene has no closures");
@@ -73,7 +73,7 @@ void refuseToOverwriteInput(const Arguments& arguments) {
   if (arguments.output.empty()) return;
   for (const std::string& input : {arguments.urdf, arguments.motion, arguments.scene}) {
     if (input.empty()) continue;
-    std::error_code missing;  // a file that is not there is no input
+    std::error_code missing;  // a missing file cannot be overwritten
     if (std::filesystem::equivalent(input, arguments.output, missing) ||
         std::filesystem::equivalent(input, partPath(arguments.output), missing)) {
       throw UsageError("--output: '" + arguments.output + "' would overwrite the input '" + input +
@@ -88,7 +88,7 @@ void printReactions(const Request& request) {
   printNames(std::cout, "reactions", names);
   if (names.empty()) return;
   printNames(std::cout, "axes", {child ? "of the child link" : "of the root link"});
-  std::cout << std::flush;  // before what is wrong ends up on the other stream
+  std::cout << std::flush;  // before an error goes to the other stream
 }
 
 void printMotion(const MotionFile& motion) {

@@ -78,7 +78,7 @@ void Rows::take(std::size_t row, const Results& results) {
   if (!finite && ++overflowed_ == 1) first_line_ = file_.lines[row];
 }
 
-// Makes NaN, an empty cell, of what has no value.
+// Turns results without a value into NaN, which is written as an empty cell.
 void Rows::leaveOut(std::size_t row, const Results& results) {
   constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
   if (++singular_ == 1) first_singular_line_ = file_.lines[row];

@@ -15,8 +15,8 @@
 
 namespace virtual_work_dynamics {
 
-/// Names of the columns that a mechanism with closed loops adds: what of efforts and reactions is
-/// determined, and how far each closure is violated.
+/// Names of the columns that closed loops add: which efforts and reactions are determined, and how
+/// far each closure is violated.
 std::vector<std::string> loopColumns(const Columns& results,
                                      const std::vector<std::string>& closures);
 
@@ -25,9 +25,9 @@ class Conditions {
  public:
   void note(std::size_t row, const Results& results);
 
-  /// "condition 12.3 at worst, line 7, at 0.5 s"
+  /// Says, for example, "condition 12.3 at worst, line 7, at 0.5 s".
   std::string worst(const MotionFile& file) const;
-  /// Rows that are close, for practical purposes, except for those that are singular.
+  /// Number of rows close to a singular position, without the singular ones.
   std::size_t close() const { return close_; }
 
  private:
@@ -37,18 +37,18 @@ class Conditions {
 };
 
 /// Writes rows in their order, and tells of those that overflowed or lack values. Shows progress
-/// until its end.
+/// until it is destroyed.
 class Rows {
  public:
-  /// @param child_axes reactions in child link axes rather than root axes
-  /// @param loops whether results have what loopColumns() names
+  /// @param child_axes whether reactions are in child link axes rather than root axes
+  /// @param loops whether the columns include loopColumns()
   /// @param certified null when no certificates are asked for
   Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool loops,
        CertifiedRows* certified, ResultWriter& writer);
 
   void write(std::size_t row, const Motion& motion, const Results& results);
 
-  /// Lines on what is missing in the rows; may be none.
+  /// Lines on what is missing in the rows; empty when nothing is.
   std::string warning() const;
 
  private:
@@ -61,7 +61,7 @@ class Rows {
   const bool child_axes_, loops_;
   CertifiedRows* certified_;
   ResultWriter& writer_;
-  // Those that are written; certificates' own come behind them in the results.
+  // The results that are written; those that only certificates need come after them.
   Eigen::VectorXd effort_;
   std::vector<Wrench> reactions_;
   std::vector<double> more_;
