@@ -71,7 +71,7 @@ class Resolver {
     }
   }
 
-  // Coordinate of a joint that moves on its own account.
+  // Finds the coordinate of a joint that neither is fixed nor mimics another one.
   int coordinateOf(const std::string& list, const std::string& name) const {
     const int k = mechanism_.jointIndex(name);
     if (k < 0) throw SceneError(list + ": the robot has no joint '" + name + "'");
