@@ -20,10 +20,10 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Of twenty bodies, terms that are rounded a dozen times each by recursion and certifier: some ten
-// times 2^-52, relative to the sum of their magnitudes.
+// Recursion and certifier round the terms of twenty bodies a dozen times each: some ten times
+// 2^-52, relative to the sum of their magnitudes.
 constexpr double kRounding = 4e-15;
-// Where an error is seen, it is seen as large as it is but for that rounding.
+// An error that is seen is seen in its true size except for that rounding.
 constexpr double kPlanted = 1e-9;
 constexpr double kSeen = 1e-4;
 

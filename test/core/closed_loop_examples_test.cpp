@@ -13,8 +13,8 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// What two independent routes through a mechanism of some twenty bodies may differ by, relative to
-// the largest force or moment of the sample.
+// Largest difference between two independent routes through a mechanism of some twenty bodies,
+// relative to the largest force or moment of the sample.
 constexpr double kTwoRoutes = 1e-11;
 
 struct Example {
@@ -83,7 +83,7 @@ TEST_P(ClosedLoopExamples, AgreesWithMaximalCoordinates) {
       EXPECT_EQ(results.effortDetermined(name), effort.determined) << name;
     }
     EXPECT_EQ(results.dynamics().determinacy().redundancy, oracle.redundancy());
-    // What is not determined is a solution nevertheless.
+    // Results that are not determined are a solution nevertheless.
     EXPECT_LE(oracle.violationBy([&](const std::string& name) { return results.rootAxes(name); }),
               kTwoRoutes);
   }

@@ -10,7 +10,7 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Of the largest effort or force, times the condition of the loops: two routes in double.
+// Relative to the largest effort or force, times the condition of the loops: two routes in double.
 constexpr double kTolerance = 1e-11;
 constexpr double kWellConditioned = 300;
 

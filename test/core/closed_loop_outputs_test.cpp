@@ -39,7 +39,7 @@ TEST(ClosedLoopDynamics, PosesAndTwistsOfClosuresAreTheirChildFrames) {
   EXPECT_NEAR(dynamics.poses()[2].position.x(), motion.q[2], kTolerance);
 }
 
-// Without them, what is reported along an axis is zero; what is computed is the same.
+// Without them, the component reported along an axis is zero; everything computed stays the same.
 TEST(ClosedLoopDynamics, ActiveComponentsCanBeLeftOut) {
   const FourBar four_bar;
   for (const char pivot : {'A', 'C'}) {
@@ -104,8 +104,8 @@ TEST(ClosedLoopDynamics, ALoadReplacesTheAppliedWrenchesOfOneSample) {
   EXPECT_THROW(replaced.dynamics.compute(motion, Load()), SceneError);
 }
 
-// Two loops that share no joint, but the weld that both stand on: each is solved by itself, and
-// what each leaves open of the weld's reaction counts.
+// Two loops share only the weld on which both stand: each is solved by itself, and what each leaves
+// open of the weld's reaction counts.
 TEST(ClosedLoopDynamics, LoopsOnOneWeldAreSolvedByThemselves) {
   RobotBuilder builder(1);
   const Matrix3l R = Matrix3l::Identity();

@@ -33,7 +33,7 @@ void expectError(Throws&& throws, const std::string& text) {
   }
 }
 
-// A slider-crank with a fixed and a mimic joint beside it, all right but for `change`.
+// A slider-crank with a fixed and a mimic joint beside it, valid except for `change`.
 void expectRefusal(const Change& change, const std::string& text) {
   RobotBuilder builder(1);
   const SliderCrank slider_crank;
@@ -265,7 +265,7 @@ TEST(ClosedLoopRefusals, WorkspaceOfAnother) {
   EXPECT_NO_THROW(one.compute(motion, of_one));
 }
 
-// Without the closures their numbers would be wrong.
+// Computations for open chains refuse closures, as their results would be wrong without them.
 TEST(ClosedLoopRefusals, WhatComputesOpenChains) {
   const SliderCrank slider_crank;
   const Mechanism mechanism = slider_crank.mechanism();

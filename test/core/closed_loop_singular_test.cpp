@@ -10,7 +10,7 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Of the largest force at an ordinary position.
+// Relative to the largest force at an ordinary position.
 constexpr double kTolerance = 1e-12;
 
 bool allDetermined(const Determined& determined) {
@@ -50,7 +50,7 @@ TEST(ClosedLoopDynamics, SliderThroughDeadCentre) {
       EXPECT_NEAR(dynamics.effort()[2], alone, kTolerance * largest / std::abs(angle));
       EXPECT_GE(dynamics.determinacy().condition, 0.3 / std::abs(angle));
     }
-    // What is not determined is no larger than the load.
+    // A result that is not determined is of the order of the load at most.
     EXPECT_LE(std::abs(dynamics.effort()[2]), 2 * largest);
     EXPECT_LE(results.root("pin").force.norm(), 2 * largest);
   }

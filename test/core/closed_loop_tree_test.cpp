@@ -15,8 +15,8 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Of what the loops' equations leave after they are solved: rounding of their solution, whose
-// entries grow with the condition number; relative to the largest result.
+// Residual of the loops' equations after solution, relative to the largest result: rounding of the
+// solution, whose entries grow with the condition number.
 constexpr double kPerCondition = 100 * 2.2e-16;
 // Relative to magnitudes of all terms, the closures' wrenches among them. The residual of the
 // loops' equations is rounding of these.

@@ -52,11 +52,11 @@ class ClosedLoops {
   const std::vector<ClosureResidual>& relativeResiduals() const {
     return loops().relative_residuals;
   }
-  /// Of actuated closures.
+  /// Positions and velocities of actuated closures.
   const Eigen::VectorXd& actuatedPositions() const { return loops().actuated_positions; }
   const Eigen::VectorXd& actuatedVelocities() const { return loops().actuated_velocities; }
 
-  /// What acts on tree() in the sample.
+  /// The load that acts on tree() in the sample.
   Load treeLoad() const {
     Load load;
     load.wrenches = loops().tree_wrenches;

@@ -74,7 +74,7 @@ TEST(DynamicsUse, RefusesMotionsAndLoadsOfAnother) {
   }
 }
 
-// What a workspace belongs to is the plan, wherever it is.
+// A workspace belongs to the plan, wherever the plan is moved.
 TEST(DynamicsUse, WorkspacesFollowAPlanThatIsMoved) {
   const ClosedLinkage linkage;
   Dynamics before(linkage.cut.mechanism, linkage.cut.scene, linkage.request);
@@ -122,7 +122,7 @@ TEST(DynamicsUse, ThreadsWithWorkspacesOfTheirOwnGiveTheSameBits) {
   EXPECT_NE(differences(expected[0], expected[1]), "");
 }
 
-/// What is computed and completed in a workspace that has seen other samples, against fresh ones.
+/// Compares computing and completing in a workspace that has seen other samples with fresh ones.
 class History {
  public:
   explicit History(const Dynamics& dynamics)
@@ -238,7 +238,7 @@ TEST(DynamicsUse, SaysWhyLoopsAreOpen) {
             "give the motion of all joints");
 }
 
-// Of two closures, the one that is open furthest.
+// The message names the one of two closures that is open furthest.
 TEST(DynamicsUse, NamesTheClosureThatStaysOpenFurthest) {
   RobotBuilder builder(1);
   const Matrix3l R = Matrix3l::Identity();

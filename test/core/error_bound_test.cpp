@@ -106,7 +106,7 @@ TEST(ErrorBound, StaticMotionLeavesWeights) {
   expectNear(bound.efforts()[1], 40);
 }
 
-// Of a single link at rest nothing cancels where the weight has its full lever.
+// Nothing cancels in a single link at rest whose weight has its full lever.
 TEST(ErrorBound, EqualsTheWrenchOfASingleLinkAtRest) {
   RobotBuilder builder(2);
   builder.add(JointType::kRevolute, 0, Vector3l::UnitY(), Matrix3l::Identity(), {0, 0, 0});
@@ -281,7 +281,7 @@ TEST(ErrorBound, DepthOfAnEffortIsThatOfItsDeepestJoint) {
 
 #ifdef VWD_HAS_REAL113
 
-// A sum of norms may equal the norm of the sum, but for its own rounding.
+// A sum of norms may equal the norm of the sum, except for its own rounding.
 constexpr double kOwnRounding = 1e-13;
 
 // Every magnitude is at least that of what is summed.

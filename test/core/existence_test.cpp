@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kOrders = 20;  // of visits
 
-/// What exists of the results of one sample.
+/// Which results of one sample exist.
 struct Existing {
   explicit Existing(const Results& results)
       : effort(results.loops.effort_exists),
@@ -240,8 +240,8 @@ TEST(Existence, AtTheChangePointTheCrankIsTurnedByAnyTorque) {
   EXPECT_EQ(found.child_axes, found.root_axes);
 }
 
-// What the policy chooses is there in singular positions, too: a pivot that is to bear nothing out
-// of the plane leaves it to the others.
+// Values chosen by the policy exist in singular positions, too: a pivot that must bear nothing out
+// of the plane leaves that load to the others.
 TEST(Existence, RedundantComponentsKeepWhatThePolicyChooses) {
   Singular singular = parallelogramAtItsChangePoint();
   singular.scene.gravity << 0, 0, -9.81;

@@ -44,7 +44,7 @@ TEST_F(LoopResiduals, RatesAreRelativeToTheMotionsLargest) {
 }
 
 TEST_F(LoopResiduals, FastMotionsHaveLargeAccelerations) {
-  motion_.qd << 10, -10, 10;  // and the accelerations that go with it, but for 5 rad/s^2
+  motion_.qd << 10, -10, 10;  // with the matching accelerations, except for 5 rad/s^2
   motion_.qdd << 0, 0, 5;
   EXPECT_NEAR(relativeOf(motion_).acceleration, 0.3 * 5 / 0.2 / 100, kRounding);
 }

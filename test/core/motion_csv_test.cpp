@@ -23,7 +23,7 @@ MotionTable read(const std::string& text, const std::vector<std::string>& joints
   return readMotionCsv(stream, "m.csv", joints, unused, lines);
 }
 
-// What the reader says of a text it refuses.
+// The error of the reader for a text that it refuses.
 std::string refusal(const std::string& text, const std::vector<std::string>& joints = {}) {
   try {
     read(text, joints);

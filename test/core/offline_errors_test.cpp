@@ -45,7 +45,7 @@ class OfflineToolErrors : public OfflineTool {
 
   std::string usage(const std::string& arguments) { return failure(arguments, 2); }
 
-  // With a motion of this text instead of m.csv.
+  // The error for a motion with this text instead of m.csv.
   std::string motion(const std::string& text) {
     write("bad.csv", text);
     return failure("--urdf p.urdf --motion bad.csv --output r.csv", 1);

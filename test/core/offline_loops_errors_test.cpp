@@ -7,7 +7,7 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Of sums of numbers below one.
+// Rounding of sums of numbers below one.
 constexpr double kRounding = 1e-15;
 
 constexpr char kDriveMotion[] =

@@ -22,11 +22,12 @@ struct LinkageTruth {
     constexpr double kCrankInertia = 0.03 + kCrank * 0.15 * 0.15;
     constexpr double kRockerInertia = 0.06 + kRocker * 0.15 * 0.15;  // both about their feet
     const double s = std::sin(q), c = std::cos(q);
-    // Of the coupler, which goes in a circle without turning.
+    // Acceleration of the coupler, which moves in a circle without turning.
     const double ax = kLength * (c * qdd - s * qd * qd), az = -kLength * (s * qdd + c * qd * qd);
     effort = (kCrankInertia + kRockerInertia + kCoupler * kLength * kLength) * qdd -
              kGravity * kLength * (kCrank / 2 + kCoupler + kRocker / 2) * s;
-    // Of the coupler on the rocker: half of the coupler's vertical force; the rocker turns freely.
+    // Force of the coupler on the rocker: half of the coupler's vertical force; the rocker turns
+    // freely.
     const double z = -kCoupler * (kGravity + az) / 2;
     const double x =
         (kRockerInertia * qdd - kLength / 2 * kRocker * kGravity * s + kLength * s * z) /

@@ -24,7 +24,7 @@ std::string swingOfTheDrive(int rows = kRows) {
   return text;
 }
 
-/// With one row that is off by an angle; none: -1.
+/// Writes a motion in which one row is off by an angle, or no row when it is -1.
 std::string swingOfAll(int wrong_row = -1) {
   std::string text = kAllColumns;
   for (int i = 0; i < kRows; ++i) text += row(0.01 * i, swing(i), i == wrong_row ? 1e-3 : 0);

@@ -82,7 +82,7 @@ TEST_F(FollowedSliderCrank, GivesUpSoon) {
   EXPECT_NEAR(motion.q[0], 0.6, kClosed);
 }
 
-// Of ways that are halved.
+// These ways are long enough to be halved.
 TEST_F(FollowedSliderCrank, SearchesNoMoreThanItSays) {
   for (const double angle : {3.8, 0.7, 3.8, 1.0}) {
     expectFollowed(angle, 0, 0);
@@ -104,7 +104,7 @@ TEST_F(FollowedSliderCrank, GoesOnFromWhereItIsMovedTo) {
   EXPECT_NEAR(motion.q[0], -1.1, kClosed);
 }
 
-// What it hands back needs no second search: computing goes on from the same position.
+// The completed motion needs no second search, as the workspace is at its position.
 TEST_F(FollowedSliderCrank, LeavesTheWorkspaceAtItsPosition) {
   Motion motion(3);
   motion.q[0] = 1.1;
@@ -144,7 +144,7 @@ TEST(ActuatedClosures, SayHowFarTheyHaveTurned) {
 }
 
 TEST(ActuatedClosures, SayHowFarTheyHaveSlid) {
-  // The same with a pin for the third joint and the slide for the closure, on a table that turns.
+  // A slider-crank with a pin as third joint and the slide as closure, on a table that turns.
   RobotBuilder builder(1);
   const Matrix3l R = Matrix3l::Identity();
   const Vector3l z = Vector3l::UnitZ();

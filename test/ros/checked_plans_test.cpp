@@ -46,7 +46,7 @@ class CheckedPlans : public testing::Test {
     EXPECT_LE(certified->largest(), kSound);
   }
 
-  // Of the first and the third reaction that the scene asks for.
+  // Topics of the first and the third reaction that the scene asks for.
   Topics wrenchesOnly() const {
     return {"reaction/" + maker.reactions[0], "reaction/" + maker.reactions[2]};
   }
@@ -126,7 +126,7 @@ class CheckedStaticPlans : public CheckedPlans {
   CheckedStaticPlans() : CheckedPlans(staticScene()) {}
 };
 
-// Accelerations of the motion are none of theirs.
+// Static plans do not use the accelerations of the motion.
 TEST_F(CheckedStaticPlans, AreSound) {
   expectSound(*compile(everything()));
 }
@@ -151,7 +151,7 @@ class CheckedBusyPlans : public CheckedPlans {
 
 TEST_F(CheckedBusyPlans, AreSound) {
   expectSound(*compile(everything()));
-  // Ground is among them, first of all.
+  // Ground is the first of them.
   expectSound(*compile(wrenchesOnly()));
 }
 

@@ -22,9 +22,9 @@ namespace {
 
 // Both routes round: a few eps for each of the 12 links that a wrench has gone through.
 constexpr double kSound = 1e-13;
-// What is planted, a share of the sum of magnitudes, far above rounding errors.
+// The planted error as a share of the sum of magnitudes, far above rounding errors.
 constexpr double kTampered = 1e-6;
-// Of a planted share that is found again, beside rounding errors.
+// Relative accuracy to which a planted share is found again despite rounding errors.
 constexpr double kShare = 1e-5;
 
 /// A sample of a random tree, right until something is changed.
@@ -72,7 +72,8 @@ struct Sample {
   std::shared_ptr<CrossCheckSlot> slot;
 };
 
-// Adds the share of a sum to a value, looks for it, and takes it away. False: nothing to add to.
+// Adds the share of a sum to a value, checks that it is found, and removes it. Returns false when
+// the sum is zero.
 bool expectFound(Sample& sample, double& value, double sum, const std::string& where) {
   if (sum == 0) return false;
   const double before = value;
@@ -109,7 +110,7 @@ TEST(CrossCheckSlot, NamesTheResultThatWasTamperedWith) {
   };
   tamper(sample.results.child_axes, sample.request.child_axes);
   tamper(sample.results.root_axes, sample.request.root_axes);
-  // All but those of massless ends.
+  // All are found except those of massless ends.
   EXPECT_GE(found, 40);
 }
 
@@ -147,7 +148,7 @@ TEST(CrossCheckSlot, ChecksEachOfTheSamplesOfferedAsOften) {
   const double sound = sample.results.effort[0];
   std::array<int, kSamples> checked{};
   for (int round = 0; round < kRounds; ++round) {
-    // The sample is told by how much is wrong with it.
+    // How much is wrong identifies the sample.
     for (int i = 0; i < kSamples; ++i) {
       sample.results.effort[0] = sound + (i + 1) * kTampered * sample.bound.efforts()[0];
       sample.offer();
@@ -168,7 +169,7 @@ TEST(CrossCheckSlot, KeepsSamplesOfTwoThreadsWhole) {
   other.motion = one.robot.motion(one.mechanism);
   other.recompute();
   std::atomic<bool> done{false};
-  // Each by itself is sound; parts of both are not.
+  // Each sample by itself is sound; a mixture of both is not.
   std::thread computing([&] {
     while (!done) {
       one.offer();

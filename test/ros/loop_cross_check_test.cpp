@@ -13,14 +13,14 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Rounding errors of each of the steps that lie behind a result.
+// Rounding error of each of the steps that lead to a result.
 constexpr double kStep = 4 * std::numeric_limits<double>::epsilon();
-// What is planted, relative; the sums of magnitudes may be larger than what it is a part of.
+// The planted error, relative to a value whose sum of magnitudes may be larger.
 constexpr double kTampered = 1e-6;
 constexpr double kShare = 1e-3;
-// What a closure's wrench is at least of the sums of passive joints, in the examples.
+// Least share of a closure's wrench in the sums of passive joints, in the examples.
 constexpr double kLeastShare = 1e-3;
-// Of what must be seen, beside rounding errors and what they cancel of it.
+// Share of an error that must be seen; rounding errors may cancel the rest.
 constexpr double kMost = 0.9;
 // The longest way through the examples' trees has a dozen steps.
 constexpr double kSoundest = 12 * kStep;
@@ -93,7 +93,7 @@ TEST(LoopCrossCheck, SoundResultsDifferByRoundingErrorsOfTheTree) {
     for (const long double t : {0.1L, 0.45L, 0.8L}) {
       const Motion motion = motionAt(example.mechanism, named.positions, t);
       expectSound(example, motion, named.name);
-      // What violates the loops is checked as it is.
+      // A motion that violates the loops is checked as it is.
       Motion violating = motion;
       violating.q[violating.q.size() - 1] += 0.01;
       violating.qd[0] += 0.1;
@@ -140,7 +140,7 @@ TEST(LoopCrossCheck, WithoutEffortsAndWithGroundAndClosuresFirst) {
   request.child_axes = {kGround, example.scene.closures[0].name};
   LoopSample sample(example, motionAt(example.mechanism, sliderCrankAt, 0.3L), request);
   EXPECT_LE(sample.check().largest, sample.bound());
-  // Reactions of closures are Lagrange's own.
+  // Reactions of closures are taken over, not compared.
   sample.results.child_axes[1].force[0] += 1;
   EXPECT_LE(sample.check().largest, sample.bound());
   sample.results.child_axes[2].force[0] += 1;
@@ -168,8 +168,8 @@ TEST(LoopCrossCheck, NamesEffortsOfPassiveJointsThatDoNotVanish) {
   }
 }
 
-// Results that follow from wrenches which are a closure's, scaled. Only efforts of passive joints,
-// which are none, can tell.
+// Computes results with the wrench of one closure scaled. Only the efforts of passive joints, which
+// should vanish, can show that.
 CrossCheckSlot::Finding withLastClosureScaled(const NamedMotion& named, double scale) {
   const LoopExample example(named.name);
   const Mechanism& mechanism = example.mechanism;

@@ -45,7 +45,7 @@ class LoopPlans : public testing::Test {
     return maker.compile(topics, checks);
   }
 
-  /// Of joint states that give all joints.
+  /// Computes a sample of joint states that give all joints.
   Outcome compute(ActivePlan& plan, const Motion& motion) {
     const std::vector<int> all{0, 1, 2};
     maker.completer.saw(all.data(), 3);
@@ -69,7 +69,7 @@ class LoopPlans : public testing::Test {
 
 const Topics kEverything{"effort", "reactions", "reaction/joint_2", "reaction/pin"};
 
-/// ~determinacy as it would be published.
+/// The message of ~determinacy as it would be published.
 class Determinacies {
  public:
   explicit Determinacies(const PlanMaker& maker)
@@ -126,7 +126,7 @@ TEST_F(LoopPlans, LeaveOutWhatHasNoValueAndTakeItInAgain) {
   EXPECT_FALSE(maker.loops.take().news);
 }
 
-// Out of plane nothing is determined anywhere: no reason to leave anything out.
+// Out of plane nothing is determined in any position, so nothing is left out.
 TEST_F(LoopPlans, PublishWhatRedundantConstraintsLeaveOpen) {
   const auto plan = compile(kEverything);
   ASSERT_EQ(compute(*plan, SliderCrank::motion(0.7, 0, 0)), Outcome::kDone);
@@ -153,7 +153,7 @@ TEST_F(LoopPlans, WrenchesAreThoseOfTheirJointsWithDeterminacyToo) {
     EXPECT_EQ(one.force.y, other.force.y);
     EXPECT_EQ(one.torque.z, other.torque.z);
   }
-  // Reactions that only flags are computed for have no place in any message.
+  // Reactions that are computed only for flags appear in no message.
   const auto flags = compile({"determinacy"});
   ASSERT_EQ(compute(*flags, motion), Outcome::kDone);
   EXPECT_EQ(flags->outputs.size(), 1u);
@@ -192,7 +192,7 @@ TEST_F(LoopPlans, ConditionGrowsTowardsDeadCentre) {
     EXPECT_GT(report.conditions[0], 0.1 / std::abs(angle));
     EXPECT_LT(report.conditions[0], 100 / std::abs(angle));
     EXPECT_EQ(report.determinacy.free_motions, 0);
-    EXPECT_EQ(changed(), angle > 0);  // no news afterwards
+    EXPECT_EQ(changed(), angle > 0);  // later positions are not news
     EXPECT_EQ(level(), diagnostic_msgs::DiagnosticStatus::WARN);
   }
   EXPECT_EQ(report.close_to_singular, 2u);
@@ -235,11 +235,11 @@ TEST_F(LoopPlans, AreCertifiedOutOfSingularPositions) {
     EXPECT_GT(found->power + found->ground_force + found->ground_moment, 0);
     ASSERT_EQ(compute(*plan, SliderCrank::motion(0, 1.5, 0)), Outcome::kDone);
     EXPECT_FALSE(maker.certificates.take());
-    // What violates a loop is certified as it is.
+    // A motion that violates a loop is certified as it is.
     Motion violating = SliderCrank::motion(0.7, 1.5, -2);
     violating.q[2] += 0.01;
     violating.qd[1] += 0.1;
-    // What begins to exist again, and what is said of determinacy anew, allocates.
+    // Results that begin to exist again and a new message on determinacy allocate.
     ASSERT_EQ(compute(*plan, violating), Outcome::kDone);
     maker.samples.motion() = violating;
     const AllocationGuard guard;
@@ -283,7 +283,7 @@ TEST_F(LoopPlans, AreCrossCheckedOutOfSingularPositions) {
   }
 }
 
-// Plans come and go with subscribers: what exists is a matter of the position alone.
+// Plans come and go with subscribers, but which results exist depends only on the position.
 TEST_F(LoopPlans, WhatExistsDoesNotDependOnWhatWasMetBefore) {
   const auto fresh = compile(kEverything), travelled = compile(kEverything);
   for (const double angle : {0.7, 1.9, -2.2}) {
@@ -374,7 +374,8 @@ TEST(ClosureFrames, AreThoseOfTheChildren) {
   EXPECT_EQ(message.transforms[0].transform.translation.z, 3);
   const auto& turn = message.transforms[0].transform.rotation;
   const Eigen::Matrix3d R = Eigen::Quaterniond(turn.w, turn.x, turn.y, turn.z).matrix();
-  // Of fixed axes: x stays in the plane that roll leaves alone, its height is that of the pitch.
+  // The angles are about fixed axes: x stays in the plane that roll does not change, and pitch
+  // gives its height.
   EXPECT_NEAR(R(2, 0), -std::sin(-0.5), 1e-15);
   EXPECT_NEAR(std::atan2(R(1, 0), R(0, 0)), 1.1, 1e-15);
   EXPECT_NEAR(std::atan2(R(2, 1), R(2, 2)), 0.3, 1e-15);

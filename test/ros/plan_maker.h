@@ -17,7 +17,7 @@ namespace virtual_work_dynamics {
 
 using Topics = std::vector<std::string>;
 
-/// Plans as the node compiles them, and what computes by them.
+/// Compiles plans as the node does, and computes by them.
 struct PlanMaker {
   PlanMaker(const Mechanism& of, const Scene& wanted, bool twist = false,
             const LoopLimits& limits = {1e-6, 1e4}, const std::string& frame_prefix = "")
@@ -32,7 +32,7 @@ struct PlanMaker {
         samples(everything.coordinates(), scene.static_motion, completer,
                 {counters, certificates, loops}) {}
 
-  /// Those who listen to these topics.
+  /// The audience of these topics.
   Audience audience(const Topics& topics) const {
     Audience audience;
     for (std::size_t i = 0; i < outputs.size(); ++i) {
