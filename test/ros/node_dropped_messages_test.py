@@ -222,7 +222,8 @@ class DroppedMessages(NodeTest):
         self.trajectories.publish(trajectory(good, stamp=0))
         self.trajectories.publish(trajectory(good, stamp=EPOCH))
         self.assertStamps(self.efforts.wait(1), [EPOCH])
-        self.expect_drop('no time', 'joint_trajectory', 'no time yet', '/clock has not been received yet')
+        self.expect_drop('no time', 'joint_trajectory', 'no time yet',
+                         '/clock has not been received yet')
         # The log does not wait for the time either.
         for ns in (EPOCH + STEP, EPOCH):
             self.states.publish(joint_state(ns, *MOTION(ns)[:2]))
