@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "loops/passive.h"
+#include "closed_loops.h"
+#include "robot_builder.h"
 #include "slider_crank.h"
 
 namespace virtual_work_dynamics {
