@@ -48,7 +48,7 @@ struct ClosedLoopDynamics::Impl {
   PointSprings springs;
   Scene bare_tree;  // without closures and springs
   Scene tree;
-  std::size_t own_wrenches;  // number of the scene's, the first of the tree's
+  std::size_t own_wrenches;  // number of the scene's own, the tree's first
   Load own_load;             // values of the scene's own wrenches
   std::size_t closures;
   std::vector<std::string> actuated_closures;

@@ -29,7 +29,7 @@ class LoopCompletion {
   struct Search {
     int most_steps;
     int most_halvings;  ///< of a step
-    double stalled;     ///< the search ends when a step leaves more of the misfit
+    double stalled;     ///< largest share of the misfit that a step may leave
   };
   static constexpr Search kFromAnywhere{200, 30, 1};
   static constexpr Search kFromCloseBy{40, 8, 0.9};
@@ -83,7 +83,8 @@ class LoopCompletion {
   std::vector<System> systems_;
   double rank_tolerance_;
   double length_;
-  // By condition: the factor that makes it an angle; as a position, zero where it has none.
+  // By condition: the factor that makes it an angle; in position_scales_ zero where it has no
+  // position.
   Eigen::VectorXd row_scales_, position_scales_;
   std::vector<double> column_scales_;  // by coordinate
   std::vector<bool> in_loop_;          // by coordinate

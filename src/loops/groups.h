@@ -11,7 +11,7 @@ namespace virtual_work_dynamics {
 struct LoopGroup {
   std::vector<int> coordinates;
   std::vector<std::size_t> sets;        ///< of conditions; those of closures are the first
-  std::vector<std::size_t> closures;    ///< those of these sets
+  std::vector<std::size_t> closures;    ///< the closures of these sets
   std::vector<std::vector<int>> moved;  ///< by set: which of `coordinates` its rows concern
   /// How the wrench of a closure passes through a joint between the closure's links.
   struct Passage {

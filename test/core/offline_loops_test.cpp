@@ -216,7 +216,7 @@ TEST_F(OfflineLoops, DerivativesThatAreMissingKeepTheLoopsClosed) {
   }
 }
 
-// Of reactions; the linkage moves in the plane of x and z.
+// Components of reactions; the linkage moves in the plane of x and z.
 bool isOutOfPlane(const std::string& column) {
   const std::string component = column.substr(column.size() - 2);
   return component == "fy" || component == "tx" || component == "tz";
