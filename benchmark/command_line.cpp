@@ -29,7 +29,7 @@ Option count(const std::string& name, int digits, int& value) {
                                 given.size() <= static_cast<std::size_t>(digits) &&
                                 given.find_first_not_of("0123456789") == std::string::npos;
             if (!number || std::stoi(given) < 1) {
-              throw OptionError(name + ": '" + given + "' is no number from 1 to " +
+              throw OptionError(name + ": '" + given + "' is not a number from 1 to " +
                                 std::string(static_cast<std::size_t>(digits), '9'));
             }
             value = std::stoi(given);

@@ -7,7 +7,7 @@
 
 namespace virtual_work_dynamics {
 
-/// Wrong usage, in one line.
+/// The command line is wrong; what() says why in one line.
 class OptionError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -21,22 +21,21 @@ struct Option {
 };
 Option flag(const std::string& name, bool& set);
 Option text(const std::string& name, std::string& value);
-/// May be repeated.
+/// An option that may be repeated.
 Option texts(const std::string& name, std::vector<std::string>& values);
-/// An integer from 1 to so many nines.
+/// An option whose value is an integer from 1 to the largest one with this many digits.
 Option count(const std::string& name, int digits, int& value);
 
-/// Takes the options in the order in which they are given.
-/// @throws OptionError
+/// Takes the options in the order in which they are given. @throws OptionError for a wrong one.
 void parseCommandLine(const std::vector<std::string>& arguments,
                       const std::vector<Option>& options);
 
-/// One line that is written over, on a terminal only.
+/// Shows a line of progress, which replaces the one before; on a terminal only.
 void showProgress(const std::string& text);
 
-/// Parses the command line, with --help and -h, and runs the program. Returns its exit status: 2
-/// for wrong usage, 1 for whatever it throws else.
-/// @param run after the options were taken
+/// Parses the command line, including --help and -h, and runs the program.
+/// @param run the program, called after the options were taken.
+/// @returns the exit status: that of `run`, 2 for wrong usage, or 1 for any other exception.
 int runProgram(const std::string& name, const char* help, int argc, char** argv,
                const std::vector<Option>& options, const std::function<int()>& run);
 

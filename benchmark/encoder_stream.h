@@ -21,26 +21,26 @@ struct ArmMotion {
   double speed;                            ///< rad/s, amplitude of the velocity of each sine
   std::array<double, kSines> frequencies;  ///< Hz, of the first joint; the others are faster
 
-  /// Of any joint, Hz.
+  /// The highest frequency of any joint, Hz.
   double highestFrequency() const;
-  /// The motion at a time in s, which has kArmJoints coordinates.
+  /// Computes the motion at a time in s; `motion` has kArmJoints coordinates.
   void evaluate(double time, Motion& motion) const;
 };
 
 /// Reads a joint's position with noise, and rounds it to whole counts.
 struct Encoder {
   const char* name;
-  double counts;  ///< a turn of the encoder's shaft; 0: exact
-  double gear;    ///< turns of the encoder's shaft for one of the joint
-  double noise;   ///< of a reading before it is rounded, counts, standard deviation
+  double counts;  ///< counts per turn of the encoder's shaft; 0: exact
+  double gear;    ///< turns of the encoder's shaft per turn of the joint
+  double noise;   ///< standard deviation of a reading before it is rounded, counts
 };
 
-/// Velocities that come with the positions: none; the difference to the reading before, over the
-/// time since; the exact ones.
+/// Velocities that come with the positions: none; the difference to the previous reading over the
+/// time since then; or the exact ones.
 enum class VelocitySource { kNone, kDifferences, kExact };
 
 /// How positions are stamped: read at even times that the stamps tell; read at uneven times that
-/// the stamps tell; read at even times, but stamped a little wrong.
+/// the stamps tell; or read at even times, but stamped a little wrong.
 enum class Stamping { kTrue, kUneven, kWrong };
 constexpr double kStampDeviation = 50e-6;  ///< s, standard deviation of kUneven and kWrong
 
@@ -60,20 +60,20 @@ struct Sample {
   std::array<double, kArmJoints> qd{};
 };
 
-/// Motion and efforts at a stamp as they are.
+/// The true motion and efforts at a stamp.
 struct Truth {
   Motion motion{kArmJoints};
   Eigen::VectorXd effort;
 };
 
-/// What a stream sends, beside the truth.
+/// The samples that a stream sends, with the truth.
 struct Recording {
   std::vector<Sample> samples;
-  std::vector<Truth> truth;      ///< at the stamp of each sample
-  Eigen::VectorXd effort_range;  ///< of each joint, largest less smallest effort, N m
+  std::vector<Truth> truth;      ///< truth at the stamp of each sample
+  Eigen::VectorXd effort_range;  ///< largest less smallest effort of each joint, N m
 };
 
-/// The first `count` samples. Noise is the same each time.
+/// Records the first `count` samples. Noise is the same each time.
 Recording record(const Stream& stream, const InverseDynamics& dynamics, int count);
 
 }  // namespace virtual_work_dynamics

@@ -23,7 +23,8 @@ struct Omission {
   std::string left_out;
   std::shared_ptr<const NamedPlan> plan;
   std::shared_ptr<const NamedPlan> with;  ///< null: nothing is left out
-  /// `with` is given velocities and accelerations of zero, `plan` is not.
+  /// True: `with` is given velocities and accelerations of zero; `plan`, which ignores them, is
+  /// not.
   bool with_at_rest = false;
 };
 
@@ -33,11 +34,11 @@ struct OmissionScene {
   std::vector<Omission> omissions;
 };
 
-/// What can be left out of a robot's full plan: fixed joints, outputs, velocities and
+/// The plans that leave out parts of a robot's full plan: fixed joints, outputs, velocities and
 /// accelerations, gravity.
 OmissionScene omissionsOf(const BenchmarkScene& scene);
 
-/// The robot with a pan and a tilt joint at its last link that carry nothing.
+/// The plans of the robot with a pan and a tilt joint at its last link that carry nothing.
 OmissionScene masslessLeavesOf(const BenchmarkScene& scene);
 
 }  // namespace virtual_work_dynamics

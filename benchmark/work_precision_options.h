@@ -19,7 +19,7 @@ struct WorkPrecisionOptions {
 
 extern const char kWorkPrecisionHelp[];
 
-/// What fills `options`.
+/// The options of the command line that fill `options`.
 std::vector<Option> commandLine(WorkPrecisionOptions& options);
 
 }  // namespace virtual_work_dynamics

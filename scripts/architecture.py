@@ -24,8 +24,8 @@ MAY_INCLUDE = {
     "loops": {"base", "algebra", "robot", "motion", "scene", "results", "tree"},
     "witness": {"base", "robot", "motion", "scene", "results"},
     "dynamics": {"base", "robot", "motion", "scene", "results", "tree", "loops", "witness"},
-    "offline": {"base", "robot", "motion", "scene", "results", "tree", "loops", "witness", "dynamics"},
-    "ros": {"base", "robot", "motion", "scene", "results", "tree", "loops", "witness", "dynamics"},
+    "offline": {"base", "robot", "motion", "scene", "results", "witness", "dynamics"},
+    "ros": {"base", "robot", "motion", "scene", "results", "witness", "dynamics"},
     "programs": {"base", "offline", "ros"},
 }
 KNOWS_ROS = {"ros", "programs"}
@@ -36,7 +36,6 @@ HEADERS_WITHOUT_SOURCE = {
     "notation": "results",
     "plan_summary": "tree",
     "request": "results",
-    "results": "results",
 }
 PUBLIC = "virtual_work_dynamics/"
 ROS_HEADER = re.compile(

@@ -7,9 +7,9 @@ usage() {
 Usage: scripts/build.sh [CATKIN_MAKE_ARGUMENT ...]
 
 Builds in build/.catkin_ws with the system's Python; arguments go to catkin_make, for example
--DVWD_WARNINGS_AS_ERRORS=ON, or the name of a target. Leaves the tests out, which need more packages,
+-DVWD_WARNINGS_AS_ERRORS=ON, or the name of a target. Leaves out the tests, which need more packages,
 unless -DCATKIN_ENABLE_TESTING=ON is given. The whole output is in build/build.log.
-To use what was built: source build/setup.bash
+To use the build: source build/setup.bash
 END
 }
 if [[ "${1:-}" == -h || "${1:-}" == --help ]]; then
@@ -18,19 +18,20 @@ if [[ "${1:-}" == -h || "${1:-}" == --help ]]; then
 fi
 
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-# Hidden: ROS looks for launch files by walking through a package, links included, and would walk in
-# circles through the workspace's link to this package. It leaves hidden folders out.
+# The workspace is hidden, as ROS looks for launch files by walking through a package, links included,
+# and would walk in circles through the workspace's link to this package. It leaves hidden folders out.
 workspace=$repository/build/.catkin_ws
 log=$repository/build/build.log
 
-# ROS's Python packages belong to the system's interpreter; another python3 may come first in PATH.
+# ROS's Python packages need the system's interpreter, but another python3 may come first in PATH.
 export PATH=/usr/bin:$PATH
 
 mkdir -p "$workspace/src"
 ln -sfn "$repository" "$workspace/src/virtual_work_dynamics"
 echo "source '$workspace/devel/setup.bash'" >"$repository/build/setup.bash"
 
-# On a terminal one line that moves on; in a log only our finished targets.
+# Shows the output of the build: on a terminal as one line that is replaced, in a log as the package's
+# finished targets alone.
 show_progress() {
   local line shown=false
   while IFS= read -r line; do

@@ -20,7 +20,7 @@ COLUMNS = (
 
 
 def motion(t):
-    """Angles and their first two derivatives, (5.11); each an array 2 x len(t)."""
+    """The angles by (5.11) and their first two derivatives, arrays of 2 x len(t)."""
     rate = math.pi / 6
     amplitudes = np.array(AMPLITUDES)[:, np.newaxis]
     return (amplitudes * (1 - np.cos(rate * t)),
@@ -29,9 +29,9 @@ def motion(t):
 
 
 def closed_form(t):
-    """The six results at the times t (s), one row each: (5.7), (5.8) and their like."""
+    """The six results at the times t (s) by (5.7), (5.8) and similar equations, one row each."""
     (q1, q2), (v1, v2), (a1, a2) = motion(t)
-    q, v, a = q1 + q2, v1 + v2, a1 + a2  # of the second rod, against the fixed frame
+    q, v, a = q1 + q2, v1 + v2, a1 + a2  # motion of the second rod in the fixed frame
 
     m10_z = ((M1 / 3 + M2) * L1 ** 2 * a1 + M2 * L2 ** 2 / 3 * a
              + M2 * L1 * L2 / 2 * ((2 * a1 + a2) * np.cos(q2) - v2 * (2 * v1 + v2) * np.sin(q2))
@@ -40,7 +40,7 @@ def closed_form(t):
              + M2 * L1 * L2 / 2 * (a1 * np.cos(q2) + v1 ** 2 * np.sin(q2))
              + M2 * GRAVITY * L2 / 2 * np.sin(q))
 
-    # Forces: mass times acceleration of the centres of mass, less gravity.
+    # Forces are mass times acceleration of the centres of mass, less gravity.
     along_1, across_1 = a1 * np.sin(q1) + v1 ** 2 * np.cos(q1), a1 * np.cos(q1) - v1 ** 2 * np.sin(q1)
     along_2, across_2 = a * np.sin(q) + v ** 2 * np.cos(q), a * np.cos(q) - v ** 2 * np.sin(q)
     f21_x = -M2 * (GRAVITY + L1 * along_1 + L2 / 2 * along_2)

@@ -1,19 +1,19 @@
 #!/bin/bash
-# Instructions per sample, counted by callgrind.
+# Counts instructions per sample by callgrind.
 set -euo pipefail
 
 usage() {
   cat <<'END2'
 Usage: scripts/count_instructions.sh [--samples N] [--method METHOD]... [--program FILE] SCENE...
 
-Prints, as CSV, how many instructions a sample takes: of the package's own ways of computing it and
-of KDL's solvers. Unlike times, they do not depend on what else the machine does. Valgrind knows no
-AVX-512, so its builds are left out.
-  --samples   how many are counted, at least (64)
-  --method    only this one, as "virtual_work"; may be repeated (virtual_work, kdl_chain, kdl_tree)
-  --program   callgrind_sample where it is built already; otherwise it is built, without ROS, in
-              build/benchmark
-  SCENE       as work_precision --list names them: six_axis_arm, chain_100, ...
+Prints as CSV how many instructions a sample takes, for the package's own ways of computing it and for
+KDL's solvers. Unlike times, they do not depend on what else the machine does. Builds with AVX-512 are
+left out, as Valgrind does not know it.
+  --samples   number of samples to count at least (64)
+  --method    only this method; may be repeated (virtual_work, kdl_chain, kdl_tree)
+  --program   path of callgrind_sample when it is built already; otherwise it is built, without ROS,
+              in build/benchmark
+  SCENE       a name that work_precision --list prints: six_axis_arm, chain_100, ...
 END2
 }
 
@@ -39,17 +39,17 @@ while [[ $# -gt 0 ]]; do
   shift
 done
 if [[ ${#scenes[@]} -eq 0 ]]; then
-  echo "count_instructions.sh: which scene?" >&2
+  echo "count_instructions.sh: a scene is missing" >&2
   usage >&2
   exit 2
 fi
 if [[ ! "$samples" =~ ^[1-9][0-9]*$ ]]; then
-  echo "count_instructions.sh: --samples: '$samples' is no positive number" >&2
+  echo "count_instructions.sh: --samples: '$samples' is not a positive number" >&2
   exit 2
 fi
 if [[ ${#methods[@]} -eq 0 ]]; then methods=(virtual_work kdl_chain kdl_tree); fi
 if ! command -v valgrind >/dev/null; then
-  echo "count_instructions.sh: no valgrind; see scripts/install_dependencies.sh --benchmark" >&2
+  echo "count_instructions.sh: valgrind is missing; see scripts/install_dependencies.sh --benchmark" >&2
   exit 1
 fi
 
@@ -68,7 +68,7 @@ if [[ -z "$program" ]]; then
   program=$build/benchmark/callgrind_sample
 fi
 
-# wanted <contender>: whether it is one of the methods, and valgrind can run it.
+# wanted <contender>: whether the contender uses one of the methods, and valgrind can run it.
 wanted() {
   local method
   [[ "$1" != *_avx512,* ]] || return 1

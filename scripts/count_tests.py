@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""Sums JUnit result files: every failure by name, then one line "N passed, N failed".
+"""Sums JUnit result files and prints every failure by name, then one line "N passed, N failed".
 
 Usage: count_tests.py FILE_OR_FOLDER ...
-Exits non-zero when a test failed, a file is no result file, or there is no test at all.
+The exit code is not 0 when a test failed, a file is not a result file, or there is no test at all.
 """
 import pathlib
 import sys
@@ -19,7 +19,7 @@ def result_files(arguments):
 
 
 def verdict(case):
-    """The kind of result of a <testcase>, and what it says about it."""
+    """The kind of result of a <testcase>, and its message."""
     for kind in ('failure', 'error'):
         element = case.find(kind)
         if element is not None:
@@ -37,7 +37,7 @@ def count(path, totals):
         print('FAILED  %s: %s' % (path, problem))
         totals['failed'] += 1
         return
-    # rostest lists each test program once more; what it ran is in that program's own file.
+    # rostest lists each test program once more; the tests that it ran are in the program's own file.
     is_summary = path.name.startswith('rostest-')
     for case in root.iter('testcase'):
         kind, message = verdict(case)

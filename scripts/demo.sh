@@ -1,5 +1,5 @@
 #!/bin/bash
-# The paper's composed pendulum through ROS, from nothing to figures.
+# Runs the paper's composed pendulum through ROS and draws the paper's figures.
 set -euo pipefail
 
 usage() {
@@ -7,8 +7,8 @@ usage() {
 Usage: scripts/demo.sh [--no-install]
 
 Installs what is needed, builds, and runs the composed pendulum of Stroe and Staicu (2010) for its
-six seconds, once from a joint trajectory and once live from joint states at 1 kHz. Leaves
-  output/composed_pendulum.bag    what went in and what came out
+six seconds, once from a joint trajectory and once live from joint states at 1 kHz. Writes
+  output/composed_pendulum.bag    all inputs and outputs
   output/figures_3_to_6.png       Figures 3 to 6 of the paper: computed curves over the closed forms
 and prints the largest errors and the run time per sample. Needs no screen, and uses a ROS master of
 its own.
@@ -59,7 +59,7 @@ echo "Running the composed pendulum for 6 s, from a trajectory and from joint st
 timeout 120 roslaunch --port "$port" virtual_work_dynamics demo.launch bag:="$bag" \
   >"$log" 2>&1 &
 launch=$!
-wait "$launch" || true  # what counts is what is in the bag
+wait "$launch" || true  # the contents of the bag decide
 launch=
 if [[ ! -f "$bag" ]]; then
   tail -n 40 "$log" >&2

@@ -1,12 +1,15 @@
 #!/bin/bash
-# Installs with apt what the package needs on Debian 12. Does nothing, quickly, when all is there.
+# Installs with apt what the package needs on Debian 11, 12 and 13. Ends quickly when everything is
+# there.
 set -euo pipefail
 
 build_packages=(
   build-essential catkin cmake
   libconsole-bridge-dev libeigen3-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev
-  libyaml-cpp-dev libdiagnostic-msgs-dev libdiagnostic-updater-dev libgeometry-msgs-dev libroscpp-dev libsensor-msgs-dev libtf2-msgs-dev
-  libtrajectory-msgs-dev
+  libyaml-cpp-dev
+  libdiagnostic-msgs-dev libdiagnostic-updater-dev libgeometry-msgs-dev libroscpp-dev
+  libsensor-msgs-dev libtf2-msgs-dev libtrajectory-msgs-dev
+  ros-environment
 )
 run_packages=(
   python3-rosbag python3-roslaunch python3-rostopic ros-robot-state-publisher rosbash rosout
@@ -15,9 +18,11 @@ run_packages=(
 )
 test_packages=(
   "${run_packages[@]}"
-  binutils catkin-lint clang-format-14 libbenchmark-dev libgtest-dev liborocos-kdl-dev
-  librostest-dev locales
-  python3-numpy python3-rostest
+  libgtest-dev librostest-dev locales python3-numpy python3-rostest
+)
+check_packages=(
+  "${test_packages[@]}"
+  binutils catkin-lint clang-format-14 doxygen libbenchmark-dev liborocos-kdl-dev
 )
 demo_packages=("${run_packages[@]}" python3-matplotlib)
 rviz_packages=("${run_packages[@]}" python3-yaml rviz)
@@ -27,14 +32,16 @@ benchmark_packages=(
 
 usage() {
   cat <<END
-Usage: scripts/install_dependencies.sh [--build] [--run] [--test] [--demo] [--rviz]
+Usage: scripts/install_dependencies.sh [--build] [--run] [--test] [--checks] [--demo] [--rviz]
                                        [--benchmark] [--list]
 
-Installs the packages needed to build (always), to run the launch files (--run), to run the tests
-(--test), to run the demo (--demo), to show robots in RViz (--rviz) and to build the measurements
-and the libraries they compare with (--benchmark).
+Installs the packages needed to build (always), to run the launch files (--run), to run the unit and
+ROS tests (--test), to run every check of scripts/test.sh (--checks, on Debian 12 only), to run the
+demo (--demo), to show robots in RViz (--rviz) and to build the measurements and the libraries they
+compare with (--benchmark).
   --list  only print the names of the packages
-Works on Debian 12, whose archive has ROS 1. On Ubuntu 20.04 with ROS Noetic, let rosdep do it:
+Works on Debian 11, 12 and 13, whose archives have ROS 1 and the same names of packages. On Ubuntu
+20.04 with ROS Noetic, let rosdep do it:
   rosdep install --from-paths . --ignore-src
 END
 }
@@ -46,6 +53,7 @@ for argument in "$@"; do
     --build) ;;
     --run) wanted+=("${run_packages[@]}") ;;
     --test) wanted+=("${test_packages[@]}") ;;
+    --checks) wanted+=("${check_packages[@]}") ;;
     --demo) wanted+=("${demo_packages[@]}") ;;
     --rviz) wanted+=("${rviz_packages[@]}") ;;
     --benchmark) wanted+=("${benchmark_packages[@]}") ;;
@@ -62,9 +70,9 @@ if $list; then
 fi
 
 system=$(. /etc/os-release 2>/dev/null && echo "${ID:-unknown} ${VERSION_ID:-}" || echo unknown)
-if [[ "$system" != "debian 12" ]]; then
+if [[ ! "$system" =~ ^debian\ (11|12|13)$ ]]; then
   cat >&2 <<END
-install_dependencies.sh: this is '$system', and the list of packages is for Debian 12.
+install_dependencies.sh: this is '$system', and the list of packages is for Debian 11, 12 and 13.
 On Ubuntu 20.04 with ROS Noetic, in this folder:
   rosdep install --from-paths . --ignore-src
 and then build as any catkin package, or call the other scripts with --no-install.
@@ -102,5 +110,13 @@ apt() {
   }
 }
 apt update
+absent=()
+for package in "${missing[@]}"; do
+  [[ -n "$(apt-cache madison "$package" 2>/dev/null)" ]] || absent+=("$package")
+done
+if [[ ${#absent[@]} -gt 0 ]]; then
+  echo "install_dependencies.sh: '$system' has no package ${absent[*]}" >&2
+  exit 1
+fi
 apt install -y --no-install-recommends "${missing[@]}"
 echo "Installed."

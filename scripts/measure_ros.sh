@@ -1,5 +1,5 @@
 #!/bin/bash
-# Latency, endurance and highest rate of inverse_dynamics_node through ROS.
+# Measures latency, endurance and highest rate of inverse_dynamics_node through ROS.
 set -euo pipefail
 
 usage() {
@@ -8,20 +8,22 @@ Usage: scripts/measure_ros.sh [--latency [SECONDS [RATE]]] [--endurance [SECONDS
                               [--highest-rate [SECONDS]] [--robot URDF] [--real-time]
                               [--no-install] [--workspace FOLDER]
 
-Measures the package through ROS, and prints figures, also to output/measure_ros.txt. Without a
-choice it makes all three measurements. Quiet machine wanted: nothing else should run.
-  --latency       from publishing a joint state to receiving ~effort, beside a node that only copies
-                  the joint state, sent to in turn (20 s at 1000 Hz each)
-  --endurance     all outputs subscribed and recorded with rosbag: was anything lost; results more
-                  than 1 ms after their receipt, beside the copying node; CPU share, memory (60 s at
-                  1000 Hz)
-  --highest-rate  at which nothing is lost with all outputs recorded, SECONDS for each rate (5 s)
-  --robot         (the reference data's TIAGo beside the repository, or else urdf/six_axis_arm.urdf)
+Measures the package through ROS, and prints the numbers, also to output/measure_ros.txt. Makes all
+three measurements unless some are chosen. Nothing else should run on the machine meanwhile.
+  --latency       time from publishing a joint state to receiving ~effort, compared with a node that
+                  only copies the joint state and is sent to in turn (20 s at 1000 Hz each)
+  --endurance     with all outputs subscribed and recorded by rosbag: whether anything is lost, results
+                  more than 1 ms after their receipt, compared with the copying node, CPU share and
+                  memory (60 s at 1000 Hz)
+  --highest-rate  highest rate at which nothing is lost with all outputs recorded, SECONDS for each
+                  rate (5 s)
+  --robot         description of the robot (the reference data's TIAGo beside the repository, or else
+                  urdf/six_axis_arm.urdf)
   --real-time     run the measured nodes before everything else on the machine (chrt --fifo 10; root):
-                  shows what is their own share of latencies, and what is waiting for a core
+                  tells their own share of latencies from the time in which they wait for a core
   --no-install    do not install packages first
   --workspace     a catkin workspace in which the package is built already, with
-                  -DVWD_BUILD_BENCHMARKS=ON; otherwise builds in build/.catkin_ws
+                  -DVWD_BUILD_BENCHMARKS=ON; otherwise it is built in build/.catkin_ws
 Uses a ROS master of its own. The bags, up to gigabytes, are in TMPDIR and are removed at the end.
 END
 }

@@ -1,5 +1,5 @@
-# Sourced by the scripts that measure, in the repository: what they share. Set first: program (the
-# script's name), steps (how many it announces).
+# Functions for the scripts that measure, which source this file in the repository after they have set
+# program (the script's name) and steps (how many it announces).
 build=$PWD/build/benchmark
 log=$PWD/build/benchmark.log
 export PATH=/usr/bin:$PATH PYTHONDONTWRITEBYTECODE=1
@@ -10,7 +10,7 @@ announce() {
   echo "[$step/$steps] $* ($SECONDS s)"
 }
 
-# prepare INSTALL: packages, if INSTALL is true, and what pictures need.
+# prepare INSTALL: installs packages if INSTALL is true, and checks for matplotlib.
 prepare() {
   if $1; then scripts/install_dependencies.sh --build --benchmark; fi
   /usr/bin/python3 -c 'import matplotlib' 2>/dev/null || {
@@ -19,7 +19,7 @@ prepare() {
   }
 }
 
-# build_programs TARGET...: without ROS, into $build/benchmark.
+# build_programs TARGET...: builds programs without ROS into $build/benchmark.
 build_programs() {
   mkdir -p "$build"
   if ! { cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DVWD_CORE_ONLY=ON \

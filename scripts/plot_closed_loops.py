@@ -4,9 +4,9 @@
 Usage: plot_closed_loops.py OFFLINE_TOOL FOLDER [EXAMPLE ...]
 
 OFFLINE_TOOL is the executable inverse_dynamics_offline. For each example it computes the motion of
-config/<example>_trajectory.yaml, and FOLDER/<example>.png gets a drawing of the mechanism, the
-efforts of its motors and forces in its joints: the magnitude of what rigid bodies determine and, dashed,
-components that they do not, as the scene's policy has them.
+config/<example>_trajectory.yaml. FOLDER/<example>.png shows the mechanism, the efforts of its motors and
+forces in its joints: the magnitudes of forces that rigid bodies determine and, dashed, components that
+the scene's policy chooses.
 """
 import csv
 import os
@@ -28,7 +28,7 @@ ROWS = 400
 DRAWN_AT = 0.3  # of the duration
 SHADOWS = (0.2, 0.62)
 
-# Title; joints or closures whose forces are shown; their components.
+# For each example: title; joints or closures whose forces are shown; their components.
 EXAMPLES = {
     'four_bar': ('Planar four-bar linkage',
                  ['crank_joint', 'coupler_joint', 'rocker_joint', 'rocker_pin'], 'xy'),
@@ -139,7 +139,7 @@ class Robot:
             for p in corners:
                 if all(np.linalg.norm(p - other) > 1e-9 for other in different):
                     different.append(p)
-            if len(different) > 2:  # a plate: its corners in order around their middle
+            if len(different) > 2:  # a plate, with its corners in order around their middle
                 centre = np.mean(different, axis=0)
                 different.sort(key=lambda p: np.arctan2(*(p - centre)[1::-1]))
                 different.append(different[0])

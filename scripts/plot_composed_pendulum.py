@@ -26,7 +26,7 @@ NAMES = [name for name, _, _ in COLUMNS]
 
 
 class Run:
-    """One node's part of the bag."""
+    """The messages of one node in the bag."""
 
     def __init__(self, title, namespace, source, style, allowed, relative):
         self.title = title
@@ -36,7 +36,7 @@ class Run:
         self.diagnostics_name = namespace.lstrip('/') + ':'
         self.style = style
         self.allowed = allowed  # largest error
-        self.relative = relative  # of the column's range, or in the column's unit
+        self.relative = relative  # whether errors are parts of the column's range, not in its unit
         self.inputs = []  # stamps, ns
         self.efforts = {}  # by stamp, ns
         self.forces = {}
@@ -47,14 +47,14 @@ class Run:
         stamps = sorted(set(self.efforts) & set(self.forces))
         if not stamps or not self.inputs:
             raise SystemExit('No results of %s in the bag.' % self.effort_topic)
-        # As integers: stamps in seconds since 1970 resolve 2e-7 s.
+        # Stamps are integers, as in seconds since 1970 they would resolve 2e-7 s only.
         self.t = np.array([(stamp - self.inputs[0]) * 1e-9 for stamp in stamps])
         self.results = np.array([self.efforts[s] + self.forces[s] for s in stamps]).T
         self.exact = closed_form(self.t)
         self.errors = np.abs(self.results - self.exact)
 
     def missing(self):
-        """How many results there are too few."""
+        """The number of missing results."""
         expected = len(self.inputs) - (WINDOW - 1 if self.relative else 0)
         return expected - min(len(self.efforts), len(self.forces))
 
@@ -85,7 +85,7 @@ def take_diagnostics(message, runs):
                 run.run_times.append((float(values['run time per sample, median (us)']),
                                       float(values['run time per sample, p99 (us)'])))
             except KeyError:
-                pass  # nothing computed yet
+                pass  # no result was computed yet
 
 
 def read(bag_path, runs):

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Run time and error of the inverse dynamics beside other libraries, measured and reported.
+# Measures and reports run time and error of the inverse dynamics beside other libraries.
 set -euo pipefail
 
 usage() {
@@ -7,14 +7,14 @@ usage() {
 Usage: scripts/report.sh [--quick] [--no-install] [--output FOLDER]
 
 Installs what is needed, builds in build/benchmark (without ROS), measures, and writes into FOLDER
-  report.md            the results, with plots; begin here
+  report.md            results with plots, to be read first
   estimator.md         error of estimated accelerations
   closed_loops.md      mechanisms with closed loops
   work_precision.csv, closed_loops.csv, leave_out.csv, estimator.csv, instructions.csv
                        the measurements
-Quiet machine wanted: nothing else should run.
-  --quick       fewer and shorter rounds, no more than 20 closed loops, instructions not counted:
-                about a minute once everything is built
+Nothing else should run on the machine meanwhile.
+  --quick       fewer and shorter rounds, no more than 20 closed loops, and no count of instructions:
+                takes about a minute once everything is built
   --no-install  do not install packages first
   --output      where to write (report/ in this repository)
 END

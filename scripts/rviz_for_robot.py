@@ -5,8 +5,8 @@ Usage: rviz_for_robot.py [--scene SCENE.yaml] [--frame FRAME] [--template RVIZ] 
            [RVIZ_ARGUMENT ...]
 
 Fills a template (the package's config/inverse_dynamics.rviz) with the robot's root link as fixed frame
-and one arrow display for each reaction that the scene asks for, closures included (without a scene:
-of every movable joint), scaled by the robot's weight, and starts RViz with it. With --print the
+and one arrow display for each reaction that the scene asks for, closures included (without a scene,
+those of all movable joints), scaled by the robot's weight, and starts RViz with it. With --print the
 configuration goes to standard output instead, as a start for one of your own.
 """
 import argparse
@@ -21,8 +21,8 @@ import xml.etree.ElementTree as ElementTree
 
 import yaml
 
-# Over the robot's reach: length of an arrow of its whole weight, or of the weight at an arm as long;
-# width of arrows; the height that the camera looks at, and how far away it is.
+# Lengths over the robot's reach: an arrow of the robot's weight, or of the moment of its weight at an
+# arm as long as the reach; the width of arrows; the height at which the camera looks, and its distance.
 ARROW = 0.4
 WIDTH = 0.045
 FOCUS = 0.23
@@ -40,7 +40,7 @@ def topic(reaction):
 
 
 def reactions_of(robot, scene):
-    """Names of what has a reaction topic."""
+    """Names of the joints and closures that have a reaction topic."""
     wanted = scene.get('reactions', 'all')
     if isinstance(wanted, list):
         return wanted
@@ -61,7 +61,7 @@ def origin(element):
 
 
 def reach(robot, scene):
-    """How far from the root link the robot may extend, roughly: 1 where nothing says so."""
+    """How far from the root link the robot may extend, roughly; 1 where nothing tells it."""
     slides = {start['name']: abs(start['position']) for start in scene.get('assembly') or []}
     joints = {joint.find('child').get('link'): joint for joint in robot.findall('joint')}
     pins = [closure[side] for closure in scene.get('closures') or [] for side in ('parent', 'child')]
@@ -80,7 +80,7 @@ def reach(robot, scene):
 
 
 def look_at(size, scene, view):
-    """Aims the camera; along z at what stands upright in the plane of x and y."""
+    """Aims the camera; at mechanisms that stand upright in the plane of x and y it looks along z."""
     x, y, z = (float(component) for component in scene.get('gravity') or [0, 0, -GRAVITY])
     if math.hypot(x, y) > abs(z):
         view.clear()

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Errors of the inverse dynamics where scenes go to extremes, measured and reported.
+# Measures and reports errors of the inverse dynamics where scenes go to extremes.
 set -euo pipefail
 
 usage() {
@@ -7,18 +7,18 @@ usage() {
 Usage: scripts/stability.sh [--quick] [--no-install] [--output FOLDER] [--scene NAME]... [--list]
 
 Installs what is needed, builds in build/benchmark (without ROS), computes, and writes into FOLDER
-  stability.md            the results; begin here
-  stability_<scene>.png   error over what is varied, one picture for each scene
+  stability.md            results, to be read first
+  stability_<scene>.png   error over the varied parameter, one picture for each scene
   stability.csv           the measurements
-  stability_details.csv   certificates, KDL's error over the bound, ours over a narrower one; of
+  stability_details.csv   certificates, KDL's error over the bound, ours over a narrower one; for
                           closed loops, condition, rank, what is determined, and the completion
-Exit status 1 when an error is beyond its bound, a certificate beyond its limit, one of them is not
-finite, or a closed loop's counts, flags or completion are wrong.
-  --quick       fewer states of each scene: a minute or less once everything is built
+The exit status is 1 when an error is beyond its bound, a certificate beyond its limit, one of them is
+not finite, or a closed loop's counts, flags or completion are wrong.
+  --quick       fewer states of each scene: takes a minute or less once everything is built
   --no-install  do not install packages first
   --output      where to write (report/ in this repository)
   --scene       only this scene; may be repeated
-  --list        name the scenes and what is varied in them
+  --list        print the scenes and the parameters that are varied in them
 END
 }
 
@@ -61,7 +61,7 @@ build_programs stability
 if $list; then exec "$build/benchmark/stability" "${scenes[@]}" --list; fi
 
 announce "Computing in every way and in 113 bits"
-measured=$(mktemp -d)  # results of a run before stay until there are others
+measured=$(mktemp -d)  # results of an earlier run stay until there are new ones
 trap 'rm -rf "$measured"' EXIT
 status=0
 "$build/benchmark/stability" "${quick[@]}" "${scenes[@]}" --output "$measured/stability.csv" \

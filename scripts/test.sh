@@ -4,21 +4,27 @@ set -euo pipefail
 
 usage() {
   cat <<END
-Usage: scripts/test.sh [--no-install]
+Usage: scripts/test.sh [--portable] [--no-install]
 
 Builds with warnings as errors and runs: unit tests, tests through ROS, the core's tests under the
-address and undefined-behaviour sanitizers, the measurements' agreement with other libraries, the
-format check, the rules of the folders, tests of scripts, catkin_lint, and checks that the core
-library links nothing of ROS and that nothing compiled for special instructions can serve elsewhere. Each check counts like a test. Results are in
-build/test_results/.
+address and undefined-behaviour sanitizers, the measurements' agreement with other libraries, users
+of the installed core and of the catkin package, the numbered examples, the format check, the rules of
+the folders, tests of scripts and guides, pages of the headers without a warning, catkin_lint, and
+checks that the core library links nothing of ROS and that code compiled for special instructions
+cannot serve elsewhere. Each check counts like a test. Results are in
+build/test_results/. Works on Debian 12.
+  --portable    only what needs no tools of Debian 12: builds with warnings as errors, without the
+                measurements, and runs the unit tests and the tests through ROS
   --no-install  do not install packages first
 END
 }
 
 install=true
+portable=false
 for argument in "$@"; do
   case "$argument" in
     --no-install) install=false ;;
+    --portable) portable=true ;;
     -h | --help) usage; exit 0 ;;
     *) echo "test.sh: unknown option $argument" >&2; usage >&2; exit 2 ;;
   esac
@@ -35,7 +41,7 @@ export ROS_HOSTNAME=localhost ROS_HOME=$repository/build/ros_home
 rm -rf "$results" "$workspace/build/test_results"
 mkdir -p "$results" "$ROS_HOME"
 
-# check NAME COMMAND...: runs it, and files the verdict as one more test.
+# check NAME COMMAND...: runs a command and files its verdict as one more test.
 check() {
   local name=$1 log=$results/$1.log start=$SECONDS verdict=ok
   shift
@@ -50,7 +56,10 @@ check() {
 }
 
 build() {
-  local options=(-DVWD_WARNINGS_AS_ERRORS=ON -DCATKIN_ENABLE_TESTING=ON -DVWD_BUILD_BENCHMARKS=ON)
+  local benchmarks=ON
+  if $portable; then benchmarks=OFF; fi
+  local options=(-DVWD_WARNINGS_AS_ERRORS=ON -DCATKIN_ENABLE_TESTING=ON
+    "-DVWD_BUILD_BENCHMARKS=$benchmarks")
   scripts/build.sh "${options[@]}" && scripts/build.sh "${options[@]}" tests
 }
 
@@ -60,12 +69,12 @@ run_tests() {
   cmake --build "$workspace/build" --target run_tests -- -j1
 }
 
-# sanitized_build JOBS
+# sanitized_build JOBS: builds the core's tests with sanitizers.
 sanitized_build() {
   cmake --build "$workspace/build" --target sanitized_core_tests -- -j"$1"
 }
 
-# Tests through ROS mostly wait: what they leave of the processor starts the longest of the builds.
+# Starts the longest of the builds while tests through ROS run, which leave most of the processor free.
 start_sanitized_build() {
   set -m  # a process group of its own, to be ended as a whole
   (renice -n 19 -p "$BASHPID" && sanitized_build 1) >"$results/started_sanitized_build.log" 2>&1 \
@@ -96,7 +105,7 @@ contenders_agree() {
 
 format() {
   command -v clang-format-14 >/dev/null || { echo "clang-format-14 is missing"; return 1; }
-  find include src test benchmark -name '*.h' -o -name '*.cpp' | sort |
+  find include src test benchmark examples -name '*.h' -o -name '*.cpp' | sort |
     xargs clang-format-14 --dry-run -Werror
 }
 
@@ -107,7 +116,7 @@ core_links_no_ros() {
   ! grep -E -i 'ros|xmlrpc|catkin' <<<"$needed"
 }
 
-# Weak and unique symbols are those that the linker may take from any object.
+# Refuses weak and unique symbols in kernels, as the linker may take such symbols from any object.
 kernels_share_no_code() {
   local objects
   mapfile -t objects < <(find "$package_build"/CMakeFiles/virtual_work_dynamics{,_vectors}.dir \
@@ -117,6 +126,17 @@ kernels_share_no_code() {
   ! nm --demangle "${objects[@]}" | grep -E '^[0-9a-f]+ [WVu] '
 }
 
+# Every warning is an error, see doc/Doxyfile.
+doxygen_pages() {
+  mkdir -p build
+  doxygen doc/Doxyfile
+}
+
+# What the numbered examples print, against formulas of the test's own.
+examples() {
+  PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 test/examples/examples_test.py "$package_build/examples"
+}
+
 scripts_tests() {
   local test
   for test in test/scripts/*_test.py; do
@@ -124,9 +144,9 @@ scripts_tests() {
   done
 }
 
-# Ignored: find_package(catkin) behind an option, which counts as out of order; scripts, which are run
-# from the repository; include folders of dependencies; urdfdom, which package.xml has by its rosdep
-# name, liburdfdom-dev.
+# Ignores find_package(catkin) behind an option, which counts as out of order; scripts, which are run
+# from the repository; include folders of dependencies; and urdfdom, which package.xml has by its
+# rosdep name, liburdfdom-dev.
 lint() {
   local missing
   missing=$(catkin_lint --quiet -W0 . 2>&1 | grep -E 'missing [a-z_]*depend' | grep -v "'urdfdom'")
@@ -136,8 +156,20 @@ lint() {
       --ignore missing_depend --ignore uninstalled_script --ignore external_interface_path .
 }
 
-if $install; then scripts/install_dependencies.sh --test; fi
+# print_verdict: every failure by name, and the line of numbers.
+print_verdict() {
+  mkdir -p "$workspace/build/test_results"
+  scripts/count_tests.py "$results" "$workspace/build/test_results"
+}
 
+if $portable; then
+  if $install; then scripts/install_dependencies.sh --test; fi
+  if check build_without_warnings build; then check run_tests run_tests || true; fi
+  print_verdict
+  exit
+fi
+
+if $install; then scripts/install_dependencies.sh --checks; fi
 if check build_without_warnings build; then
   start_sanitized_build
   trap stop_sanitized_build EXIT
@@ -147,11 +179,15 @@ if check build_without_warnings build; then
   check kernels_share_no_code kernels_share_no_code || true
   check sanitized_core_tests sanitized_core_tests || true
   check contenders_agree contenders_agree || true
+  check installs_core test/downstream/check.sh core || true
+  check exports_devel_space test/downstream/check.sh devel || true
+  check exports_install_space test/downstream/check.sh install || true
+  check examples examples || true
 fi
 check format format || true
 check architecture scripts/architecture.py || true
 check scripts scripts_tests || true
+check doxygen_pages doxygen_pages || true
 check catkin_lint lint || true
 
-mkdir -p "$workspace/build/test_results"
-scripts/count_tests.py "$results" "$workspace/build/test_results"
+print_verdict

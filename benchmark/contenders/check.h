@@ -9,23 +9,23 @@
 
 namespace virtual_work_dynamics {
 
-/// What a scene's results are, and how far others are from it: of trees in 113 bits; of closed
-/// loops in long double, by one linear system of all bodies with every joint cut. What rigid bodies
-/// do not determine does not count.
+/// The true results of a scene, and how far others are from them. Trees are computed in 113 bits;
+/// closed loops in long double, by one linear system of all bodies with every joint cut. Results
+/// that rigid bodies do not determine do not count.
 class Yardstick {
  public:
-  /// @param scene must outlive it.
+  /// @param scene must outlive this object.
   explicit Yardstick(const BenchmarkScene& scene);
 
-  /// The largest error over all states: of an effort over the largest effort of the state, of a
-  /// reaction's force or moment over the state's largest force or moment, of a completed position,
-  /// velocity or acceleration over the state's largest. Infinite when a result is not finite. Runs
-  /// the contender over all states, or as long as one of its calls is; over the first state only of
-  /// closed loops with more than 50 joints and closures, for the reference's cost grows with their
-  /// cube.
-  /// @param outputs of the contender's label.
-  /// @throws Error when the contender gives another number of results: reactions where none are
-  /// due, too.
+  /// Runs the contender and returns its largest relative error: of an effort over the largest
+  /// effort of the state, of a reaction's force or moment over the state's largest force or moment,
+  /// of a completed position, velocity or acceleration over the state's largest. Infinite when a
+  /// result is not finite. The contender runs over all states, or for as many as one of its calls
+  /// has; with more than 50 joints and closures in closed loops only the first state counts, as the
+  /// cost of the reference grows with their cube.
+  /// @param outputs Label::outputs of the contender.
+  /// @throws Error when the contender gives another number of results, or reactions that it should
+  ///   not give.
   double maxRelativeError(Contender& contender, const std::string& outputs) const;
 
  private:
@@ -34,7 +34,7 @@ class Yardstick {
     bool determined;
   };
   struct Reaction {
-    Reference113::Wrench wrench;  // zero where it is not determined
+    Reference113::Wrench wrench;  // zero where not determined
     std::array<bool, 6> determined;
   };
   struct State {
@@ -52,8 +52,8 @@ class Yardstick {
   std::vector<State> states_;
 };
 
-/// The error beyond which a contender computes something else: none is better than its precision,
-/// and some lose digits on long chains.
+/// The relative error beyond which a contender does not compute the same results. It allows for the
+/// precision, and for the digits that some contenders lose on long chains.
 double agreementLimit(const std::string& precision);
 
 }  // namespace virtual_work_dynamics

@@ -6,7 +6,7 @@
 
 #include "contenders/linkages.h"
 #include "stability/random_numbers.h"
-#include "virtual_work_dynamics/closed_loop_dynamics.h"
+#include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/scene_reader.h"
 #include "virtual_work_dynamics/urdf_reader.h"
@@ -68,7 +68,8 @@ Range rangeOf(const std::string& name) {
 }
 
 std::vector<Motion> completedMotions(const std::string& name, const Linkage& linkage) {
-  ClosedLoopDynamics dynamics(linkage.mechanism, linkage.scene, {});
+  const Dynamics dynamics(linkage.mechanism, linkage.scene, {});
+  Dynamics::Workspace workspace = dynamics.makeWorkspace();
   const std::vector<bool>& actuated = dynamics.actuated();
   const Range range = rangeOf(name);
   RandomNumbers random(2010);
@@ -89,7 +90,7 @@ std::vector<Motion> completedMotions(const std::string& name, const Linkage& lin
         if (!actuated[static_cast<std::size_t>(i)]) continue;
         motion.q[i] = start[i] + (target[i] - start[i]) * step / range.steps;
       }
-      if (!dynamics.complete(motion)) {
+      if (!dynamics.complete(motion, workspace)) {
         throw Error(name + ": loops do not close on the way to state " + std::to_string(n));
       }
     }
@@ -147,7 +148,8 @@ BenchmarkScene makeClosedScene(const std::string& name) {
 }
 
 LoopCounts countLoops(const BenchmarkScene& scene) {
-  ClosedLoopDynamics dynamics(scene.mechanism, *scene.loops, {});
+  const Dynamics dynamics(scene.mechanism, *scene.loops, {});
+  Dynamics::Workspace workspace = dynamics.makeWorkspace();
   LoopCounts counts;
   counts.coordinates = dynamics.coordinates();
   for (const bool actuated : dynamics.actuated()) counts.actuated += actuated ? 1 : 0;
@@ -156,8 +158,8 @@ LoopCounts countLoops(const BenchmarkScene& scene) {
     counts.conditions += conditionsOf(closure.type);
   }
   for (std::size_t n = 0; n < scene.motions.size(); ++n) {
-    dynamics.compute(scene.motions[n]);
-    const int redundant = dynamics.determinacy().redundant_constraints;
+    dynamics.compute(scene.motions[n], workspace);
+    const int redundant = workspace.results().loops.determinacy.redundant_constraints;
     if (n > 0 && redundant != counts.redundant_constraints) {
       throw Error(scene.name + ": " + std::to_string(redundant) +
                   " redundant constraints in state " + std::to_string(n) + ", " +

@@ -8,13 +8,13 @@
 
 namespace virtual_work_dynamics {
 
-// A mechanism as kdl_parser makes it of its description: a segment for each joint and its child
-// link.
+// KDL models of a mechanism as kdl_parser makes them of its description: each joint with its child
+// link is a segment.
 
 KDL::Vector kdlVector(const Vector3l& v);
 KDL::JntArray kdlArray(const Eigen::VectorXd& values);
 
-/// The joints of a serial path, see serialPath().
+/// The chain of the joints of a serial path, see serialPath().
 KDL::Chain kdlChain(const Mechanism& mechanism, const std::vector<int>& joints);
 KDL::Tree kdlTree(const Mechanism& mechanism);
 

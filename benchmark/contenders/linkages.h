@@ -17,11 +17,12 @@ struct Linkage {
 /// out of plane.
 Linkage separateFourBars(int loops);
 
-/// The same in one piece: a row of loops + 1 hanging rods, each joined to the next by a coupler, so
-/// that neighbouring loops share a rod. One degree of freedom, driven at the first rod. Long and
-/// short rods take turns, so that no loop is a parallelogram and each takes back what the one
-/// before made of the angle. Level tips make this exact but for the fourth power of the angle; were
-/// they not level, squares of it would add up until long rows could not move.
+/// Planar four-bar linkages in one piece: a row of loops + 1 hanging rods, each joined to the next
+/// by a coupler, so that neighbouring loops share a rod. The row has one degree of freedom and is
+/// driven at the first rod. Long and short rods take turns, so that no loop is a parallelogram and
+/// each undoes how the one before it changed the angle. With level tips this is exact except for
+/// the fourth power of the angle; with others, squares of it would add up until long rows could not
+/// move.
 Linkage sharedRods(int loops);
 
 }  // namespace virtual_work_dynamics

@@ -7,8 +7,9 @@
 
 namespace virtual_work_dynamics {
 
-/// The recursion itself, one sample on long double: where double does not suffice. For scenes
-/// without applied wrenches; poses and twists are left out. One instance serves one thread.
+/// The recursion for one sample in long double, for measurements in which double does not suffice.
+/// Scenes must not have applied wrenches; poses and twists are left out. One instance serves one
+/// thread.
 class LongDoubleDynamics {
  public:
   /// @throws as InverseDynamics does.
@@ -16,10 +17,11 @@ class LongDoubleDynamics {
   ~LongDoubleDynamics();
   LongDoubleDynamics(LongDoubleDynamics&&) noexcept;
 
-  /// One number of each array for each generalized coordinate. Does not allocate.
+  /// Computes one sample; the arrays have one number for each generalized coordinate. Does not
+  /// allocate.
   void compute(const long double* q, const long double* qd, const long double* qdd);
 
-  /// Results as in the rows of a ResultBlock.
+  /// The efforts, in the order of the rows of a ResultBlock.
   const std::vector<long double>& efforts() const;
   const std::vector<long double>& childAxes() const;
   const std::vector<long double>& rootAxes() const;

@@ -6,20 +6,20 @@
 
 namespace virtual_work_dynamics {
 
-// Each appends what it has for a scene, a tree unless named otherwise; a peer that cannot compute
-// it appends nothing.
+// These functions append their contenders for a scene, which is a tree unless the comment says
+// otherwise; a peer that cannot compute it appends nothing.
 
-/// One sample after another by InverseDynamics.
+/// Appends InverseDynamics, one sample after another.
 void offerOwnSingle(const BenchmarkScene& scene, std::vector<Offer>& offers);
-/// The same recursion on long double.
+/// Appends the recursion in long double, one sample after another.
 void offerOwnLongDouble(const BenchmarkScene& scene, std::vector<Offer>& offers);
-/// Blocks of samples by BlockInverseDynamics: in each layout, by each build that this machine runs,
-/// by one thread and by two.
+/// Appends blocks of samples by BlockInverseDynamics: in each layout, by each build that this
+/// machine runs, by one thread and by two.
 void offerOwnBlocks(const BenchmarkScene& scene, std::vector<Offer>& offers);
-/// Lagrange's equations, in double and in long double; of robots up to 100 joints.
+/// Appends Lagrange's equations, in double and in long double, for robots of up to 100 joints.
 void offerOwnLagrange(const BenchmarkScene& scene, std::vector<Offer>& offers);
-/// KDL: ChainIdSolver_RNE as kdl_parser would build the chain, the same with fixed joints merged,
-/// and TreeIdSolver_RNE.
+/// Appends KDL's solvers: ChainIdSolver_RNE for the chain that kdl_parser would build and for the
+/// chain with fixed joints merged, and TreeIdSolver_RNE.
 void offerKdl(const BenchmarkScene& scene, std::vector<Offer>& offers);
 #ifdef VWD_WITH_MUJOCO
 void offerMujoco(const BenchmarkScene& scene, std::vector<Offer>& offers);
@@ -28,10 +28,11 @@ void offerMujoco(const BenchmarkScene& scene, std::vector<Offer>& offers);
 void offerDart(const BenchmarkScene& scene, std::vector<Offer>& offers);
 #endif
 
-/// Closed loops by ClosedLoopDynamics: the whole motion given, or only that of the actuated joints.
+/// Appends Dynamics for closed loops, with the whole motion given, or only that of the actuated
+/// joints.
 void offerOwnLoops(const BenchmarkScene& scene, std::vector<Offer>& offers);
-/// Closed loops by one linear system of all bodies, and by Lagrange's equations with multipliers;
-/// up to 30 joints.
+/// Appends one linear system of all bodies, and Lagrange's equations with multipliers, for closed
+/// loops of up to 30 joints.
 void offerLoopFormalisms(const BenchmarkScene& scene, std::vector<Offer>& offers);
 
 }  // namespace virtual_work_dynamics

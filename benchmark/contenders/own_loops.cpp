@@ -1,6 +1,6 @@
 #include "contenders/offers.h"
 #include "contenders/own_request.h"
-#include "virtual_work_dynamics/closed_loop_dynamics.h"
+#include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -14,19 +14,21 @@ class OwnLoops : public Contender {
  public:
   OwnLoops(const BenchmarkScene& scene, const std::string& outputs)
       : motions_(scene.motions),
-        dynamics_(scene.mechanism, *scene.loops, loopRequest(scene, outputs)) {}
+        dynamics_(scene.mechanism, *scene.loops, loopRequest(scene, outputs)),
+        workspace_(dynamics_.makeWorkspace()) {}
 
   void run(std::size_t calls) override {
-    for (; calls > 0; --calls) dynamics_.compute(motions_[cycle_.next()]);
+    for (; calls > 0; --calls) dynamics_.compute(motions_[cycle_.next()], workspace_);
   }
 
   SampleResults results(std::size_t) const override {
-    return plainResults(dynamics_.effort(), dynamics_.childAxes());
+    return plainResults(workspace_.results().effort, workspace_.results().child_axes);
   }
 
  private:
   const std::vector<Motion>& motions_;
-  ClosedLoopDynamics dynamics_;
+  Dynamics dynamics_;
+  Dynamics::Workspace workspace_;
   StateCycle cycle_;
 };
 
@@ -37,6 +39,7 @@ class OwnCompletion : public Contender {
   OwnCompletion(const BenchmarkScene& scene, const std::string& outputs)
       : starts_(scene.motions),
         dynamics_(scene.mechanism, *scene.loops, loopRequest(scene, outputs)),
+        workspace_(dynamics_.makeWorkspace()),
         computes_(outputs != kCompletedMotion) {
     for (Motion& start : starts_) {
       for (Eigen::Index i = 0; i < start.q.size(); ++i) {
@@ -50,14 +53,15 @@ class OwnCompletion : public Contender {
   void run(std::size_t calls) override {
     for (; calls > 0; --calls) {
       motion_ = starts_[cycle_.next()];
-      closes_ = dynamics_.complete(motion_) && closes_;
-      if (computes_) dynamics_.compute(motion_);
+      closes_ = dynamics_.complete(motion_, workspace_) && closes_;
+      if (computes_) dynamics_.compute(motion_, workspace_);
     }
   }
 
   SampleResults results(std::size_t) const override {
     if (!closes_) throw Error("does not close the loops");
-    if (computes_) return plainResults(dynamics_.effort(), dynamics_.childAxes());
+    if (computes_)
+      return plainResults(workspace_.results().effort, workspace_.results().child_axes);
     SampleResults results;
     for (const Eigen::VectorXd* values : {&motion_.q, &motion_.qd, &motion_.qdd}) {
       results.motion.insert(results.motion.end(), values->data(), values->data() + values->size());
@@ -67,7 +71,8 @@ class OwnCompletion : public Contender {
 
  private:
   std::vector<Motion> starts_;
-  ClosedLoopDynamics dynamics_;
+  Dynamics dynamics_;
+  Dynamics::Workspace workspace_;
   bool computes_;
   bool closes_ = true;
   Motion motion_;

@@ -8,8 +8,8 @@
 
 namespace virtual_work_dynamics {
 
-/// What a label's outputs are as a request: efforts, and every movable joint's reaction in the
-/// child link's axes.
+/// The request for the outputs of a label: efforts, and with reactions those of every movable joint
+/// in the child link's axes.
 inline Request ownRequest(const BenchmarkScene& scene, const std::string& outputs) {
   Request request;
   if (outputs == kEffortsAndReactions) {
@@ -20,7 +20,8 @@ inline Request ownRequest(const BenchmarkScene& scene, const std::string& output
   return request;
 }
 
-/// The same of a scene with closed loops: reactions of movable joints, then of closures.
+/// The request for the outputs of a label in a scene with closed loops: efforts, and with reactions
+/// those of movable joints, then of closures.
 inline Request loopRequest(const BenchmarkScene& scene, const std::string& outputs) {
   Request request;
   if (outputs == kEffortsAndReactions) {

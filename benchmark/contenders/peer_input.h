@@ -7,12 +7,13 @@
 
 namespace virtual_work_dynamics {
 
-// Other libraries know no mimic joints and number joints, not generalized coordinates.
+// Input for other libraries, which do not know mimic joints, and number joints rather than
+// generalized coordinates.
 
 /// Indices of the joints that move, mimic joints among them.
 std::vector<int> movableJoints(const Mechanism& mechanism);
 
-/// Motions of the given joints, one entry for each.
+/// Motions with one entry for each of the given joints.
 std::vector<Motion> jointMotions(const Mechanism& mechanism, const std::vector<Motion>& motions,
                                  const std::vector<int>& joints);
 
@@ -21,7 +22,7 @@ std::vector<long double> coordinateEfforts(const Mechanism& mechanism,
                                            const std::vector<int>& joints,
                                            const Eigen::VectorXd& joint_efforts);
 
-/// The same mechanism without fixed joints: their links are part of the links that carry them.
+/// The mechanism without fixed joints: their links become part of the links that carry them.
 /// Movable joints, and so coordinates, keep their order.
 Mechanism withoutFixedJoints(const Mechanism& mechanism);
 

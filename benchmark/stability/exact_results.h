@@ -11,7 +11,7 @@
 
 namespace virtual_work_dynamics {
 
-/// A number of 113 bits as the sum of two, with which computing is faster.
+/// A number of 113 bits as the sum of two of long double, with which computing is faster.
 struct ExactNumber {
   long double high = 0, low = 0;
 
@@ -21,52 +21,55 @@ struct ExactNumber {
         low(static_cast<long double>(value - static_cast<Real113>(high))) {}
 };
 
-/// Results of one sample, of whatever precision: efforts, then reactions of ground and of every
-/// joint, fx fy fz tx ty tz each.
+/// Results of one sample, computed in any precision: efforts, and reactions of ground and then of
+/// every joint, fx fy fz tx ty tz each.
 struct StateResults {
   std::vector<long double> efforts, child_axes, root_axes;
 };
 
-/// What a number type can do.
+/// Precision and range of a number type.
 struct PrecisionLimits {
-  long double eps = 0;  ///< distance from 1 to the next number
-  double least = 0;     ///< normal number; as a double: zero for long double
-  long double largest = 0;
+  long double eps = 0;      ///< distance from 1 to the next number
+  double least = 0;         ///< least normal number as a double, which is zero for long double
+  long double largest = 0;  ///< largest finite number
 };
 
 /// How far results of one sample, or of many, are from the exact ones.
 struct Errors {
   double over_bound = 0;  ///< largest error over its bound; infinite where a result is not finite
-  /// The same of a narrower bound, whose L counts no joints before the one whose result it is.
+  /// Largest error over a narrower bound, whose L does not count the joints before the result's
+  /// own.
   double over_subtree_bound = 0;
   double relative = 0;  ///< largest error over the largest number of its kind in the state
-  std::string worst;    ///< the result that is closest to its bound, or beyond it
+  std::string worst;    ///< name of the result with the largest error over its bound
 
   void include(const Errors& other);
 };
 
-/// What the efforts and reactions of a state are, and how far from them results may be.
+/// The exact efforts and reactions of a state, and how far from them results may be.
 ///
-/// An effort in N m is of one kind with the moments, one in N with the forces. Where all that is of
-/// a kind is zero, there is no relative error.
+/// Efforts in N m are of one kind with the moments, efforts in N with the forces. Where all numbers
+/// of a kind are zero, there is no relative error.
 class ExactResults {
  public:
-  /// @param bound after bound.compute(motion).
+  /// Computes the exact results.
+  /// @param bound the bound after bound.compute(motion).
   ExactResults(const Mechanism& mechanism, const Scene& scene, const Motion& motion,
                const ErrorBound& bound);
 
-  /// Errors over 4 L eps S. Whatever is beyond the largest number of the precision is left out.
-  /// @param bound after bound.compute(motion, limits.least).
+  /// Errors of results over the bound 4 L eps S. Results beyond the largest number of the precision
+  /// are left out.
+  /// @param bound the bound after bound.compute(motion, limits.least).
   Errors errorsOf(const StateResults& results, const PrecisionLimits& limits,
                   const ErrorBound& bound) const;
 
-  /// Of efforts alone, in double.
-  /// @param bound after bound.compute(motion, limits.least).
+  /// Errors of efforts alone, in double, over the bound 4 L eps S.
+  /// @param bound the bound after bound.compute(motion, limits.least).
   Errors errorsOfEfforts(const std::vector<double>& efforts, const PrecisionLimits& limits,
                          const ErrorBound& bound) const;
 
-  /// Largest difference between these results and another state's, relative to the largest of the
-  /// kind in this one.
+  /// Largest difference between these results and those of another state, relative to the largest
+  /// number of the kind in these.
   double relativeDifference(const ExactResults& other) const;
 
  private:

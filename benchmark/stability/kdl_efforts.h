@@ -8,8 +8,8 @@
 
 namespace virtual_work_dynamics {
 
-/// Whether KDL can compute it: neither mimic joints nor joint terms, and a chain, or a tree where
-/// KDL has a solver for trees. False where the program was built without KDL.
+/// Whether KDL can compute the efforts: of a chain without mimic joints and joint terms, or of such
+/// a tree where KDL has a solver for trees. False where the program was built without KDL.
 bool kdlComputes(const Mechanism& mechanism, const Scene& scene);
 
 /// KDL's efforts of each state. @throws Error where KDL cannot compute them.

@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "closed_loops.h"
 #include "four_bar.h"
 #include "stability/mechanism_maker.h"
 #include "stability/sweeps.h"
-#include "virtual_work_dynamics/closed_loop_dynamics.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -36,7 +36,7 @@ struct Arc {
 };
 
 // Has the passive joints of a motion follow the others, from the scene's assembly.
-Motion completed(ClosedLoopDynamics& dynamics, Motion motion) {
+Motion completed(ClosedLoops& dynamics, Motion motion) {
   if (!dynamics.complete(motion)) throw Error("the four-bar of the scene is not closed");
   return motion;
 }
@@ -83,7 +83,7 @@ StabilityCase sphericalFourBar(double angle) {
     scene.assembly.push_back({"joint_" + std::to_string(i + 1), start.q[i]});
   }
   const Mechanism mechanism = maker.mechanism("spherical four-bar");
-  const auto dynamics = std::make_shared<ClosedLoopDynamics>(mechanism, scene, Request());
+  const auto dynamics = std::make_shared<ClosedLoops>(mechanism, scene);
   const auto motion = [in_plane, dynamics](RandomNumbers& random) {
     const double angle_of_crank = random.uniform(-3, 3), rate = random.uniform(-kRate, kRate);
     const double acceleration = random.uniform(-kAcceleration, kAcceleration);

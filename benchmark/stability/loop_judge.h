@@ -7,52 +7,53 @@
 #include <string>
 #include <vector>
 
+#include "closed_loops.h"
 #include "maximal_coordinates_oracle.h"
 #include "stability/random_numbers.h"
 #include "stability/sweeps.h"
-#include "virtual_work_dynamics/closed_loop_dynamics.h"
 
 namespace virtual_work_dynamics {
 
-/// A component of an effort or reaction as ClosedLoopDynamics has it.
+/// An effort, or a component of a reaction, of ClosedLoopDynamics.
 struct LoopComponent {
   double value = 0;
   bool determined = false;
 };
 
-/// The same with all joints cut, in long double: MaximalCoordinatesOracle, whose rank is told by
-/// the scene's tolerance.
+/// An effort, or a component of a reaction, with all joints cut, in long double:
+/// MaximalCoordinatesOracle, with the scene's tolerance of the rank.
 struct ExactComponent {
   long double value = 0;
   long double freedom = 0;  ///< by how much null vectors change it
-  bool turns = false;       ///< N m, not N
+  bool turns = false;       ///< whether it is in N m, not in N
 
   bool determined() const { return freedom <= MaximalCoordinatesOracle::kFree; }
 };
 
-/// The components of all efforts and of the reactions of ground, joints and closures, root axes and
-/// axes of the child.
+/// All efforts, then the components of the reactions of ground, joints and closures in root axes
+/// and in axes of the child.
 using LoopComponents = std::vector<LoopComponent>;
 using ExactComponents = std::vector<ExactComponent>;
 
 /// Judges ClosedLoopDynamics on states of one mechanism.
 ///
-/// An error is held against 4 (L + n) eps condition S. n is the number of unknowns of the loops and
-/// L the depth of the tree; S the largest sum of the norms of loads (ErrorBound of the tree) plus
-/// the largest force of the exact solution, moments over the size of the mechanism; the condition
-/// that the package reports counts no more than ten times the exact system's. What does not count
-/// for the rank is left out of the system: the largest such pivot is added to eps.
-/// A component that null vectors change by f of a newton is good to f S besides. Where a singular
+/// An error is compared with 4 (L + n) eps condition S. Here n is the number of unknowns of the
+/// loops and L the depth of the tree; S is the largest sum of the norms of loads (ErrorBound of the
+/// tree) plus the largest force of the exact solution, moments over the size of the mechanism. The
+/// condition that the package reports counts up to ten times the exact system's. Entries that do
+/// not count for the rank are left out of the system: the largest such pivot is added to eps. A
+/// component that null vectors change by f of a newton may also be off by f S. Where a singular
 /// position does not bear its load there are no exact values, and only counts and flags are judged.
 /// Within a factor of 100 of the tolerances of rank and flags either answer is right.
 class LoopJudge {
  public:
   explicit LoopJudge(const StabilityCase& stability_case);
 
-  /// @param random what the completion's start is off by
+  /// Computes, compares and completes a state.
+  /// @param random gives the error of the completion's start.
   LoopVerdict judge(const Motion& motion, RandomNumbers& random);
 
-  /// Parts of it, for tests to put errors in between.
+  // The parts of judge(), between which tests can put errors.
   LoopComponents compute(const Motion& motion);
   const Determinacy& determinacy() const { return dynamics_.determinacy(); }
   LoopVerdict compare(const Motion& motion, const LoopComponents& computed,
@@ -63,10 +64,10 @@ class LoopJudge {
  private:
   struct Exact {
     ExactComponents components;
-    long double force = 0, moment = 0;  // the largest that are determined
-    long double largest = 0;            // of all, moments over the size
+    long double force = 0, moment = 0;  // the largest ones that are determined
+    long double largest = 0;            // the largest force of all, moments over the size
     long double largest_left_out = 0, least_counted = 1;
-    long double violation = 0;  // of an equation, where the load is not borne
+    long double violation = 0;  // violation of an equation, where the load is not borne
     Eigen::Index redundancy = 0, free_motions = 0;
   };
   Exact exactOf(const Motion& motion) const;
@@ -82,8 +83,8 @@ class LoopJudge {
   Mechanism mechanism_;
   Scene scene_;
   std::vector<std::string> names_;
-  ClosedLoopDynamics dynamics_;
-  double size_ = 0;  // the largest distance from the root's origin to a joint's or a closure's
+  ClosedLoops dynamics_;
+  double size_ = 0;  // largest distance of the origin of a joint or closure from the root's
   int depth_ = 0;
 };
 

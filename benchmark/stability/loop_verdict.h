@@ -8,21 +8,22 @@
 
 namespace virtual_work_dynamics {
 
-/// What ClosedLoopDynamics made of one state of a mechanism with closures, or the worst of many.
+/// How well ClosedLoopDynamics computed one state of a mechanism with closures, or the worst of
+/// many.
 struct LoopVerdict {
   Errors errors;
-  double sensitivity = 0;  ///< as Verdict's
-  double condition = 0;    ///< that it reports
-  int rank = 0;            ///< likewise; the least
+  double sensitivity = 0;  ///< like Verdict::sensitivity
+  double condition = 0;    ///< condition that it reports
+  int rank = 0;            ///< least rank that it reports
   int redundancy = 0;      ///< unknowns less rank
   int redundant_constraints = 0;
   int free_motions = 0;
-  int components = 0;       ///< of efforts and reactions
-  int open = 0;             ///< of these, flagged as not determined
-  int apart = 0;            ///< counts and flags that are not the exact ones
-  std::string worst_apart;  ///< one of them
-  double residual = 0;      ///< of completed motions, over its limit
-  int completed = 0;        ///< motions
+  int components = 0;       ///< number of efforts and components of reactions
+  int open = 0;             ///< number of components that are flagged as not determined
+  int apart = 0;            ///< number of counts and flags that differ from the exact ones
+  std::string worst_apart;  ///< name of one that differs
+  double residual = 0;      ///< residual of completed motions over its limit
+  int completed = 0;        ///< number of completed motions
   int states = 0;
 
   void include(const LoopVerdict& other);

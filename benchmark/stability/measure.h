@@ -13,27 +13,27 @@ namespace virtual_work_dynamics {
 
 #ifdef VWD_HAS_REAL113
 
-/// What one path did in some states.
+/// The errors of one path in some states.
 struct PathVerdict {
   std::string path, precision;
   Errors errors;
 };
 
-/// What all of them did.
+/// The errors of all paths in some states.
 struct Verdict {
-  std::vector<PathVerdict> paths;  ///< none where the states are no numbers of float
-  double sensitivity = 0;          ///< see README
-  std::optional<Errors> kdl;       ///< of KDL's efforts
-  /// Of one sample by the chosen instruction set, where numbers are double.
+  std::vector<PathVerdict> paths;  ///< empty where float cannot hold the numbers of the states
+  double sensitivity = 0;          ///< largest relative change of results by one ulp of the motion
+  std::optional<Errors> kdl;       ///< errors of KDL's efforts
+  /// Certificates of single samples by the chosen instruction set, where numbers are double.
   std::optional<WorstCertificates> certificates;
-  std::optional<LoopVerdict> loops;  ///< of mechanisms with closures, which have one path only
+  std::optional<LoopVerdict> loops;  ///< for mechanisms with closures, which have one path only
 
   void include(const Verdict& other);
-  /// Largest error of all paths of a precision over the narrower bound.
+  /// The largest Errors::over_subtree_bound of all paths of a precision.
   double overSubtreeBound(const std::string& precision) const;
 };
 
-/// Numbers of the input.
+/// The number type of the input.
 enum class InputNumbers { kDouble, kFloat };
 
 /// Computes `count` random states in every way that takes such numbers, and by KDL if they are

@@ -8,7 +8,7 @@
 
 namespace virtual_work_dynamics {
 
-/// Where a joint is on its parent, and what it does.
+/// A joint's type and its place on the parent link.
 struct JointPlace {
   JointType type = JointType::kRevolute;
   Vector3l axis_K = Vector3l::UnitZ();
@@ -25,12 +25,13 @@ class MechanismMaker {
   Vector3l direction();
   Matrix3l rotation();
 
-  /// An axis in any direction, at the given distance from the parent's origin.
+  /// A place with an axis in any direction, at the given distance from the parent's origin.
   JointPlace anyPlace(JointType type, double distance);
 
-  /// Bodies of some length; their centres of mass are half of it away from the joint.
+  /// A cuboid whose centre of mass is half its length away from the joint.
   Link cuboid(double mass, double length);
-  /// Inertia about the centre of mass: `axial` about the given axis, `transverse` about all others.
+  /// A body whose inertia about the centre of mass is `axial` about the given axis and `transverse`
+  /// about axes normal to it.
   Link roundBody(double mass, const Vector3l& centre, const Vector3l& axis, double axial,
                  double transverse);
 
@@ -48,7 +49,7 @@ class MechanismMaker {
   int coordinates_ = 0;
 };
 
-/// Revolute, but for every third, which slides.
+/// The type of a joint in a row: revolute, except for every third, which slides.
 JointType mixedType(int index);
 
 }  // namespace virtual_work_dynamics

@@ -22,21 +22,21 @@ struct Path {
 template <typename Real>
 PrecisionLimits limitsOf();
 
-/// Name of the path of one sample of double.
+/// The name of the path of singlePath().
 std::string singlePathName(InstructionSet instruction_set);
 
-/// Everything that a state has: efforts, and the reactions of ground and all joints in both axes.
+/// A request for everything: efforts, and the reactions of ground and all joints in both axes.
 Request everything(const Mechanism& mechanism);
 
-/// All ways on numbers of double and longer.
+/// All paths that compute in double or in a longer type.
 std::vector<Path> doublePaths(const Mechanism& mechanism, const Scene& scene);
-/// All ways on float.
+/// All paths that compute in float.
 std::vector<Path> floatPaths(const Mechanism& mechanism, const Scene& scene);
-/// One sample of double, by the instructions that the machine is best at.
+/// The path that computes one sample in double by a kernel of the given instructions.
 Path singlePath(const Mechanism& mechanism, const Scene& scene, InstructionSet instruction_set);
 
-/// The same mechanism with multipliers and offsets of mimic joints that are numbers of float: at
-/// large angles their rounding is an error of the input, not of the computation.
+/// The mechanism with multipliers and offsets of mimic joints rounded to float: at large angles
+/// their rounding would be an error of the input, not of the computation.
 Mechanism withFloatGears(const Mechanism& mechanism);
 Motion roundedToFloat(const Motion& motion);
 

@@ -5,12 +5,13 @@
 
 namespace virtual_work_dynamics {
 
-/// The standard's distributions give other numbers with another library; the engine does not.
+/// Random numbers that are the same with every standard library, as its engine's are but not those
+/// of its distributions.
 class RandomNumbers {
  public:
   explicit RandomNumbers(std::uint32_t seed) : engine_(seed) {}
 
-  /// Of 53 bits.
+  /// A number of 53 random bits between `low` and `high`.
   double uniform(double low, double high) {
     const double coarse = static_cast<double>(engine_());
     const double fine = static_cast<double>(engine_() >> 11);

@@ -16,21 +16,22 @@ enum class BlockLayout {
   kRowMajor            ///< number c of sample n at [n * C + c]
 };
 
-/// Motion of N samples. The arrays belong to the caller.
+/// Motion of N samples; the arrays belong to the caller.
 template <typename Real>
 struct MotionBlock {
   std::size_t samples = 0;
-  const Real* q = nullptr;    ///< coordinates() numbers a sample, rad or m
-  const Real* qd = nullptr;   ///< rad/s or m/s
-  const Real* qdd = nullptr;  ///< rad/s^2 or m/s^2
+  const Real* q = nullptr;    ///< positions, coordinates() numbers a sample, rad or m
+  const Real* qd = nullptr;   ///< velocities, as many numbers a sample, rad/s or m/s
+  const Real* qdd = nullptr;  ///< accelerations, as many numbers a sample, rad/s^2 or m/s^2
 };
 
-/// Where results of N samples go. The arrays belong to the caller; null: not wanted.
+/// Where results of N samples go; the arrays belong to the caller, and results whose array is null
+/// are not written.
 template <typename Real>
 struct ResultBlock {
   Real* effort = nullptr;      ///< coordinates() numbers a sample, N m or N
   Real* child_axes = nullptr;  ///< fx fy fz tx ty tz for each of Request::child_axes, N and N m
-  Real* root_axes = nullptr;   ///< the same for each of Request::root_axes
+  Real* root_axes = nullptr;   ///< fx fy fz tx ty tz for each of Request::root_axes, N and N m
   Real* poses = nullptr;       ///< for each of Request::root_axes: x y z, then R_0K by rows
   Real* twists = nullptr;      ///< for each of Request::root_axes: vx vy vz wx wy wz, root axes
 };
@@ -49,6 +50,7 @@ class BlockInverseDynamics {
   BlockInverseDynamics(BlockInverseDynamics&&) noexcept;
   BlockInverseDynamics& operator=(BlockInverseDynamics&&) noexcept;
 
+  /// Number of generalized coordinates: the numbers a sample of q, qd, qdd and of the effort.
   std::size_t coordinates() const;
   const Request& request() const;
   int threads() const;
@@ -61,9 +63,10 @@ class BlockInverseDynamics {
   void compute(BlockLayout layout, const MotionBlock<Real>& motion,
                const ResultBlock<Real>& results);
 
-  /// As Workspace::setAppliedWrench(), for all samples from the next block on.
-  void setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                        const Eigen::Vector3d& torque);
+  /// Computes all samples with `load` in place of the values of the scene's applied wrenches.
+  /// @throws SceneError when it has not one wrench for each of them.
+  void compute(BlockLayout layout, const MotionBlock<Real>& motion, const Load& load,
+               const ResultBlock<Real>& results);
 
  private:
   struct Impl;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 
+#include "virtual_work_dynamics/load.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/request.h"
@@ -12,15 +13,16 @@
 
 namespace virtual_work_dynamics {
 
-/// What efforts and reactions of one sample miss of laws that hold for the mechanism as a whole,
-/// relative to the sum of the magnitudes of all terms: some 1e-15 when they are right, at any
-/// scale. Zero where there is nothing to compare.
+/// By how much efforts and reactions of one sample miss laws that hold for the mechanism as a
+/// whole, relative to the sum of the magnitudes of all terms: some 1e-15 when they are right, at
+/// any scale. Zero where there is nothing to compare.
 struct Certificates {
   double power = 0;          ///< efforts * velocities against the rate of change of energy
   double ground_force = 0;   ///< ground's force against the rate of change of momentum
-  double ground_moment = 0;  ///< ground's moment against that of angular momentum, root origin
+  double ground_moment = 0;  ///< ground's moment against the rate of change of angular momentum
 
-  double largest() const;  ///< NaN when any is
+  /// The largest of the three; NaN when one of them is.
+  double largest() const;
 };
 
 /// Certifies samples: carries velocities and accelerations of all centres of mass to root axes in a
@@ -33,10 +35,10 @@ class Certifier {
   Certifier(Certifier&&) noexcept;
   Certifier& operator=(Certifier&&) noexcept;
 
-  /// `request` with what certificates need: efforts, and the reaction of ground in child axes, last
-  /// of all unless it is asked for already.
+  /// Returns `request` with what certificates need added: efforts, and the reaction of ground in
+  /// child axes, last of all unless it is asked for already.
   static Request extended(Request request);
-  /// Where the reaction of ground stands in Request::child_axes of an extended request.
+  /// Index of the reaction of ground in Request::child_axes of an extended request.
   static std::size_t groundIndex(const Request& extended);
 
   /// Certificates of the results of one sample. Does not allocate.
@@ -45,9 +47,10 @@ class Certifier {
   /// @throws MotionError when a vector has the wrong length.
   Certificates check(const Motion& motion, const Eigen::VectorXd& effort, const Wrench& ground);
 
-  /// As Workspace::setAppliedWrench().
-  void setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                        const Eigen::Vector3d& torque);
+  /// Certifies results that were computed with `load` in place of the values of the scene's applied
+  /// wrenches. @throws SceneError when it has not one wrench for each of them.
+  Certificates check(const Motion& motion, const Load& load, const Eigen::VectorXd& effort,
+                     const Wrench& ground);
 
  private:
   struct Impl;

@@ -5,108 +5,109 @@
 #include <string>
 #include <vector>
 
-#include "virtual_work_dynamics/inverse_dynamics.h"
+#include "virtual_work_dynamics/load.h"
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/motion.h"
+#include "virtual_work_dynamics/plan_summary.h"
 #include "virtual_work_dynamics/request.h"
 #include "virtual_work_dynamics/results.h"
+#include "virtual_work_dynamics/scene.h"
 
 namespace virtual_work_dynamics {
 
+struct LoopSolvers;
+
 /// Inverse dynamics of a mechanism with closures (3.1)-(3.4): the tree by InverseDynamics, its
 /// loops by multipliers, tau_tree = S^T tau + A^T lambda, and the reactions by (3.8) with the
-/// wrench of each closure applied to both of its links. Everything of a scene: closures, springs,
-/// actuated joints. One instance serves one thread.
+/// wrench of each closure applied to both of its links. It takes everything in a scene, including
+/// closures, springs and actuated joints. Immutable: one instance may serve any number of threads,
+/// each with a workspace of its own. Dynamics serves mechanisms with and without loops.
 class ClosedLoopDynamics {
  public:
-  /// `request` names joints, closures and "ground".
+  class Workspace;
+
+  /// Compiles mechanism, scene and request into a plan. `request` names joints, closures and
+  /// "ground".
   /// @throws SceneError naming what is wrong with closures, springs, actuated joints, assembly or
-  ///   redundancy; when the closures cannot be assembled from the given start, by how much and
-  ///   which; and when actuated joints are too few for the degrees of freedom.
+  ///   redundancy; naming the closure, and by how much it stays open, when the closures cannot be
+  ///   assembled from the given start; and when the actuated joints are too few for the degrees of
+  ///   freedom.
   ClosedLoopDynamics(const Mechanism& mechanism, const Scene& scene, const Request& request);
   ~ClosedLoopDynamics();
   ClosedLoopDynamics(ClosedLoopDynamics&&) noexcept;
   ClosedLoopDynamics& operator=(ClosedLoopDynamics&&) noexcept;
 
+  /// Number of generalized coordinates: the length of q, qd and qdd.
   Eigen::Index coordinates() const;
   const Request& request() const;
   /// The assembled position that the scene's start leads to.
   const Eigen::VectorXd& assembly() const;
   /// Whether each generalized coordinate is actuated.
   const std::vector<bool>& actuated() const;
-  /// Names of actuated closures, whose efforts follow those of the coordinates.
+  /// Names of the actuated closures, whose efforts come after those of the coordinates.
   const std::vector<std::string>& actuatedClosures() const;
-  /// How far each of them has turned, within half a turn, or slid, and how fast, in the motion
-  /// computed last; rad or m.
-  const Eigen::VectorXd& actuatedClosurePositions() const;
-  const Eigen::VectorXd& actuatedClosureVelocities() const;
+
+  /// The tree that is left when closures and springs are cut. What these exert becomes applied
+  /// wrenches after the scene's own, with the values of LoopResults::tree_wrenches, so that
+  /// Certifier, LagrangeDynamics and ErrorBound, which do not know loops, can be made from this
+  /// scene. Its efforts are those of the coordinates, without the actuated closures.
+  const Scene& tree() const;
+
+  /// What a sample of the tree without closures and springs costs. Allocates; runs the recursion
+  /// once.
+  PlanSummary summary() const;
+
+  /// Makes the memory for complete() and compute(). Allocates, so that these do not.
+  Workspace makeWorkspace() const;
 
   /// Replaces the passive coordinates of `motion` by those that the closures demand: positions by
   /// Newton's method from those in `motion` (the previous sample's), velocities and accelerations
-  /// by the conditions. False when the loops cannot be closed there, when the given velocities or
-  /// accelerations contradict them, and where they do not determine the others, as in a singular
-  /// position; positions are then the best met, rates are of no use. Does not allocate.
-  /// @throws MotionError when a vector of `motion` has the wrong length.
-  bool complete(Motion& motion);
-  /// The same from a position close by, as one of the samples before: where the loops cannot be
-  /// closed, the search ends as soon as it gets no further.
-  /// @throws MotionError when a vector of `motion` has the wrong length.
-  bool completeFromCloseBy(Motion& motion);
-  /// complete() with other coordinates given.
-  /// @throws MotionError when `given` has not one entry for each coordinate.
-  bool complete(Motion& motion, const std::vector<bool>& given);
+  /// by the conditions. Returns false when the loops cannot be closed there, when the given
+  /// velocities or accelerations contradict them, and where they do not determine the others, as in
+  /// a singular position; positions are then the best met, and rates are not usable. Does not
+  /// allocate.
+  /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is
+  ///   another plan's.
+  bool complete(Motion& motion, Workspace& workspace) const;
+  /// Completes from a position close by, such as that of an earlier sample: where the loops cannot
+  /// be closed, the search ends as soon as it makes no more progress. Throws what complete()
+  /// throws.
+  bool completeFromCloseBy(Motion& motion, Workspace& workspace) const;
+  /// Completes a motion that gives other coordinates than the actuated ones. Throws what complete()
+  /// throws.
+  /// @throws MotionError unless `given` has one entry for each coordinate.
+  bool complete(Motion& motion, const std::vector<bool>& given, Workspace& workspace) const;
 
-  /// As Workspace::setAppliedWrench().
-  void setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                        const Eigen::Vector3d& torque);
-
-  /// Efforts and reactions of one sample. Does not allocate.
-  /// @throws MotionError when a vector of `motion` has the wrong length.
-  void compute(const Motion& motion);
-
-  /// Of each generalized coordinate, zero for passive ones, then of each actuated closure.
-  const Eigen::VectorXd& effort() const;
-  /// In the order of the request. Of a closure: what its parent exerts on its child, about the
-  /// child frame's origin; child axes are that frame's.
-  const std::vector<Wrench>& childAxes() const;
-  const std::vector<Wrench>& rootAxes() const;
-  const std::vector<Pose>& poses() const;
-  const std::vector<Twist>& twists() const;
-  bool finite() const;
-
-  /// What of these is determined.
-  const Determinacy& determinacy() const;
-  const std::vector<bool>& effortDetermined() const;
-  const std::vector<Determined>& childAxesDetermined() const;
-  const std::vector<Determined>& rootAxesDetermined() const;
-
-  /// By closure: Determinacy::condition of the loops that are solved together with its own.
-  const std::vector<double>& closureConditions() const;
-
-  /// The tree that is left when closures and springs are cut. What these exert are applied wrenches
-  /// behind the scene's own, so that Certifier, LagrangeDynamics and ErrorBound, which know of no
-  /// loops, can be made of it. Its efforts are those of the coordinates, without the actuated
-  /// closures.
-  const Scene& tree() const;
-  /// Values of the wrenches behind the scene's own, of the motion computed last, root axes.
-  const std::vector<Wrench>& treeWrenches() const;
-  /// Hands them to what was made of tree().
-  template <typename OfTree>
-  void applyTo(OfTree& of_tree) const {
-    const std::size_t own = tree().applied_wrenches.size() - treeWrenches().size();
-    for (std::size_t i = 0; i < treeWrenches().size(); ++i) {
-      of_tree.setAppliedWrench(own + i, treeWrenches()[i].force, treeWrenches()[i].torque);
-    }
-  }
-
-  /// Of each closure, of the motion computed last.
-  const std::vector<ClosureResidual>& residuals() const;
-  /// The same without units, to be held against a tolerance: lengths over the size of the loops,
-  /// velocities also over the largest rate of the motion, accelerations over its largest
-  /// acceleration or the square of that rate. Rates below 1/s and accelerations below 1/s^2 count
-  /// as these.
-  const std::vector<ClosureResidual>& relativeResiduals() const;
+  /// Computes efforts and reactions of one sample into the workspace. Does not allocate.
+  /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is
+  ///   another plan's.
+  void compute(const Motion& motion, Workspace& workspace) const;
+  /// Computes with `load` in place of the values of the scene's applied wrenches.
+  /// @throws SceneError unless `load` has one wrench for each of them.
+  void compute(const Motion& motion, const Load& load, Workspace& workspace) const;
 
  private:
   struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+/// Results and scratch memory of one thread's computations; made by
+/// ClosedLoopDynamics::makeWorkspace(), whose maker must outlive it.
+class ClosedLoopDynamics::Workspace {
+ public:
+  ~Workspace();
+  Workspace(Workspace&&) noexcept;
+  Workspace& operator=(Workspace&&) noexcept;
+
+  /// Results of the sample computed last. The reaction of a closure is what its parent exerts on
+  /// its child, about the child frame's origin; its child axes are that frame's axes.
+  const Results& results() const;
+
+ private:
+  friend class ClosedLoopDynamics;
+  struct Impl;
+  explicit Workspace(const ClosedLoopDynamics::Impl& plan);
+  LoopSolvers& solversOf(const ClosedLoopDynamics::Impl& plan);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -5,7 +5,8 @@
 
 namespace virtual_work_dynamics {
 
-/// Base of everything this library throws on bad input; what() is one line that names the culprit.
+/// Base of everything that this library throws on bad input; what() is one line that names the
+/// culprit.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -17,13 +18,13 @@ class UrdfError : public Error {
   using Error::Error;
 };
 
-/// The scene is malformed, or names what the mechanism does not have.
+/// The scene is malformed, or names something that the mechanism does not have.
 class SceneError : public Error {
  public:
   using Error::Error;
 };
 
-/// A motion has the wrong size, order of times or content.
+/// A motion has a wrong size, times in a wrong order or unusable values.
 class MotionError : public Error {
  public:
   using Error::Error;

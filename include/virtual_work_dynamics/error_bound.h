@@ -5,14 +5,15 @@
 #include <memory>
 #include <vector>
 
+#include "virtual_work_dynamics/load.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/scene.h"
 
 namespace virtual_work_dynamics {
 
-/// Sums of the norms of all that is added up to a wrench: however much of it cancels, rounding
-/// errors are parts of these.
+/// Sums of the norms of all terms of a wrench, the yardstick Y of doc/theory.md: however much of
+/// them cancels, rounding errors are parts of these.
 struct WrenchMagnitude {
   double force = 0;   ///< N
   double moment = 0;  ///< N m
@@ -30,28 +31,30 @@ class ErrorBound {
   ErrorBound(ErrorBound&&) noexcept;
   ErrorBound& operator=(ErrorBound&&) noexcept;
 
-  /// As Workspace::setAppliedWrench().
-  void setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                        const Eigen::Vector3d& torque);
-
-  /// Magnitudes of one sample. Does not allocate. Fixed joints are joints like others.
-  /// @param least what every number counts as at least. Rounding errors are relative down to the
+  /// Computes the magnitudes of one sample. Does not allocate. Fixed joints are joints like others.
+  /// @param least magnitude that every number counts as at least. Rounding errors are relative down
+  /// to the
   ///   smallest normal number of a number type, and below it as large as there: given that number,
   ///   the digits that denormal numbers lose are parts of the magnitudes, too.
   /// @throws MotionError when a vector of `motion` has the wrong length.
   void compute(const Motion& motion, double least = 0);
+  /// Computes magnitudes with `load` in place of the values of the scene's applied wrenches.
+  /// @throws SceneError when it has not one wrench for each of them.
+  void compute(const Motion& motion, const Load& load, double least = 0);
 
-  /// Of the wrench on each link's origin: [0] of ground, [k + 1] of joint k.
+  /// Magnitudes of the wrench on each link's origin: [0] of ground, [k + 1] of joint k.
   const std::vector<WrenchMagnitude>& wrenches() const;
-  /// Of the effort of each generalized coordinate, mimic joints and joint terms included.
+  /// Magnitude of the effort of each generalized coordinate, mimic joints and joint terms included.
   const std::vector<double>& efforts() const;
 
-  /// How many steps in sequence lie behind a wrench: joints on the longest path from the root
-  /// through the joint to a leaf, plus the binary logarithms of the numbers of children on the
-  /// joint's side of it, as hubs sum pairwise. The joints before it count, too: its orientation in
-  /// the field of gravity is a product of their rotations. [0] of ground, [k + 1] of joint k.
+  /// How many steps in sequence lie behind a wrench, L of doc/theory.md: joints on the longest path
+  /// from the root through the joint to a leaf, plus the binary logarithms of the numbers of
+  /// children on the joint's side of it, as hubs sum pairwise. The joints before it count, too: its
+  /// orientation in the field of gravity is a product of their rotations. [0] of ground, [k + 1] of
+  /// joint k.
   const std::vector<int>& depths() const;
-  /// The same of each generalized coordinate's effort: the largest of the joints that it moves.
+  /// How many steps lie behind the effort of each generalized coordinate: the most of any joint
+  /// that it moves.
   const std::vector<int>& effortDepths() const;
 
  private:

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "virtual_work_dynamics/instruction_set.h"
+#include "virtual_work_dynamics/load.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/plan_summary.h"
@@ -16,20 +17,21 @@ namespace virtual_work_dynamics {
 
 class Workspace;
 
-/// Inverse dynamics of a tree by the recursive virtual-work model (2.5)-(2.7), (3.5)-(3.8), (4.3):
-/// a mechanism, a scene and a request compiled into one plan. Immutable: one instance may serve any
-/// number of threads, each with a workspace of its own.
+/// Inverse dynamics of a tree by the recursive virtual-work model (2.5)-(2.7), (3.5)-(3.8), (4.3),
+/// which doc/theory.md explains and notation.h has the symbols of: a mechanism, a scene and a
+/// request compiled into one plan. Immutable: one instance may serve any number of threads, each
+/// with a workspace of its own.
 class InverseDynamics {
  public:
-  /// Compiles. What matters to no requested result is left out: branches, bodies without inertia
-  /// at the ends of branches, terms of motions and gravity that are zero. Fixed joints are lumped
-  /// into their parents unless their reaction is requested.
+  /// Compiles a plan. What matters to no requested result is left out: branches, bodies without
+  /// inertia at the ends of branches, terms of motions and gravity that are zero. Fixed joints are
+  /// lumped into their parents unless their reaction is requested.
   /// @throws SceneError when scene or request name a joint or link that the mechanism lacks, or a
   ///   reaction twice, when the scene is strict about inertias and the mechanism has doubtful ones,
   ///   or when it needsClosedLoops(); Error when the instruction set is not supported.
   InverseDynamics(const Mechanism& mechanism, const Scene& scene, const Request& request,
                   InstructionSet instruction_set = chosenInstructionSet());
-  /// Everything the scene asks for: efforts, and its reactions in both axes.
+  /// Compiles everything the scene asks for: efforts, and its reactions in both axes.
   InverseDynamics(const Mechanism& mechanism, const Scene& scene);
   ~InverseDynamics();
   InverseDynamics(InverseDynamics&&) noexcept;
@@ -39,7 +41,8 @@ class InverseDynamics {
   Eigen::Index coordinates() const;
   const Request& request() const;
   InstructionSet instructionSet() const;
-  /// What was left out, and the operations that remain. Allocates; runs the recursion once.
+  /// Says what was left out, and counts the operations that remain. Allocates; runs the recursion
+  /// once.
   PlanSummary summary() const;
 
   /// Memory for compute(). Allocates; compute() then does not.
@@ -51,9 +54,14 @@ class InverseDynamics {
   /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is
   ///   another plan's.
   void compute(const Motion& motion, Workspace& workspace) const;
+  /// Computes with `load` in place of the values of the scene's applied wrenches.
+  /// @throws SceneError when it has not one wrench for each of them.
+  void compute(const Motion& motion, const Load& load, Workspace& workspace) const;
 
  private:
   struct Impl;
+  // Computes with a load; null stands for the scene's own.
+  void computeWith(const Load* load, const Motion& motion, Workspace& workspace) const;
   friend class Workspace;
   friend class SampleBlock;
   template <typename Real>
@@ -69,23 +77,23 @@ class Workspace {
   Workspace(Workspace&&) noexcept;
   Workspace& operator=(Workspace&&) noexcept;
 
+  /// Results of the sample computed last.
+  const Results& results() const { return results_; }
+
   /// Effort of each generalized coordinate, N m or N; (3.7), mimic joints and what the scene says
   /// of joints' springs, friction and rotors included. Empty when the request leaves efforts out.
-  const Eigen::VectorXd& effort() const { return effort_; }
-  /// Reactions in the order of Request::child_axes and Request::root_axes.
-  const std::vector<Wrench>& childAxes() const { return child_axes_; }
-  const std::vector<Wrench>& rootAxes() const { return root_axes_; }
-  /// In the order of Request::root_axes; empty unless requested.
-  const std::vector<Pose>& poses() const { return poses_; }
-  const std::vector<Twist>& twists() const { return twists_; }
+  const Eigen::VectorXd& effort() const { return results_.effort; }
+  /// Reactions in the order of Request::child_axes.
+  const std::vector<Wrench>& childAxes() const { return results_.child_axes; }
+  /// Reactions (4.3) in the order of Request::root_axes.
+  const std::vector<Wrench>& rootAxes() const { return results_.root_axes; }
+  /// Poses of joint frames in the order of Request::root_axes; empty unless requested.
+  const std::vector<Pose>& poses() const { return results_.poses; }
+  /// Velocities of joint frames in the order of Request::root_axes; empty unless requested.
+  const std::vector<Twist>& twists() const { return results_.twists; }
 
   /// False when any result overflowed to infinity or NaN, as huge inputs can.
-  bool finite() const;
-
-  /// Replaces force and torque of the scene's applied wrench `index` from the next sample on; its
-  /// link, point and axes stay. Does not allocate. @throws SceneError when there is no such wrench.
-  void setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                        const Eigen::Vector3d& torque);
+  bool finite() const { return results_.finite(); }
 
  private:
   friend class InverseDynamics;
@@ -97,11 +105,7 @@ class Workspace {
   void assign(const double* effort, const double* child_axes, const double* root_axes,
               const double* poses, const double* twists);
 
-  Eigen::VectorXd effort_;
-  std::vector<Wrench> child_axes_;
-  std::vector<Wrench> root_axes_;
-  std::vector<Pose> poses_;
-  std::vector<Twist> twists_;
+  Results results_;
   std::unique_ptr<Scratch> scratch_;
 };
 

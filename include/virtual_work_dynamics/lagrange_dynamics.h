@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "virtual_work_dynamics/load.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/request.h"
@@ -22,27 +23,29 @@ namespace virtual_work_dynamics {
 template <typename Real>
 class LagrangeDynamics {
  public:
-  /// Poses and twists of the request are ignored.
+  /// Compiles efforts and reactions of the request; its poses and twists are ignored.
   /// @throws SceneError as InverseDynamics does.
   LagrangeDynamics(const Mechanism& mechanism, const Scene& scene, const Request& request);
   ~LagrangeDynamics();
   LagrangeDynamics(LagrangeDynamics&&) noexcept;
   LagrangeDynamics& operator=(LagrangeDynamics&&) noexcept;
 
+  /// Number of generalized coordinates: the length of q, qd, qdd and of the effort.
   Eigen::Index coordinates() const;
   const Request& request() const;
 
-  /// As Workspace::setAppliedWrench().
-  void setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                        const Eigen::Vector3d& torque);
-
-  /// All results of one sample. Does not allocate.
+  /// Computes all results of one sample. Does not allocate.
   /// @throws MotionError when a vector of `motion` has the wrong length.
   void compute(const Motion& motion);
+  /// Computes with `load` in place of the values of the scene's applied wrenches.
+  /// @throws SceneError when it has not one wrench for each of them.
+  void compute(const Motion& motion, const Load& load);
 
-  /// As those of Workspace, rounded to double.
+  /// Results in the order of those of Workspace, rounded to double: efforts, N m or N.
   const Eigen::VectorXd& effort() const;
+  /// Reactions of Request::child_axes.
   const std::vector<Wrench>& childAxes() const;
+  /// Reactions of Request::root_axes, (4.3).
   const std::vector<Wrench>& rootAxes() const;
 
  private:

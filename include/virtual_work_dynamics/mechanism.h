@@ -52,7 +52,7 @@ struct Joint {
   int coordinate = -1;
   bool mimics = false;
   double multiplier = 1;  ///< joint position = multiplier * q[coordinate]
-  double offset = 0;      ///<                  + offset
+  double offset = 0;      ///< + offset, rad or m
   double damping = 0;   ///< as described, viscous, N m s/rad or N s/m; see Scene::use_urdf_dynamics
   double friction = 0;  ///< as described, dry, N m or N
 };
@@ -87,7 +87,7 @@ class Mechanism {
   /// Indices into joints() of the generalized coordinates: every movable joint that mimics no
   /// other.
   const std::vector<int>& coordinates() const { return coordinates_; }
-  /// Their joints' names, in the same order.
+  /// Names of the joints in coordinates(), in that order.
   const std::vector<std::string>& coordinateNames() const { return coordinate_names_; }
   /// The joint that a generalized coordinate is the position of, and what it measures.
   const Joint& jointOf(int coordinate) const {

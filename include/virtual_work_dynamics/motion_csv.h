@@ -10,33 +10,34 @@
 
 namespace virtual_work_dynamics {
 
-/// Reads a motion from CSV: header `time,position.<joint>…,velocity.<joint>…,acceleration.<joint>…`
-/// in any order, lines that start with `#` are comments. Velocities and accelerations are optional,
+/// Reads a motion from CSV. Its header has, in any order, the columns
+/// `time,position.<joint>…,velocity.<joint>…,acceleration.<joint>…`;
+/// lines that start with `#` are comments. Velocities and accelerations are optional,
 /// each for all joints or for none. Blanks around names and cells, CRLF and a UTF-8 byte order mark
-/// are no part of the text.
-/// @param joints which joints, in which order; empty: every joint that has a position column, in
-/// the
-///   order of the header (a file of nothing but times is then a table without joints). Columns of
-///   other joints are ignored and listed in `unused` when not null.
-/// @param lines when not null: the line, counted from 1, of each row of the table.
+/// are ignored.
+/// @param joints the joints to read, in the order of the table's columns. When empty, every joint
+///   that has a position column is read, in the order of the header; a file of times alone is then
+///   a table without joints. Columns of other joints are ignored.
+/// @param unused receives the names of the ignored columns when not null.
+/// @param lines receives the line, counted from 1, of each row of the table when not null.
 /// @throws FileError naming file, line and column: unreadable or empty file, header only, missing
-/// or
-///   doubled column, a column that is none of the kinds above, ragged row, something that is no
-///   finite number.
+///   or doubled column, column of another kind, ragged row, cell that is not a finite number.
 MotionTable readMotionCsv(const std::string& path, const std::vector<std::string>& joints = {},
                           std::vector<std::string>* unused = nullptr,
                           std::vector<std::size_t>* lines = nullptr);
 
-/// Of the joints that have a position column, in the order of the header, those to be read.
+/// Chooses the joints to read from those that have a position column, which come in the order of
+/// the header.
 using JointChoice =
     std::function<std::vector<std::string>(const std::vector<std::string>& with_positions)>;
 
-/// The same for joints that depend on the header; none are none. What `choose` throws passes.
+/// Reads a motion from CSV with the joints chosen once the header is known; an empty choice reads
+/// no joint. Exceptions of `choose` propagate.
 MotionTable readMotionCsv(const std::string& path, const JointChoice& choose,
                           std::vector<std::string>* unused = nullptr,
                           std::vector<std::size_t>* lines = nullptr);
 
-/// The same as the first from a stream; `name` stands for the file in messages.
+/// Reads a motion from a stream of CSV text; `name` stands for the file in messages.
 MotionTable readMotionCsv(std::istream& stream, const std::string& name,
                           const std::vector<std::string>& joints = {},
                           std::vector<std::string>* unused = nullptr,

@@ -9,15 +9,15 @@
 
 namespace virtual_work_dynamics {
 
-/// How MotionEstimator gets from joint states to motions.
+/// How MotionEstimator makes motions from joint states.
 struct EstimatorSettings {
   int window = 9;            ///< samples in the least-squares polynomial
-  int order = 3;             ///< of the polynomial; window >= order + 1
+  int order = 3;             ///< order of the polynomial; window >= order + 1
   int lag = 4;               ///< motions hold this many samples behind the newest one, < window
-  bool use_velocity = true;  ///< fit velocities too where messages carry them
+  bool use_velocity = true;  ///< whether velocities are fitted too where messages carry them
   double max_gap = 0.25;     ///< s between samples; a longer gap restarts the window
-  /// false: motions are the joint states as they come (velocity zero where none is given) with zero
-  /// acceleration; window, order and lag have no part in it.
+  /// False: motions are the joint states as they come (velocity zero where none is given) with zero
+  /// acceleration; window, order and lag have no effect.
   bool estimate = true;
 };
 
@@ -26,12 +26,12 @@ struct EstimatorSettings {
 /// Continuous joints are unwrapped. Does not allocate after construction.
 class MotionEstimator {
  public:
-  /// What became of a joint state.
+  /// What push() did with a joint state.
   enum class Verdict {
     kAccepted,
     kEqualStamp,     ///< dropped: a joint already has a sample of this stamp
-    kRestartedBack,  ///< accepted as the first of a new window: time went backwards
-    kRestartedGap    ///< accepted as the first of a new window: gap longer than max_gap
+    kRestartedBack,  ///< accepted as the first of a new window, as time went backwards
+    kRestartedGap    ///< accepted as the first of a new window, after a gap longer than max_gap
   };
 
   /// @throws MotionError when the settings contradict each other, naming the value.
@@ -45,37 +45,40 @@ class MotionEstimator {
   Verdict push(std::int64_t stamp_ns, const int* coordinates, const double* q, const double* qd,
                int count);
 
-  /// Longest time from a joint's sample before to the latest push(), ns; of a push() that went
-  /// backwards, meaningless.
+  /// The longest time from the previous sample of a joint in the latest push() to that push(), ns;
+  /// meaningless when it went backwards.
   std::int64_t latestGap() const;
 
-  /// From now on only these coordinates, one entry for each, are waited for and evaluated; of the
-  /// others samples are kept. At first: all. @throws MotionError for another number of entries.
+  /// Waits for and evaluates only the coordinates with a true entry from now on; samples of the
+  /// others are still kept. Without this call all are waited for.
+  /// @param coordinates one entry for each generalized coordinate.
+  /// @throws MotionError for another number of entries.
   void waitFor(const std::vector<bool>& coordinates);
 
   /// True once every coordinate waited for has a full window, was refreshed since the last
   /// evaluate() or skip(), and has samples as early as the common instant.
   bool ready() const;
 
-  /// The motion at the common instant: for each coordinate the stamp of its sample `lag` behind its
-  /// newest, of these the earliest (but not before the last 512 samples of any coordinate). A
-  /// coordinate that came more often than the others is fitted around that instant, not around its
-  /// own newest samples. Every coordinate then has to be refreshed before ready() again.
-  /// @param motion one entry for each generalized coordinate, left as it is where that is not
-  /// waited
-  ///   for; continuous joints are unwrapped, from the first sample after a restart on.
+  /// Computes the motion at the common instant. Each coordinate has a sample `lag` samples behind
+  /// its newest; the instant is the earliest stamp of these samples (but not before the last 512
+  /// samples of any coordinate). A coordinate that came more often than the others is fitted around
+  /// that instant, not around its own newest samples. Every coordinate then has to be refreshed
+  /// before ready() is true again.
+  /// @param motion has one entry for each generalized coordinate; entries of coordinates that are
+  ///   not waited for keep their values. Continuous joints are unwrapped, from the first sample
+  ///   after a restart on.
   /// @returns the instant, ns.
   /// @throws MotionError unless ready(), or for a motion of another size.
   std::int64_t evaluate(Motion& motion);
 
-  /// As evaluate() without computing anything: for when nobody listens.
+  /// Consumes the samples as evaluate() does, without computing anything: for when nobody listens.
   void skip();
 
   /// Forgets all samples.
   void reset();
 
-  /// Latest position of a coordinate, as it came; false when it has never been seen (a reset does
-  /// not forget).
+  /// Gives the latest position of a coordinate as it came, rad or m, also after reset(). Returns
+  /// false when the coordinate has never been seen.
   bool latestPosition(int coordinate, double& q) const;
 
   /// True when the coordinate has not been refreshed since the last evaluate() or skip().

@@ -18,7 +18,7 @@ struct PlanSummary {
   /// (2): tool0, ee_fixed".
   std::vector<std::string> left_out;
 
-  /// The same as lines of text for a reader.
+  /// The summary as lines of text for a reader.
   std::vector<std::string> lines() const;
 };
 

@@ -5,8 +5,8 @@
 
 namespace virtual_work_dynamics {
 
-/// What a consumer wants computed; what it does not name costs nothing. Names are joints or
-/// "ground"; the order is the order of the results.
+/// The results that a consumer wants computed; others cost nothing. Names are those of joints and
+/// closures, or "ground"; results are in the order of these lists.
 struct Request {
   bool efforts = true;
   std::vector<std::string> child_axes;  ///< reactions in the child link's axes

@@ -3,10 +3,12 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cstddef>
+#include <vector>
 
 namespace virtual_work_dynamics {
 
-/// Force and moment that the parent exerts on the child, moment about the joint origin O_k.
+/// Force and moment that the parent exerts on the child; the moment is about the joint origin O_k.
 struct Wrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m
@@ -20,33 +22,93 @@ struct Pose {
 
 /// Velocity of a joint frame in root axes.
 struct Twist {
-  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< of the point O_k, m/s
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< velocity of the point O_k, m/s
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< rad/s
 };
 
 /// Six flags of a wrench: fx fy fz tx ty tz.
 using Determined = std::array<bool, 6>;
+constexpr Determined kAllComponents{{true, true, true, true, true, true}};
 
-/// How far a motion violates the conditions of one closure: the norm of those that are lengths or
-/// of those that are directions, whichever is the larger number.
+/// How far a motion violates the conditions of one closure: the larger of two norms, that of the
+/// conditions that are lengths and that of those that are directions.
 struct ClosureResidual {
   double position = 0;      ///< m or rad
   double velocity = 0;      ///< m/s or rad/s
   double acceleration = 0;  ///< m/s^2 or rad/s^2
 };
 
-/// What rigid-body mechanics determines at one position, by the null space of [S^T A^T].
+/// How much rigid-body mechanics determines at one position, by the null space of [S^T A^T].
 struct Determinacy {
-  int rank = 0;                   ///< of [S^T A^T]
-  int redundant_constraints = 0;  ///< conditions less the rank of A
+  int rank = 0;                   ///< rank of [S^T A^T]
+  int redundant_constraints = 0;  ///< number of conditions less the rank of A
   int redundancy = 0;             ///< unknowns less rank: redundant constraints and over-actuation
-  int free_motions = 0;           ///< that no actuated joint and no closure holds
-  double gap = 0;                 ///< between the entries that count for the rank and the others
-  double condition = 0;           ///< estimated, of what is determined
+  int free_motions = 0;           ///< motions that no actuated joint and no closure holds
+  double gap = 0;                 ///< least entry counted for the rank, over the largest other
+  double condition = 0;           ///< estimated condition of the determined part
 };
 
 /// Condition above which a position counts as close to singular: an error of 1e-4 rad may then
 /// change a force by 100 %.
 constexpr double kCloseToSingular = 1e4;
+
+/// What closed loops add to the results of one sample; empty in an open chain.
+struct LoopResults {
+  Determinacy determinacy;
+  /// Which results rigid-body mechanics determines, in the order of Results. Results that redundant
+  /// constraints leave open have the value that the scene's policy chooses.
+  std::vector<bool> effort_determined;
+  std::vector<Determined> child_axes_determined, root_axes_determined;
+  /// Which results have a value at all: in a singular position, those that are determined, and
+  /// those that are not determined in regular positions either. Elsewhere every result has one.
+  std::vector<bool> effort_exists;
+  std::vector<Determined> child_axes_exist, root_axes_exist;
+
+  /// By closure: Determinacy::condition of the loops that are solved together with its own.
+  std::vector<double> closure_conditions;
+  /// By closure: how far the motion violates it.
+  std::vector<ClosureResidual> residuals;
+  /// Residuals without units, to be compared with a tolerance: lengths over the size of the loops,
+  /// velocities also over the largest rate of the motion, accelerations over its largest
+  /// acceleration or the square of that rate. A largest rate below 1/s counts as 1/s, a largest
+  /// acceleration below 1/s^2 as 1/s^2.
+  std::vector<ClosureResidual> relative_residuals;
+  /// How far each actuated closure has turned, within half a turn, or slid, in rad or m, and how
+  /// fast, in rad/s or m/s.
+  Eigen::VectorXd actuated_positions, actuated_velocities;
+  /// Wrenches on the tree that is left when closures and springs are cut: the scene's own, then
+  /// those of springs and closures, in root axes.
+  std::vector<Wrench> tree_wrenches;
+};
+
+/// Results of one sample, in the order of the Request.
+struct Results {
+  /// Efforts, N m or N: one for each generalized coordinate, zero where it is passive, then one for
+  /// each actuated closure. Empty when the request of an open chain leaves efforts out.
+  Eigen::VectorXd effort;
+  std::vector<Wrench> child_axes;  ///< of Request::child_axes
+  std::vector<Wrench> root_axes;   ///< of Request::root_axes
+  std::vector<Pose> poses;         ///< of Request::root_axes, if requested
+  std::vector<Twist> twists;       ///< of Request::root_axes, if requested
+  LoopResults loops;
+
+  /// False when any result overflowed to infinity or NaN, as huge inputs can.
+  bool finite() const;
+
+  /// Whether actuated joints and closures do not hold the mechanism in its position.
+  bool singular() const { return loops.determinacy.free_motions > 0; }
+  /// Whether an effort has a value.
+  bool effortExists(std::size_t i) const {
+    return loops.effort_exists.empty() || loops.effort_exists[i];
+  }
+  /// Which components of a reaction in child axes have a value.
+  Determined childAxesExist(std::size_t i) const {
+    return loops.child_axes_exist.empty() ? kAllComponents : loops.child_axes_exist[i];
+  }
+  /// Which components of a reaction in root axes have a value.
+  Determined rootAxesExist(std::size_t i) const {
+    return loops.root_axes_exist.empty() ? kAllComponents : loops.root_axes_exist[i];
+  }
+};
 
 }  // namespace virtual_work_dynamics

@@ -12,27 +12,29 @@ class Mechanism;
 /// Axes in which a vector is given.
 enum class Axes { kLink, kRoot };
 
-/// A wrench that acts on a link from outside; (3.6) without the weight.
+/// A wrench that acts on a link from outside: (3.6) without the weight.
 struct AppliedWrench {
   std::string link;
   Eigen::Vector3d at = Eigen::Vector3d::Zero();      ///< point of action, link frame, m
-  Axes axes = Axes::kLink;                           ///< of force and torque
+  Axes axes = Axes::kLink;                           ///< axes of force and torque
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< about `at`, N m
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< moment about `at`, N m
 };
 
-/// What acts between a joint's actuator and the mechanism. It is part of the effort that the
-/// actuator must deliver and of no reaction. All are at least zero.
+/// Spring, damping, friction and rotor inertia between a joint's actuator and the mechanism. They
+/// are part of the effort that the actuator must deliver and of no reaction. Every number except
+/// `rest` is at least zero.
 struct JointTerms {
   std::string joint;              ///< a joint that moves; mimic joints have terms of their own
-  double stiffness = 0;           ///< of a spring, N m/rad or N/m
+  double stiffness = 0;           ///< stiffness of a spring, N m/rad or N/m
   double rest = 0;                ///< position at which the spring is relaxed, rad or m
-  std::optional<double> damping;  ///< viscous, N m s/rad or N s/m; not given: see use_urdf_dynamics
-  std::optional<double> coulomb;  ///< dry friction, N m or N; not given: see use_urdf_dynamics
-  /// Where dry friction is fully there: it is coulomb * s (3 - s^2) / 2 with s = qd /
-  /// coulomb_velocity held within [-1, 1], which passes zero smoothly. At least 1e-12 rad/s or m/s.
+  std::optional<double> damping;  ///< viscous, N m s/rad or N s/m; none: see use_urdf_dynamics
+  std::optional<double> coulomb;  ///< dry friction, N m or N; none: see use_urdf_dynamics
+  /// Velocity from which on dry friction acts in full, rad/s or m/s, at least 1e-12. Friction is
+  /// coulomb * s (3 - s^2) / 2 with s = qd / coulomb_velocity held within [-1, 1], which passes
+  /// zero smoothly.
   double coulomb_velocity = 1e-3;
-  double rotor_inertia = 0;  ///< reflected to the joint: gear ratio squared included, kg m^2 or kg
+  double rotor_inertia = 0;  ///< at the joint: gear ratio squared included, kg m^2 or kg
 };
 
 /// A frame on a link.
@@ -47,11 +49,11 @@ enum class ClosureType {
   kFixed,        ///< nothing
   kRevolute,     ///< a turn about z
   kPrismatic,    ///< a slide along z
-  kCylindrical,  ///< both
+  kCylindrical,  ///< a turn about z and a slide along z
   kUniversal,    ///< turns about the parent's z and the child's x, which stay normal to each other
   kSpherical,    ///< all turns
   kPlanar,       ///< slides along x and y and a turn about z
-  kDistance      ///< everything but the distance of the origins: a massless rod
+  kDistance      ///< everything except the distance of the origins: a massless rod
 };
 
 /// A joint that closes a loop of the mechanism: two frames on two links.
@@ -60,7 +62,7 @@ struct Closure {
   ClosureType type = ClosureType::kFixed;
   LinkFrame parent;
   LinkFrame child;
-  /// Of kDistance, m; not given: the distance in the assembly.
+  /// Distance of the origins of kDistance, m; none: their distance in the assembly.
   std::optional<double> length;
 };
 
@@ -68,38 +70,38 @@ struct Closure {
 struct PointSpring {
   std::string name;
   std::string link_a, link_b;
-  Eigen::Vector3d at_a = Eigen::Vector3d::Zero();  ///< in the frame of link_a, m
-  Eigen::Vector3d at_b = Eigen::Vector3d::Zero();
-  double stiffness = 0;    ///< N/m
-  double rest_length = 0;  ///< m
+  Eigen::Vector3d at_a = Eigen::Vector3d::Zero();  ///< point in the frame of link_a, m
+  Eigen::Vector3d at_b = Eigen::Vector3d::Zero();  ///< point in the frame of link_b, m
+  double stiffness = 0;                            ///< N/m
+  double rest_length = 0;                          ///< m
 };
 
-/// A number that belongs to a joint or closure.
+/// A number that belongs to a joint or a closure.
 struct NamedNumber {
   std::string name;
   double value = 0;
 };
 
-/// What is reported of forces that rigid-body mechanics does not determine.
+/// Which of many solutions is reported for forces that rigid-body mechanics does not determine.
 enum class RedundancyPolicy {
   kMinimumNorm,  ///< the least sum of squares of the closures' forces and moments over `length`
   kZeroAt,       ///< as little as possible at the closures named, then as kMinimumNorm
   kStiffness  ///< least sum of squares of reactions, each over its joint's or closure's stiffness
 };
 
-/// How that choice is made. Where there are more actuated joints than degrees of freedom the
-/// efforts come first, those of the least weighted sum of squares, whatever the policy: they are
-/// for the controller to choose, not for the stiffness of joints. Policies choose among what is
-/// then left.
+/// How to choose the forces that rigid-body mechanics does not determine. Where there are more
+/// actuated joints than degrees of freedom, the efforts of the least weighted sum of squares are
+/// chosen first, whatever the policy: they are for the controller to choose, not for the stiffness
+/// of joints. The policy chooses among the forces that are then left.
 struct Redundancy {
   RedundancyPolicy policy = RedundancyPolicy::kMinimumNorm;
-  std::vector<std::string> zero_at;         ///< closures
-  std::vector<NamedNumber> stiffness;       ///< of joints and closures, relative; others: 1
-  std::vector<NamedNumber> effort_weights;  ///< of actuated joints, in least squares; others: 1
-  /// Relative, of the length-scaled system. Closures whose frames fit each other no better than
-  /// this count as closed.
+  std::vector<std::string> zero_at;         ///< names of closures, for kZeroAt
+  std::vector<NamedNumber> stiffness;       ///< joints and closures, relative; others: 1
+  std::vector<NamedNumber> effort_weights;  ///< actuated joints, in least squares; others: 1
+  /// Tolerance of the rank of the length-scaled system, relative. Closures whose frames fit each
+  /// other to within it count as closed.
   double rank_tolerance = 1e-10;
-  std::optional<double> length;  ///< m, makes moments comparable with forces; auto
+  std::optional<double> length;  ///< m, makes moments comparable with forces; none: automatic
 };
 
 /// Which reactions a scene asks for.
@@ -109,27 +111,28 @@ enum class ReactionSelection {
   kNamed  ///< those in Scene::reaction_names; fixed joints and "ground" only this way
 };
 
-/// What a user wants of a mechanism; names are resolved when it is compiled (InverseDynamics).
+/// What acts on a mechanism and which of its forces a user asks for; names are resolved when the
+/// scene is compiled (InverseDynamics).
 struct Scene {
   Eigen::Vector3d gravity{0, 0, -9.81};  ///< m/s^2, axes of the root link
   bool static_motion = false;            ///< velocities and accelerations are taken as zero
   ReactionSelection reactions = ReactionSelection::kAll;
   std::vector<std::string> reaction_names;
-  /// false: the component of a reaction along the joint axis is reported as zero.
+  /// False: the component of a reaction along the joint axis is reported as zero.
   bool include_active = true;
   bool strict_inertia = false;  ///< impossible inertias are an error rather than a doubt
   std::vector<AppliedWrench> applied_wrenches;
-  std::vector<JointTerms> joints;  ///< for some joints, each once
-  /// Damping and friction of the description count for joints whose terms do not give them.
+  std::vector<JointTerms> joints;  ///< terms of some joints, each once
+  /// True: damping and friction of the description count for joints whose terms do not give them.
   bool use_urdf_dynamics = false;
 
-  std::vector<Closure> closures;  ///< none: an open chain
+  std::vector<Closure> closures;  ///< empty: an open chain
   std::vector<PointSpring> springs;
-  /// Joints, and closures with one free axis, that carry effort; the others are passive. Not given:
-  /// every joint of the tree is actuated.
+  /// Joints, and closures with one free axis, that carry effort; the others are passive. None:
+  /// every joint of the tree is actuated, and no closure.
   std::optional<std::vector<std::string>> actuated;
-  /// Positions of joints from which the loops are assembled; others start at 0. Actuated ones stay
-  /// there.
+  /// Positions of joints from which the loops are assembled; other joints start at 0. Actuated
+  /// joints stay where they start.
   std::vector<NamedNumber> assembly;
   Redundancy redundancy;
 };
@@ -138,8 +141,8 @@ struct Scene {
 bool needsClosedLoops(const Scene& scene);
 
 /// Names of the reactions that the scene asks for: "ground" first, then joints in depth-first
-/// order, then closures in the scene's.
-/// @throws SceneError for a name that is no joint and no closure, or that is given twice.
+/// order, then closures in the scene's order.
+/// @throws SceneError for a name that is neither a joint nor a closure, or that is given twice.
 std::vector<std::string> requestedReactions(const Mechanism& mechanism, const Scene& scene);
 
 }  // namespace virtual_work_dynamics

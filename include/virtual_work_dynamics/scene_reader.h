@@ -8,13 +8,15 @@
 
 namespace virtual_work_dynamics {
 
-/// Reads a scene from YAML (README, "The scene file"). A null node is the default scene; numeric
+/// Reads a scene from YAML (doc/scene_file.md). A null node is the default scene; numeric
 /// strings are numbers.
-/// @throws SceneError naming the key: unknown or missing, wrong type or length, not finite.
+/// @throws SceneError naming the key that is unknown or missing, or whose value has a wrong type or
+///   length or is not finite.
 Scene readScene(const YAML::Node& node);
 
-/// The same from a file. @throws FileError when it cannot be read or is no YAML, SceneError as
-/// above.
+/// Reads a scene from a YAML file, as readScene() does from a node.
+/// @throws FileError when the file cannot be read or is not valid YAML; SceneError naming the file,
+///   as readScene() or for more than one document.
 Scene readSceneFile(const std::string& path);
 
 }  // namespace virtual_work_dynamics

@@ -7,14 +7,14 @@
 
 namespace virtual_work_dynamics {
 
-/// A twice continuously differentiable motion through knots: quintic Hermite pieces where position,
-/// velocity and acceleration are given at every knot; where velocities but no accelerations are, a
-/// quintic spline whose accelerations make the third derivative continuous; else a cubic spline
-/// with the end velocities given by the caller.
+/// A twice continuously differentiable motion through knots. With accelerations and velocities at
+/// the knots it consists of quintic Hermite pieces; with velocities alone it is the quintic spline
+/// whose accelerations make the third derivative continuous; otherwise it is the cubic spline with
+/// the end velocities given by the caller.
 class Spline {
  public:
   /// Completes the knots. Allocates.
-  /// @param start_velocity,end_velocity used by the cubic spline only; empty: zero.
+  /// @param start_velocity,end_velocity rad/s or m/s, used by the cubic spline only; empty: zero.
   /// @throws MotionError for no knots, times that do not increase, shapes that disagree, or values
   ///   that are not finite, naming the knot (counted from 1).
   explicit Spline(MotionTable knots, const Eigen::VectorXd& start_velocity = Eigen::VectorXd(),
@@ -24,8 +24,8 @@ class Spline {
   double startTime() const { return knots_.times.front(); }
   double endTime() const { return knots_.times.back(); }
 
-  /// Motion at time t (s), held at rest at the end positions outside of the knots. Exact at knots.
-  /// Does not allocate when the vectors already have the right size.
+  /// Computes the motion at time t (s), exact at knots; outside of the knots it rests at the end
+  /// positions. Does not allocate when the vectors already have the right size.
   /// @throws MotionError when t is NaN.
   void evaluate(double t, Motion& motion) const;
 

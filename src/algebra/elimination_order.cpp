@@ -24,7 +24,7 @@ class Elimination {
  private:
   static std::size_t place(int column) { return static_cast<std::size_t>(column); }
 
-  // Until fronts are made, the holders of a column are the blocks that have it.
+  // Makes the front to come of a block a holder of its columns, before fronts exist.
   void addToColumns(std::size_t b) {
     const std::vector<int>& columns = blocks_[b].columns;
     if (columns.size() == 1) {
@@ -41,7 +41,7 @@ class Elimination {
     finish(front, blocks_[b].columns);
   }
 
-  // The column not yet eliminated whose elimination couples the fewest; -1: none is left.
+  // The column whose elimination couples the fewest columns; -1 when all are eliminated.
   int cheapest() const {
     int best = -1;
     std::size_t fewest = 0;
@@ -74,7 +74,7 @@ class Elimination {
     finish(front, std::vector<int>(columns.begin(), columns.end()));
   }
 
-  // Tells pivots, which only this front holds, from the rest.
+  // Divides the columns of a front into pivots, which only this front holds, and the rest.
   void finish(Front& front, const std::vector<int>& columns) {
     for (const int column : columns) {
       if (holders_[place(column)].size() > 1) {
@@ -90,8 +90,8 @@ class Elimination {
   }
 
   const std::vector<RowBlock>& blocks_;
-  std::vector<std::set<std::size_t>> holders_;     // by column: fronts that have it
-  std::vector<std::vector<std::size_t>> singles_;  // by column: blocks that have only it
+  std::vector<std::set<std::size_t>> holders_;     // fronts that have the column, for each column
+  std::vector<std::vector<std::size_t>> singles_;  // blocks of the column alone, for each column
   std::size_t fronts_to_come_ = 0;
   std::set<int> eliminated_;
   std::vector<Front> fronts_;

@@ -26,8 +26,8 @@ void LeastNorms::start(const Eigen::Ref<const Eigen::MatrixXd>& basis) {
   space_.leftCols(open_) = basis;
 }
 
-// The least squares of C y + c: c is first projected on the range of C, the rows of which then
-// agree and are solved for the y of least norm.
+// Minimizes |C y + c|: c is first projected on the range of C, so that the rows agree and can be
+// solved for the y of least norm.
 Eigen::Index LeastNorms::reduce(Eigen::Index rows, Eigen::VectorXd& x) {
   if (open_ == 0 || rows == 0) return 0;
   by_rows_.factorize(costs(rows), kNoCost, kNoCost);

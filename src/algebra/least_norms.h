@@ -6,28 +6,32 @@
 
 namespace virtual_work_dynamics {
 
-/// Chooses one of the solutions x + N y of an underdetermined system by one least-squares wish
-/// after the other, each among the solutions that meet the earlier ones equally well. Nothing after
-/// construction allocates.
+/// Chooses one of the solutions x + N y of an underdetermined system by one least-squares criterion
+/// after the other, each among the solutions that are equally good by the earlier ones. Allocates
+/// in its constructor only.
 class LeastNorms {
  public:
+  /// @param unknowns length of x.   @param most_costs largest number of rows for reduce().
   LeastNorms(Eigen::Index unknowns, Eigen::Index most_costs);
 
-  /// The orthonormal columns of `basis` span what is open.
+  /// Begins with the open directions that the orthonormal columns of `basis` span.
   void start(const Eigen::Ref<const Eigen::MatrixXd>& basis);
 
-  /// Of dimension open(); its columns stay orthonormal.
+  /// Number of directions in which x is still open.
   Eigen::Index open() const { return open_; }
+  /// The open directions: unknowns x open(), with orthonormal columns.
   auto space() const { return space_.leftCols(open_); }
 
-  /// To be filled before reduce(): a linear cost of each column of space(), and of x.
+  /// The linear costs of each column of space(), rows x open(); to be filled before reduce().
   auto costs(Eigen::Index rows) { return costs_.topLeftCorner(rows, open_); }
+  /// The linear costs of x, one for each row; to be filled before reduce().
   auto costOfSolution(Eigen::Index rows) { return now_.head(rows); }
-  /// Moves x to where the sum of squares of its costs is least, and keeps open what does not change
-  /// them. Costs of unit vectors below 1e-10 are zero. Returns by how much open() shrinks.
+  /// Moves x to where the sum of squares of its costs is least, and keeps those directions open
+  /// that do not change the costs. Costs of unit vectors below 1e-10 count as zero.
+  /// @returns by how much open() shrinks.
   Eigen::Index reduce(Eigen::Index rows, Eigen::VectorXd& x);
 
-  /// Moves x to its own least norm.
+  /// Moves x along the open directions to where its own norm is least.
   void finish(Eigen::VectorXd& x);
 
  private:

@@ -9,17 +9,18 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// What reflections leave of the columns of a front, relative to the longest, and is rounding.
+// Remainders of columns after the reflections of a front count as rounding up to this fraction of
+// the longest column.
 constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();
 constexpr double kWorstCondition = 1e6;
-// The estimated condition number is a lower bound, so that some distance is kept.
+// Distance kept from the tolerance of the rank, as the estimated condition number is a lower bound.
 constexpr double kFarFromTolerance = 1e-2;
 
 Eigen::Index size(const std::vector<int>& list) {
   return static_cast<Eigen::Index>(list.size());
 }
 
-// Where the columns of `part` stand in `whole`.
+// The places in `whole` of the columns of `part`.
 std::vector<Eigen::Index> placesIn(const std::vector<int>& whole, const std::vector<int>& part) {
   std::vector<Eigen::Index> places;
   for (const int column : part) {
@@ -152,7 +153,8 @@ bool MultifrontalQr::eliminate(std::size_t f) {
   return true;
 }
 
-// Rows below the pivots become as few as their entries allow; the others have none any more.
+// Reflects the rows below the pivots into as few rows as their entries allow; the other rows then
+// have no entries.
 void MultifrontalQr::compress(std::size_t f) {
   Work& work = work_[f];
   const Eigen::Index pivots = size(fronts_[f].pivots);
@@ -188,7 +190,8 @@ double MultifrontalQr::sureCondition(double rank_tolerance) {
   return std::min(kWorstCondition, kFarFromTolerance / rank_tolerance);
 }
 
-// |R^-1 (R^-T d)| / |R^-T d| with signs of d that make R^-T d large while it is found.
+// Estimates |R^-1| by |R^-1 (R^-T d)| / |R^-T d|, where d = +-1 with the signs that make each entry
+// of R^-T d large as it is computed.
 void MultifrontalQr::estimateCondition() {
   sums_.setZero();
   double before = 0;
@@ -213,7 +216,7 @@ void MultifrontalQr::estimateCondition() {
   condition_ = before > 0 ? longest_ * std::sqrt(after / before) : 1;
 }
 
-// R u = z, from the last front to the first.
+// Solves the part of R u = z that belongs to a front; called from the last front to the first.
 void MultifrontalQr::backSubstitute(std::size_t f) {
   Work& work = work_[f];
   for (Eigen::Index j = size(fronts_[f].pivots); j < work.F.cols(); ++j) {
@@ -250,7 +253,7 @@ void MultifrontalQr::applyQTransposed(Work& work) {
   }
 }
 
-// From the rows of a front, found by applyQ(), to its blocks' entries of x and to its children.
+// Hands the rows of a front, computed by applyQ(), on to its blocks' entries of x and its children.
 void MultifrontalQr::scatter(std::size_t f, Eigen::Ref<Eigen::VectorXd> x) {
   const Work& work = work_[f];
   Eigen::Index row = 0;
@@ -265,7 +268,7 @@ void MultifrontalQr::scatter(std::size_t f, Eigen::Ref<Eigen::VectorXd> x) {
   }
 }
 
-// R^T y = b.
+// Solves the part of R^T y = b that belongs to a front; called from the first front to the last.
 void MultifrontalQr::solveTransposed(std::size_t f) {
   Work& work = work_[f];
   for (Eigen::Index k = 0; k < work.present; ++k) {

@@ -9,10 +9,10 @@
 namespace virtual_work_dynamics {
 
 /// Orthogonal factorisation M = Q R of a matrix of row blocks that couple few columns each, such as
-/// the conditions of many loops, for M u = r and, in least norm, M^T x = b. The cost grows with the
-/// number of blocks, not with its cube. Each front pivots among its own columns only, so that it
-/// tells full column rank and not what the rank else is: RankFactorization does. Nothing after
-/// construction allocates.
+/// the conditions of many loops. It solves M u = r in least squares and M^T x = b in least norm.
+/// The cost grows with the number of blocks, not with its cube. Each front pivots among its own
+/// columns only, so that the factorisation recognizes full column rank but does not tell a lower
+/// rank; RankFactorization does. Allocates in its constructor only.
 class MultifrontalQr {
  public:
   using Vector = Eigen::Ref<const Eigen::VectorXd>;
@@ -21,48 +21,52 @@ class MultifrontalQr {
 
   Eigen::Index rows() const { return rows_; }
   Eigen::Index columns() const { return columns_; }
-  /// First row of a block; rows() behind the last one.
+  /// The first row of a block; rows() for blocks().
   Eigen::Index firstOf(std::size_t block) const { return first_[block]; }
   std::size_t blocks() const { return blocks_.size(); }
-  /// The entries of a block, to be filled before factorize(): its rows x its columns.
+  /// The entries of a block, its rows x its columns; to be filled before factorize().
   Eigen::MatrixXd& entriesOf(std::size_t block) { return entries_[block]; }
   const Eigen::MatrixXd& entriesOf(std::size_t block) const { return entries_[block]; }
   const std::vector<int>& columnsOf(std::size_t block) const { return blocks_[block].columns; }
 
-  /// Columns that are part of M, one entry each; the others count as absent. At first all are.
+  /// Makes the columns with a true entry part of M and leaves out the others. Without this call all
+  /// columns are part of M.
+  /// @param present one entry for each column.
   void setPresent(const std::vector<bool>& present);
 
-  /// False when the columns are dependent, or so close to it that the condition number may be above
-  /// `worst_condition`; then there is no factorisation.
+  /// Factorizes M. Returns false when its columns are dependent, or so close to it that the
+  /// condition number may be above `worst_condition`; then there is no factorisation.
   bool factorize(double worst_condition);
-  /// A condition number up to which the rank is full without a doubt: far from the tolerance of the
+  /// A condition number up to which the rank is full beyond doubt: far from the tolerance of the
   /// rank, and low enough for rounding to stay far below 1e-8 of a null vector.
   static double sureCondition(double rank_tolerance);
-  /// Of M, estimated: the longest column times an estimate of the norm of the inverse of R.
+  /// The estimated condition number of M: the length of the longest column times an estimate of the
+  /// norm of the inverse of R.
   double condition() const { return condition_; }
 
-  /// The x of least norm with M^T x = b; b has an entry for each column.
+  /// Computes the x of least norm with M^T x = b; b has an entry for each column.
   void leastNorm(const Vector& b, Eigen::Ref<Eigen::VectorXd> x);
-  /// The u for which |M u - r| is least; zero for absent columns.
+  /// Computes the u for which |M u - r| is least; its entries for absent columns are zero.
   void leastSquares(const Vector& r, Eigen::Ref<Eigen::VectorXd> u);
 
-  /// An orthonormal basis of the x with M^T x = 0.
+  /// Number of vectors in an orthonormal basis of the null space, M^T x = 0.
   std::size_t nullity() const { return null_rows_.size(); }
-  /// Sets those entries of x that belong to the blocks named in touched(); the others of the vector
-  /// are zero.
+  /// Computes vector i of that basis. Sets only the entries of x that belong to the blocks in
+  /// touched(); the other entries of the vector are zero.
   void nullVector(std::size_t i, Eigen::Ref<Eigen::VectorXd> x);
+  /// The blocks in which the latest nullVector() can have entries other than zero.
   const std::vector<std::size_t>& touched() const { return touched_; }
 
  private:
-  // A front's rows: pivots, then what is left for the next front, then what has no entries any
-  // more.
+  // The numbers of a front. Its rows are first those of the pivots, then those left for the next
+  // front, then those that have no entries any more.
   struct Work {
     Eigen::MatrixXd F;                              // R above, reflections below
-    Eigen::VectorXd factors;                        // of the reflections
-    Eigen::VectorXd z;                              // a vector of its rows
+    Eigen::VectorXd factors;                        // factors of the reflections
+    Eigen::VectorXd z;                              // a vector with an entry for each row
     std::vector<int> order;                         // columns: pivots, as chosen, then the rest
     std::vector<Eigen::Index> stairs;               // column of each reflection
-    std::vector<std::vector<Eigen::Index>> places;  // by block, then by child: of their columns
+    std::vector<std::vector<Eigen::Index>> places;  // of the columns of each block, then each child
     Eigen::Index rows = 0, present = 0, steps = 0;  // present: pivots that are part of M
   };
   struct NullRow {
@@ -89,7 +93,7 @@ class MultifrontalQr {
   std::vector<Eigen::MatrixXd> entries_;
   std::vector<bool> present_;
   std::vector<Work> work_;
-  Eigen::VectorXd lengths_;  // of columns, squared
+  Eigen::VectorXd lengths_;  // squared lengths of columns
   double longest_ = 0, condition_ = 1;
   Eigen::VectorXd sums_, solution_;  // by column
   std::vector<NullRow> null_rows_;

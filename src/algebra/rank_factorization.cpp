@@ -23,7 +23,7 @@ void RankFactorization::factorize(const Matrix& G, double relative, double absol
   rank_ = 0;
   double threshold = 0;
   for (Eigen::Index step = 0; step < steps(); ++step) {
-    // Norms are computed anew: downdated ones lose the digits that the rank is told by.
+    // Norms are computed anew, as downdated ones lose the digits that decide about the rank.
     Eigen::Index pivot = step;
     double norm = -1;
     for (Eigen::Index j = step; j < rows_; ++j) {
@@ -62,7 +62,7 @@ void RankFactorization::reflect(Eigen::Index step) {
   }
 }
 
-// Q = H_1 H_2 ... from the last on.
+// Computes Q = H_1 H_2 ..., beginning with the last reflection.
 void RankFactorization::accumulate() {
   Q_.topLeftCorner(columns_, columns_).setIdentity();
   for (Eigen::Index step = steps(); step-- > 0;) {
@@ -86,7 +86,7 @@ double RankFactorization::condition() const {
   return rank_ == 0 ? 1 : std::abs(R_(0, 0)) / std::abs(R_(rank_ - 1, rank_ - 1));
 }
 
-// G^T P = Q (R11 R12; 0 0), so that x = Q1 y with R11^T y = the independent rows of P^T b.
+// From G^T P = Q (R11 R12; 0 0) follows x = Q1 y, where R11^T y = the independent rows of P^T b.
 void RankFactorization::solve(const Vector& b, Eigen::Ref<Eigen::VectorXd> x) const {
   for (Eigen::Index i = 0; i < rank_; ++i) {
     const double sum = b[pivots_[static_cast<std::size_t>(i)]];

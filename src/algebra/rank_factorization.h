@@ -5,20 +5,21 @@
 
 namespace virtual_work_dynamics {
 
-/// Rank-revealing orthogonal factorisation of G for the system G x = b, all of its solutions, and
-/// what of x they agree on. Householder's QR with column pivoting of the transpose: the rows of G
-/// that are independent, an orthonormal basis of their space, and one of the null space. The caller
-/// scales G so that its entries can be compared. Nothing after construction allocates.
+/// Rank-revealing orthogonal factorisation of G for the system G x = b: it tells all solutions, and
+/// which part of x they agree on. It is Householder's QR with column pivoting of the transpose,
+/// which finds the independent rows of G, an orthonormal basis of the space they span, and one of
+/// the null space. The caller scales G so that its entries can be compared. Allocates in its
+/// constructor only.
 class RankFactorization {
  public:
   using Matrix = Eigen::Ref<const Eigen::MatrixXd>;
   using Vector = Eigen::Ref<const Eigen::VectorXd>;
 
-  /// For matrices of up to that many rows and columns.
+  /// Makes room for matrices of up to that many rows and columns.
   RankFactorization(Eigen::Index most_rows, Eigen::Index most_columns);
 
-  /// Rows count for the rank when what the rows before leave of them is longer than `relative`
-  /// times the longest row of G and than `absolute`.
+  /// Factorizes G. A row counts for the rank when its part that is orthogonal to the rows before it
+  /// is longer than `relative` times the longest row of G and longer than `absolute`.
   void factorize(const Matrix& G, double relative, double absolute = 0);
 
   Eigen::Index rows() const { return rows_; }
@@ -27,18 +28,20 @@ class RankFactorization {
   /// Dimension of the null space.
   Eigen::Index redundancy() const { return columns_ - rank_; }
 
-  /// Of the triangle's diagonal: the last counted entry over the first uncounted one; infinite when
-  /// that is zero or there is none.
+  /// The last entry of the triangle's diagonal that counts for the rank over the first that does
+  /// not; infinite when the latter is zero or does not exist.
   double gap() const;
-  /// The first over the last counted entry, a lower bound of the condition number; 1 for rank 0.
+  /// The first entry of the triangle's diagonal over the last that counts for the rank, a lower
+  /// bound of the condition number; 1 for rank 0.
   double condition() const;
 
-  /// The solution of least norm of the independent rows; the others follow if b is consistent.
+  /// Solves the independent rows for the x of least norm; the other rows then hold too if b is
+  /// consistent.
   void solve(const Vector& b, Eigen::Ref<Eigen::VectorXd> x) const;
 
-  /// Orthonormal columns that span the space of the rows, rank() of them, and the null space,
-  /// redundancy() of them.
+  /// Orthonormal columns, rank() of them, that span the space of the rows.
   auto rowSpace() const { return Q_.topLeftCorner(columns_, rank_); }
+  /// Orthonormal columns, redundancy() of them, that span the null space.
   auto nullSpace() const { return Q_.block(0, rank_, columns_, redundancy()); }
 
  private:

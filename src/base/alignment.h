@@ -4,7 +4,7 @@
 
 namespace virtual_work_dynamics {
 
-/// Bytes to which memory for vector instructions is aligned: the widest of them.
+/// Alignment of memory for vector instructions, bytes: the width of the widest of them.
 constexpr std::size_t kVectorAlignment = 64;
 
 }  // namespace virtual_work_dynamics

@@ -11,7 +11,7 @@ namespace {
 constexpr InstructionSet kAll[] = {InstructionSet::kAvx512, InstructionSet::kAvx2,
                                    InstructionSet::kBaseline};
 
-// VWD_VECTOR_KERNELS: this build has kernels of these instructions.
+// VWD_VECTOR_KERNELS is defined when this build has kernels for AVX2 and AVX-512.
 bool machineHas(InstructionSet instruction_set) {
 #if defined(VWD_VECTOR_KERNELS)
   switch (instruction_set) {
@@ -56,7 +56,7 @@ InstructionSet chosenInstructionSet() {
     }
   }
   throw Error(std::string(kInstructionSetVariable) + ": '" + wanted +
-              "' is none of baseline, avx2, avx512");
+              "' is not one of baseline, avx2, avx512");
 }
 
 }  // namespace virtual_work_dynamics

@@ -20,8 +20,8 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// The C library prints and reads the decimal point of the process's locale, which a program around
-// this library may have set to a comma; this puts the calling thread into the C locale.
+// Puts the calling thread into the C locale: the C library prints and reads the decimal point of
+// the process's locale, which a program around this library may have set to a comma.
 class ClassicLocaleScope {
  public:
   ClassicLocaleScope() : previous_(uselocale(classic())) {}
@@ -42,8 +42,8 @@ bool isBlank(char c) {
   return c == ' ' || c == '\t';
 }
 
-// Narrows [begin, end) to the number without blanks and leading '+'. False when what is left does
-// not start as a decimal number does: this keeps out "inf", "nan" and "+-1".
+// Narrows [begin, end) to the number without blanks and leading '+'. Returns false when the rest
+// does not start like a decimal number, as "inf", "nan" and "+-1" do not.
 bool trimToNumber(const char*& begin, const char*& end) {
   while (begin != end && isBlank(*begin)) ++begin;
   while (begin != end && isBlank(end[-1])) --end;
@@ -61,7 +61,8 @@ namespace portable {
 void appendNumber(std::string& text, double value) {
   assert(std::isfinite(value));
   const ClassicLocaleScope classic;
-  // Every decimal of 15 digits survives the way through a normal double, so fewer need no trying.
+  // A decimal of up to 15 digits survives the way through a normal double, so that fewer digits
+  // need not be tried.
   const bool subnormal = std::abs(value) < std::numeric_limits<double>::min();
   char buffer[32];
   for (int digits = subnormal ? 1 : 15; digits <= 17; ++digits) {

@@ -7,12 +7,12 @@ namespace virtual_work_dynamics {
 /// Appends the shortest decimal text that reads back as exactly `value` (which must be finite).
 void appendNumber(std::string& text, double value);
 
-/// The same as a text of its own, for messages to the user: "nan", "inf" and "-inf" exist, too.
+/// The text of a number for messages to the user: as appendNumber(), or "nan", "inf" or "-inf".
 std::string numberText(double value);
 
-/// Reads a whole text as one finite number, independent of the locale; blanks around it are
+/// Reads a whole text as one finite number, independently of the locale; blanks around it are
 /// allowed.
-/// @returns false when the text is anything else, or overflows.
+/// @returns false when the text is anything else, or the number overflows.
 bool parseNumber(const std::string& text, double& value);
 
 }  // namespace virtual_work_dynamics

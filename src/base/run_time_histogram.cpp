@@ -7,7 +7,7 @@ namespace {
 
 constexpr auto kRelaxed = std::memory_order_relaxed;
 
-/// Width of the bins of a value's octave, as a power of two.
+/// The base-2 logarithm of the width of the bins in a value's octave.
 int widthBits(std::uint64_t value, int sub_bits) {
   if (value >> (sub_bits + 1) == 0) return 0;
   return 63 - __builtin_clzll(value) - sub_bits;
@@ -32,7 +32,7 @@ void RunTimeHistogram::record(std::int64_t ns) {
   std::uint64_t before = bin.load(kRelaxed);
   std::uint64_t after = 0;
   do {
-    // A full count stays full rather than start again from zero.
+    // A full count stays full; it does not start again from zero.
     const std::uint64_t count =
         before < ~offset_mask ? (before & ~offset_mask) + one : ~offset_mask;
     after = count | std::max(before & offset_mask, offset);

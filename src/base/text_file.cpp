@@ -10,7 +10,7 @@
 
 namespace virtual_work_dynamics {
 
-// C streams, because they tell why a read failed (a directory opens like any file).
+// Uses C streams because they tell why a read failed (a directory opens like any file).
 std::string readTextFile(const std::string& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              std::fclose);

@@ -10,8 +10,8 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// A thread that waits looks this often before it sleeps: some tens of microseconds, in which the
-// next of a series of blocks arrives.
+// Number of times that a waiting thread looks before it sleeps: some tens of microseconds, in which
+// the next of a series of blocks arrives.
 constexpr int kLooks = 2000;
 
 template <typename Condition>

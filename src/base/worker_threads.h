@@ -7,10 +7,10 @@ namespace virtual_work_dynamics {
 /// Threads that sleep until there is work for all of them.
 class WorkerThreads {
  public:
-  /// Work of one of `count` threads, `index` counts from 0. Must not throw.
+  /// Does the work of one thread, whose index counts from 0. Must not throw.
   using Work = void (*)(void* context, int index);
 
-  /// Starts count - 1 threads; the caller's is the one of index 0.
+  /// Starts count - 1 threads; the calling thread is the one with index 0.
   explicit WorkerThreads(int count);
   ~WorkerThreads();
   WorkerThreads(WorkerThreads&&) noexcept;
@@ -18,7 +18,7 @@ class WorkerThreads {
 
   int count() const;
 
-  /// Calls `work` once for each index and returns when all are done. Does not allocate.
+  /// Calls `work` once for each index and returns when all calls are done. Does not allocate.
   void run(Work work, void* context);
 
  private:

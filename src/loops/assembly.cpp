@@ -11,11 +11,11 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// How far coordinates are moved to leave a singular position, rad or of the length.
+// How far coordinates are moved to leave a singular position, rad or as a fraction of the length.
 constexpr double kDisplacement = 0.01;
-// Ends of a rod that are closer, over the length of the loops, give it no direction.
+// Ends of a rod closer than this fraction of the loops' length give it no direction.
 constexpr double kCoincide = 1e-9;
-// Angles that are smaller beside the distances that remain are not worth a word.
+// Angles below this fraction of the remaining distance, over the length, are not reported.
 constexpr double kMatters = 1e-3;
 
 std::string names(const Mechanism& mechanism, const std::vector<std::size_t>& coordinates) {
@@ -46,7 +46,7 @@ std::string names(const Mechanism& mechanism, const std::vector<std::size_t>& co
                    " cannot be assembled from the given start: it stays open by " + open);
 }
 
-// Coordinates that no actuated joint and no closure holds at the present position.
+// Finds the coordinates that no actuated joint and no closure holds at the present position.
 std::vector<std::size_t> unheld(const LoopScene& loops, std::vector<LoopForces>& forces) {
   std::vector<bool> free;
   for (const bool actuated : loops.actuated) free.push_back(!actuated);
@@ -92,18 +92,34 @@ Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopComplet
   return q;
 }
 
+namespace {
+
+// Closes the loops beside the assembly. Returns false when that fails, with `q` at the best
+// position met.
+bool closeBeside(const Mechanism& mechanism, LoopCompletion& completion, LoopKinematics& kinematics,
+                 Eigen::VectorXd& q) {
+  for (int i = 0; i < q.size(); ++i) {
+    // Unequal steps, as a symmetrical displacement can lead from one singular position to another.
+    const double step = kDisplacement * (1 + 0.37 * std::sin(1.0 + 2.1 * i));
+    q[i] += step * scaleOf(mechanism.unitOf(i), completion.length());
+  }
+  return completion.close(kinematics, q, std::vector<bool>(mechanism.coordinates().size(), false));
+}
+
+}  // namespace
+
+Eigen::VectorXd positionBeside(const Eigen::VectorXd& assembly, const Mechanism& mechanism,
+                               LoopCompletion& completion, LoopKinematics& kinematics) {
+  Eigen::VectorXd q = assembly;
+  return closeBeside(mechanism, completion, kinematics, q) ? q : assembly;
+}
+
 void requireHeld(const Mechanism& mechanism, const LoopScene& loops,
                  const Eigen::VectorXd& assembly, LoopCompletion& completion,
                  LoopKinematics& kinematics, std::vector<LoopForces>& forces) {
   if (unheld(loops, forces).empty()) return;
   Eigen::VectorXd q = assembly;
-  const double length = forces.empty() ? 1 : forces.front().length();
-  for (int i = 0; i < q.size(); ++i) {
-    // Unequal steps, as a symmetrical displacement can lead from one singular position to another.
-    const double step = kDisplacement * (1 + 0.37 * std::sin(1.0 + 2.1 * i));
-    q[i] += step * scaleOf(mechanism.unitOf(i), length);
-  }
-  completion.close(kinematics, q, std::vector<bool>(loops.actuated.size(), false));
+  closeBeside(mechanism, completion, kinematics, q);
   const std::vector<std::size_t> free = unheld(loops, forces);
   if (!free.empty()) {
     throw SceneError("actuated: too few for the degrees of freedom: nothing holds the motion of " +

@@ -18,9 +18,14 @@ namespace virtual_work_dynamics {
 Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopCompletion& completion,
                          LoopKinematics& kinematics);
 
+/// Finds a position close to the assembly at which the loops are closed. It is regular even where
+/// the assembly is singular, unless the mechanism is singular everywhere. Returns the assembly
+/// itself where the loops cannot be closed beside it. Moves `kinematics`.
+Eigen::VectorXd positionBeside(const Eigen::VectorXd& assembly, const Mechanism& mechanism,
+                               LoopCompletion& completion, LoopKinematics& kinematics);
+
 /// Checks that every motion of the mechanism is held by an actuated joint, at the assembly or at a
-/// position close to it, so that a singular assembly is let pass; `kinematics` returns to the
-/// assembly.
+/// position close to it, so that a singular assembly passes; `kinematics` returns to the assembly.
 /// @throws SceneError naming the coordinates that nothing holds.
 void requireHeld(const Mechanism& mechanism, const LoopScene& loops,
                  const Eigen::VectorXd& assembly, LoopCompletion& completion,

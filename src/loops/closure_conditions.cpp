@@ -61,7 +61,7 @@ std::vector<Condition> rowsOf(const Closure& closure) {
   return rows;
 }
 
-// Those that move the links relative to each other, ascending.
+// Finds the coordinates that move the links relative to each other, ascending.
 std::vector<int> coordinatesOn(const Mechanism& mechanism, const std::vector<PathStep>& path) {
   std::vector<int> coordinates;
   for (const PathStep& step : path) {
@@ -102,27 +102,27 @@ ClosureConditions::ClosureConditions(const Closure& closure, const Frame& parent
 
 void ClosureConditions::setPosition(const LoopState& state, ConditionRows rows) const {
   const LinkKinematics& links = state.links;
-  const Eigen::Vector3d Co = links.originOf(child_), r = Co - links.originOf(parent_);
+  const Eigen::Vector3d Co = links.originOf(child_), r = Co - links.originOf(parent_);  // (2.1)
   for (int i = 0; i < traits_.conditions; ++i) {
     const ClosureDemand& demand = traits_.demands[static_cast<std::size_t>(i)];
     ClosureWrench& wrench = rows.unitWrench(i);
     if (demand.kind == Kind::kDistance) {
       const double distance = r.norm();
-      rows.phi(i) = distance - length_;
+      rows.phi(i) = distance - length_;  // (3.3)
       wrench.force = r.normalized();
       continue;
     }
     const Eigen::Vector3d a = links.axisOf(parent_, demand.a);
     if (demand.kind == Kind::kAlong) {
-      rows.phi(i) = a.dot(r);
+      rows.phi(i) = a.dot(r);  // (3.3)
       wrench.force = a;
     } else {
       const Eigen::Vector3d b = links.axisOf(child_, demand.b);
-      rows.phi(i) = a.dot(b);
+      rows.phi(i) = a.dot(b);  // (3.3)
       wrench.moment = b.cross(a);
     }
   }
-  // A row of A is the generalized force of the wrench of its multiplier.
+  // A row of A is the generalized force of the wrench that a multiplier of one exerts.
   for (const int coordinate : coordinates()) {
     for (int i = 0; i < traits_.conditions; ++i) rows.A(i, coordinate) = 0;
   }
@@ -130,7 +130,7 @@ void ClosureConditions::setPosition(const LoopState& state, ConditionRows rows) 
     const int coordinate = links.coordinateOf(step);
     if (coordinate < 0) continue;
     for (int i = 0; i < traits_.conditions; ++i) {
-      rows.A(i, coordinate) += links.workOf(step, Co, rows.unitWrench(i));
+      rows.A(i, coordinate) += links.workOf(step, Co, rows.unitWrench(i));  // (3.3), dPhi/dq
     }
   }
 }
@@ -145,19 +145,19 @@ void ClosureConditions::setMotion(const LoopState& state, ConditionRows rows) co
     double& second = rows.acceleration(i);
     if (demand.kind == Kind::kDistance) {
       const double distance = r.norm();
-      rate = distance > 0 ? r.dot(v) / distance : 0;
+      rate = distance > 0 ? r.dot(v) / distance : 0;  // (3.2)
       second = distance > 0 ? (v.dot(v) + r.dot(acceleration) - rate * rate) / distance : 0;
       continue;
     }
     const Eigen::Vector3d a = links.axisOf(parent_, demand.a);
     const Eigen::Vector3d ad = P.w.cross(a), add = P.alpha.cross(a) + P.w.cross(ad);
     if (demand.kind == Kind::kAlong) {
-      rate = ad.dot(r) + a.dot(v);
+      rate = ad.dot(r) + a.dot(v);  // (3.2)
       second = add.dot(r) + 2 * ad.dot(v) + a.dot(acceleration);
     } else {
       const Eigen::Vector3d b = links.axisOf(child_, demand.b);
       const Eigen::Vector3d bd = C.w.cross(b), bdd = C.alpha.cross(b) + C.w.cross(bd);
-      rate = ad.dot(b) + a.dot(bd);
+      rate = ad.dot(b) + a.dot(bd);  // (3.2)
       second = add.dot(b) + 2 * ad.dot(bd) + a.dot(bdd);
     }
   }

@@ -14,12 +14,13 @@
 namespace virtual_work_dynamics {
 
 /// The conditions (3.3) of a closure between its parent frame P and its child frame C, and the
-/// wrenches that go with their multipliers. Everything in root axes.
+/// wrenches that go with their multipliers. Everything is in root axes.
 class ClosureConditions : public ConditionSet {
  public:
   using Frame = LinkKinematics::Frame;
 
-  /// @param path between the links of the frames   @param coordinates that move its joints
+  /// @param path the joints from the parent's link to the child's
+  /// @param coordinates those that move these joints, ascending
   ClosureConditions(const Closure& closure, const Frame& parent, const Frame& child,
                     std::vector<PathStep> path, std::vector<int> coordinates);
 
@@ -28,18 +29,19 @@ class ClosureConditions : public ConditionSet {
 
   const Frame& parent() const { return parent_; }
   const Frame& child() const { return child_; }
-  /// Joints between the links, fixed ones included; a positive step moves the child's.
+  /// Joints between the links, fixed ones included; a positive step moves the child's link.
   const std::vector<PathStep>& path() const { return path_; }
 
-  /// Direction of the axis z of P, which is that of the one free motion where there is one.
+  /// Direction of axis z of P, the axis of the one free motion of closures that have one.
   Eigen::Vector3d freeAxis(const LinkKinematics& links) const { return links.axisOf(parent_, 2); }
-  /// What that motion measures.
+  /// Unit of the free motion; radian where there is none.
   Unit freeUnit() const { return traits_.free_axis.value_or(Unit::kRadian); }
-  /// How far the child has turned about it, within half a turn, or slid along it, and how fast.
+  /// Angle about the free axis, within half a turn, or distance along it; rad or m.
   double freePosition(const LinkKinematics& links) const;
+  /// Rate of freePosition(), rad/s or m/s.
   double freeVelocity(const LinkKinematics& links) const;
-  /// Whether nothing may turn and the frames are more than a quarter turn apart, which the
-  /// conditions do not see.
+  /// Whether the closure lets nothing turn and its frames are more than a quarter turn apart, which
+  /// the conditions do not detect.
   bool reversed(const LinkKinematics& links) const;
 
  private:
@@ -49,10 +51,9 @@ class ClosureConditions : public ConditionSet {
   double length_;
 };
 
-/// Makes the conditions of all closures of a scene, a set for each.
+/// Makes the conditions of all closures of a scene, one set for each.
 /// @throws SceneError naming the closure: unknown link, both frames on one link, or on links that
-/// no
-///   joint moves relative to each other.
+///   no joint moves relative to each other.
 ConditionSets closureConditions(const Mechanism& mechanism, const Scene& scene);
 
 }  // namespace virtual_work_dynamics

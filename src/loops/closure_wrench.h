@@ -6,8 +6,8 @@
 
 namespace virtual_work_dynamics {
 
-/// What the parent of a closure exerts on its child: moment about the child frame's origin. Root
-/// axes.
+/// The wrench that the parent of a closure exerts on its child, in root axes; the moment is about
+/// the child frame's origin.
 struct ClosureWrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< N m

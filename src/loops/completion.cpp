@@ -8,24 +8,24 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// Of steps, for loops that are closed to the rank's tolerance: where frames fit no better, no step
-// goes on, and near singular positions half a step often does.
+// How often a step is halved when the loops are closed to the rank's tolerance: near singular
+// positions half a step often helps, and where frames fit no better none does.
 constexpr int kHalvingsWhenClosed = 4;
-// Misfits over the length below which a loop counts as closed, as it does below the tolerance of
-// the rank; Newton's method goes on until rounding stops it, or nothing but rounding is left of
-// each condition.
+// Misfit over the length below which a loop counts as closed, as it also does below the rank's
+// tolerance. Newton's method goes on until rounding stops it or is all that is left of each
+// condition.
 constexpr double kClosed = 1e-12;
 constexpr double kExact = std::numeric_limits<double>::epsilon();
-// Misfits of a condition below which a step that does not lessen them was stopped by rounding.
+// Misfit of a condition below which a step that does not lessen it was stopped by rounding.
 constexpr double kRounding = 20 * kExact;
-// A step turns nothing further than this, so that an almost singular position throws nothing away.
+// Longest step, rad or of the length, so that an almost singular position does not cause a jump.
 constexpr double kLongestStep = 0.5;
-// What of velocities and accelerations may contradict the conditions, of the largest term.
+// How far velocities and accelerations may contradict the conditions, relative to the largest term.
 constexpr double kConsistent = 1e-8;
 
-// A position found by Newton's method is good to the square root of rounding where the conditions
-// are singular, so that their Jacobian, singular in truth, shows a condition number of some 1e8
-// there.
+// Condition number above which conditions count as singular: Newton's method finds a singular
+// position only to the square root of rounding, and the Jacobian there, truly singular, shows a
+// condition number of about 1e8.
 constexpr double kSharpest = 1e7;
 
 Eigen::Index conditionsOf(const LoopKinematics& kinematics, std::size_t set) {
@@ -171,8 +171,8 @@ void LoopCompletion::setRight(const LoopKinematics& kinematics, const System& sy
   }
 }
 
-// Sets the coordinates found, by those of the group; zero for given ones. False when the conditions
-// do not determine them well.
+// Sets found_, by the group's coordinates, with zero for given ones. Returns false when the
+// conditions do not determine them well.
 bool LoopCompletion::solve(System& system) {
   auto found = found_.head(system.qr.columns());
   const auto right = right_.head(system.qr.rows());
@@ -190,7 +190,7 @@ bool LoopCompletion::solve(System& system) {
   return factorization_.redundancy() == 0 && factorization_.condition() <= kSharpest;
 }
 
-// The largest violation of a condition by what solve() found.
+// Finds the largest violation of a condition by what solve() found.
 double LoopCompletion::misses(const System& system) {
   const MultifrontalQr& qr = system.qr;
   auto misses = misses_.head(qr.rows());
@@ -276,7 +276,7 @@ bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
   return now <= closed;
 }
 
-// Solves A_p u = -rates for the entries of `unknown` that are not given.
+// Solves (3.2), A_p u = -rates, for the entries of `unknown` that are not given.
 bool LoopCompletion::solveRates(const LoopKinematics& kinematics, const Eigen::VectorXd& rates,
                                 double size, Eigen::VectorXd& unknown) {
   for (System& system : systems_) {

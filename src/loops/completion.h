@@ -14,45 +14,48 @@ namespace virtual_work_dynamics {
 
 /// Finds the coordinates that a motion does not give from the conditions of the loops: positions by
 /// Newton's method, velocities by A_p qd_p = -(A_g qd_g + b), accelerations by A_p qdd_p = -(A_g
-/// qdd_g + Ad qd + bd), p: to be found, g: given. A coordinate stays where the motion has it as far
-/// as no condition with a position level moves it. Far from singular positions the cost grows with
-/// the number of loops; elsewhere with the cube of those that share coordinates. Nothing after
-/// construction allocates.
+/// qdd_g + Ad qd + bd), where p are the coordinates to be found and g those that are given. A
+/// coordinate stays where the motion has it unless a condition with a position level moves it. Far
+/// from singular positions the cost grows with the number of loops; elsewhere with the cube of
+/// those that share coordinates. Nothing after construction allocates.
 class LoopCompletion {
  public:
-  /// `length` compares lengths with angles.
+  /// `length`, m, makes lengths comparable with angles.
   LoopCompletion(const Mechanism& mechanism, const LoopKinematics& kinematics,
                  const std::vector<LoopGroup>& groups, double rank_tolerance, double length);
 
-  /// How far a search goes before it fails: from anywhere, as for an assembly, or from a position
-  /// close by, so that what cannot be closed costs little more than what can.
+  /// How far a search goes before it fails. A search from a position close by gives up early, so
+  /// that loops that cannot be closed cost little more than loops that can.
   struct Search {
     int most_steps;
     int most_halvings;  ///< of a step
-    double stalled;     ///< what must remain of the misfit, at least, for the search to end
+    double stalled;     ///< largest share of the misfit that a step may leave
   };
   static constexpr Search kFromAnywhere{200, 30, 1};
   static constexpr Search kFromCloseBy{40, 8, 0.9};
 
   /// Closes the loops by moving the coordinates that are not given, from where they are; leaves
-  /// `kinematics` there. False when that fails, with `q` at the best position met.
+  /// `kinematics` at the position found. Returns false when that fails, with `q` at the best
+  /// position met.
   bool close(LoopKinematics& kinematics, Eigen::VectorXd& q, const std::vector<bool>& given,
              const Search& search = kFromAnywhere);
 
   double length() const { return length_; }
-  /// How many steps close() took.
+  /// Number of steps that close() took.
   int steps() const { return steps_; }
 
-  /// Does the same and finds velocities and accelerations, too. False also when the conditions
-  /// cannot be met by any, or do not determine them, as in singular positions and outside loops.
+  /// Closes the loops as close() does, and finds velocities and accelerations, too. Returns false
+  /// also when no rates meet the conditions, or when the conditions do not determine them, as in
+  /// singular positions and outside loops.
   bool complete(LoopKinematics& kinematics, Motion& motion, const std::vector<bool>& given,
                 const Search& search = kFromAnywhere);
 
-  /// Rank of the conditions' Jacobian for the coordinates not given, all groups together.
+  /// Rank of the conditions' Jacobian for the coordinates that are not given, summed over all
+  /// groups.
   Eigen::Index rank(const LoopKinematics& kinematics, const std::vector<bool>& given);
 
  private:
-  // The conditions' Jacobian of one group of loops, lengths over the length.
+  // The Jacobian of one group's conditions, with lengths divided by length().
   struct System {
     System(const LoopGroup& group, const LoopKinematics& kinematics);
     LoopGroup group;
@@ -66,12 +69,12 @@ class LoopCompletion {
   void factorizeWhole(const System& system);
   void setRight(const LoopKinematics& kinematics, const System& system,
                 const Eigen::VectorXd& conditions);
-  // The largest of some conditions, lengths over the length.
+  // Finds the largest condition, with lengths divided by length().
   double largestCondition(const Eigen::VectorXd& conditions) const;
   bool solve(System& system);
   double misses(const System& system);
   double misfit(const LoopKinematics& kinematics) const;
-  double largest(const Eigen::VectorXd& rates) const;  // lengths over the length
+  double largest(const Eigen::VectorXd& rates) const;  // with lengths divided by length()
   void newtonStep(const LoopKinematics& kinematics, const std::vector<bool>& given);
   bool solveRates(const LoopKinematics& kinematics, const Eigen::VectorXd& rates, double size,
                   Eigen::VectorXd& unknown);
@@ -80,13 +83,14 @@ class LoopCompletion {
   std::vector<System> systems_;
   double rank_tolerance_;
   double length_;
-  // By condition: what makes it an angle, or zero where it has no position.
+  // By condition: the factor that makes it an angle; in position_scales_ zero where it has no
+  // position.
   Eigen::VectorXd row_scales_, position_scales_;
   std::vector<double> column_scales_;  // by coordinate
   std::vector<bool> in_loop_;          // by coordinate
   int steps_ = 0;
-  // Of the group in work; its conditions and the coordinates to be found come first.
-  Eigen::MatrixXd A_;  // where the columns are not surely independent
+  // Memory for the group being solved; its conditions and the coordinates to be found come first.
+  Eigen::MatrixXd A_;  // used where columns may be dependent
   RankFactorization factorization_;
   std::vector<int> columns_;
   Eigen::Index column_count_ = 0;

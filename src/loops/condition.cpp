@@ -8,7 +8,7 @@ namespace {
 
 using Maker = ConditionSets (*)(const Mechanism& mechanism, const Scene& scene);
 
-// One line for each kind of condition. Closures stay the first: their sets are counted like them.
+// One line for each kind of condition. Closures stay first, so that closure c is set c.
 constexpr Maker kMakers[] = {closureConditions};
 
 }  // namespace

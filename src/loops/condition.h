@@ -14,23 +14,23 @@
 namespace virtual_work_dynamics {
 
 /// A condition on the motion of a mechanism: a row of A qd + b = 0 (3.2). Its multiplier is the
-/// effort of what enforces it, and A^T takes that to generalized forces.
+/// effort of what enforces it, and A^T maps it to generalized forces.
 struct Condition {
   std::string name;
-  /// Of Phi, or of the row's integral where there is no Phi: the row's values are in this unit per
-  /// second, its multiplier in the effort that goes with it, N m or N.
+  /// Unit of Phi, or of the row's integral where there is no Phi. The row's values are in this unit
+  /// per second, its multiplier in the matching effort, N m or N.
   Unit unit = Unit::kMetre;
-  /// Whether the row is the derivative of a Phi(q, t) = 0 (3.3). Where it is not, positions are
-  /// free and velocities and accelerations are not.
+  /// Whether the row is the derivative of a Phi(q, t) = 0 (3.3). Otherwise it restricts velocities
+  /// and accelerations, but not positions.
   bool has_position = true;
-  /// Whether the value of Phi in the assembly is subtracted from it; until then the condition
+  /// Whether the value of Phi in the assembly is subtracted from Phi; until then the condition
   /// demands nothing.
   bool adopts_constant = false;
-  /// Whether b, or its derivative, can differ from zero: the condition moves on its own account.
+  /// Whether b, or its derivative, can differ from zero: the condition moves by itself.
   bool drives = false;
 };
 
-/// Where a mechanism is and how it moves.
+/// Position and motion of a mechanism.
 struct LoopState {
   explicit LoopState(const Mechanism& mechanism);
   LinkKinematics links;
@@ -38,7 +38,7 @@ struct LoopState {
   double time = 0;  ///< s
 };
 
-/// Values of all conditions; the entries of a set are written by it.
+/// Values of all conditions; each set writes its own entries.
 struct ConditionValues {
   ConditionValues(Eigen::Index conditions, Eigen::Index coordinates);
   Eigen::VectorXd phi;
@@ -46,7 +46,7 @@ struct ConditionValues {
   Eigen::VectorXd rates;                     ///< A qd + b
   Eigen::VectorXd accelerations;             ///< A qdd + Ad qd + bd
   Eigen::VectorXd b, bd;                     ///< zero where a condition does not drive
-  std::vector<ClosureWrench> unit_wrenches;  ///< of a multiplier of one; zero where it is none
+  std::vector<ClosureWrench> unit_wrenches;  ///< of a multiplier of one; zero without a wrench
 };
 
 /// The values of one set, counted from its first condition.
@@ -69,12 +69,11 @@ class ConditionRows {
   Eigen::Index first_;
 };
 
-/// The conditions of one closure, gear or drive. What a set of them is does not change, so that
-/// threads share it.
+/// The conditions of one closure, gear or drive. A set is immutable, so that threads can share it.
 class ConditionSet {
  public:
-  /// @param place as messages begin: "closures: 'pin'"
-  /// @param coordinates that its rows have entries for, ascending
+  /// @param place how messages about it begin: "closures: 'pin'"
+  /// @param coordinates those that its rows have entries for, ascending
   ConditionSet(std::string place, std::vector<Condition> conditions, std::vector<int> coordinates)
       : place_(std::move(place)),
         conditions_(std::move(conditions)),
@@ -85,10 +84,10 @@ class ConditionSet {
   const std::vector<Condition>& conditions() const { return conditions_; }
   const std::vector<int>& coordinates() const { return coordinates_; }
 
-  /// Sets phi, where there is one, and A, and the unit wrenches of a closure, of q and time. Does
-  /// not allocate.
+  /// Sets phi where there is one, A, and the unit wrenches of a closure, from q and time. Does not
+  /// allocate.
   virtual void setPosition(const LoopState& state, ConditionRows rows) const = 0;
-  /// Sets rates and accelerations, and b and bd of conditions that drive. Does not allocate.
+  /// Sets rates and accelerations, and for conditions that drive b and bd. Does not allocate.
   virtual void setMotion(const LoopState& state, ConditionRows rows) const = 0;
 
  private:
@@ -99,7 +98,7 @@ class ConditionSet {
 
 using ConditionSets = std::vector<std::shared_ptr<const ConditionSet>>;
 
-/// All conditions of a scene: those of closures first, in its order.
+/// Makes all conditions of a scene: those of closures first, in the scene's order.
 /// @throws SceneError naming what is wrong with a closure.
 ConditionSets makeConditions(const Mechanism& mechanism, const Scene& scene);
 

@@ -7,17 +7,18 @@
 
 namespace virtual_work_dynamics {
 
-// Scenes of the tree that a mechanism with loops is when its closures are cut. What springs and
-// closures exert are applied wrenches, root axes, whose values are set sample by sample.
+// Scenes of the tree that is left when the closures of a mechanism are cut. Springs and closures
+// become applied wrenches in root axes, whose values are set sample by sample.
 
-/// Without closures, springs and passive joints.
+/// The scene without closures, springs, passive joints and reactions.
 Scene withoutLoops(const Scene& scene);
 
-/// For the efforts without closures. Each spring has two wrenches behind the scene's own, on link_a
-/// and on link_b. Joints have their whole reactions, whatever is reported of them.
+/// The scene for efforts without closures. Each spring has two wrenches after the scene's own, on
+/// link_a and on link_b. Reactions of joints are whole, even where the scene leaves the active part
+/// out.
 Scene openTreeScene(const Scene& scene, const PointSprings& springs);
 
-/// For the reactions with closures. Behind the springs' wrenches each closure has two more, on its
+/// The scene for reactions with closures. After the springs' wrenches each closure has two, on its
 /// child and on its parent, at the origins of its frames.
 Scene closedTreeScene(const Scene& scene, const PointSprings& springs);
 

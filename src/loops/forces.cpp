@@ -9,20 +9,20 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// What of the load may point along a free motion and count as rounding, of the whole load.
+// Largest part of the load along a free motion that counts as rounding, relative to the whole load.
 constexpr double kBorne = 1e-9;
-// Entries of a free motion, a unit vector, below which a coordinate does not take part in it.
+// Entry of a free motion, a unit vector, below which its coordinate does not take part in it.
 constexpr double kTakesPart = 1e-6;
-// Efforts in a change, a unit vector, that are rounding.
+// Largest effort in a change, a unit vector, that counts as rounding.
 constexpr double kNoEffort = 1e-10;
-// A change by less, of a unit vector, leaves a component determined.
+// A component is determined when no unit vector of change alters it by more.
 constexpr double kOpen = 1e-8;
 
 Eigen::Index index(std::size_t i) {
   return static_cast<Eigen::Index>(i);
 }
 
-// Costs are of all unknowns, or of whole reactions.
+// Most rows of costs: one for each unknown, or six for each reaction.
 Eigen::Index mostCosts(const LoopGroup& group, Eigen::Index unknowns) {
   return std::max(unknowns, index(6 * (group.closures.size() + group.joints.size())));
 }
@@ -38,21 +38,21 @@ LoopForces::LoopForces(const Mechanism& mechanism, const LoopKinematics& kinemat
       length_(length),
       unit_wrenches_(static_cast<std::size_t>(unknowns_.count)),
       qr_(unknowns_.rowBlocks(), static_cast<int>(group.coordinates.size())),
-      G_(qr_.columns(), qr_.rows()),
-      G_transposed_(G_.cols(), G_.rows()),
-      factorization_(G_.rows(), G_.cols()),
-      transposed_(G_.cols(), G_.rows()),
-      norms_(G_.cols(), mostCosts(group, G_.cols())),
-      load_(G_.rows()),
+      B_(qr_.columns(), qr_.rows()),
+      B_transposed_(B_.cols(), B_.rows()),
+      factorization_(B_.rows(), B_.cols()),
+      transposed_(B_.cols(), B_.rows()),
+      norms_(B_.cols(), mostCosts(group, B_.cols())),
+      load_(B_.rows()),
       gathered_(scene.start.size()),
-      directions_(G_.cols(), G_.cols() + G_.rows()) {
+      directions_(B_.cols(), B_.cols() + B_.rows()) {
   addCosts(scene);
   for (std::size_t j = 0; j < unknowns_.effort_rows.size(); ++j) {
     const std::size_t row = static_cast<std::size_t>(unknowns_.effort_rows[j]);
     qr_.entriesOf(j)(0, 0) = unknowns_.efforts[j].unit / unknowns_.row_units[row];
   }
   for (State* state : {&solution_, &change_}) {
-    state->x.setZero(G_.cols());
+    state->x.setZero(B_.cols());
     state->closures.resize(group_.closures.size());
     touchAll(*state);
   }
@@ -74,7 +74,8 @@ void LoopForces::addCosts(const LoopScene& scene) {
     joint_costs_.push_back(factor);
     if (factor > 0) cost_rows_ += 6;
   }
-  // Only their ratios matter: the largest is made one, as costs are compared with unit vectors.
+  // Only ratios of the factors matter: the largest becomes one, as costs are compared with unit
+  // vectors.
   double largest = 0;
   for (const double factor : closure_costs_) largest = std::max(largest, factor);
   for (const double factor : joint_costs_) largest = std::max(largest, factor);
@@ -100,7 +101,7 @@ void LoopForces::setEntries() {
         const std::size_t row = static_cast<std::size_t>(own.coordinates[k]);
         const int i = group_.coordinates[row];
         const double force =
-            multiplies ? kinematics_.jacobian()(column.condition, i) : gathered_[i];
+            multiplies ? kinematics_.jacobian()(column.condition, i) : gathered_[i];  // (3.1), a_ik
         entries(index(j), index(k)) = column.unit * force / unknowns_.row_units[row];
       }
     }
@@ -119,18 +120,18 @@ void LoopForces::setPosition() {
 }
 
 void LoopForces::factorizeWhole() {
-  G_.setZero();
+  B_.setZero();
   for (std::size_t b = 0; b < qr_.blocks(); ++b) {
     const Eigen::MatrixXd& entries = qr_.entriesOf(b);
     for (Eigen::Index k = 0; k < entries.cols(); ++k) {
-      G_.row(qr_.columnsOf(b)[std::size_t(k)]).segment(qr_.firstOf(b), entries.rows()) =
+      B_.row(qr_.columnsOf(b)[std::size_t(k)]).segment(qr_.firstOf(b), entries.rows()) =
           entries.col(k).transpose();
     }
   }
-  factorization_.factorize(G_, rank_tolerance_);
+  factorization_.factorize(B_, rank_tolerance_);
   if (rank() == coordinates()) return;
-  G_transposed_ = G_.transpose();
-  transposed_.factorize(G_transposed_, rank_tolerance_);
+  B_transposed_ = B_.transpose();
+  transposed_.factorize(B_transposed_, rank_tolerance_);
 }
 
 double LoopForces::gap() const {
@@ -143,7 +144,7 @@ bool LoopForces::isFree(Eigen::Index local) const {
 
 void LoopForces::solve(const Eigen::VectorXd& tree_effort,
                        const std::vector<Wrench>& tree_reactions) {
-  for (Eigen::Index row = 0; row < G_.rows(); ++row) {
+  for (Eigen::Index row = 0; row < B_.rows(); ++row) {
     load_[row] =
         tree_effort[group_.coordinates[std::size_t(row)]] / unknowns_.row_units[std::size_t(row)];
   }
@@ -161,7 +162,7 @@ void LoopForces::solve(const Eigen::VectorXd& tree_effort,
   if (!bears_) addOpenLoads();
 }
 
-// Takes from the load what points along a free motion: nothing bears it.
+// Removes from the load what points along a free motion, which nothing bears.
 void LoopForces::bearLoad() {
   bears_ = true;
   if (rank() == coordinates()) return;
@@ -174,8 +175,8 @@ void LoopForces::bearLoad() {
   }
 }
 
-// What a unit load on a coordinate that takes part in a free motion changes; loads of coordinates
-// that depend on others follow and add nothing new.
+// Adds what a unit load on a coordinate that takes part in a free motion changes; loads on
+// coordinates that depend on others follow from these and add nothing new.
 void LoopForces::addOpenLoads() {
   touchAll(change_);
   for (Eigen::Index row = 0; row < coordinates(); ++row) {
@@ -213,7 +214,7 @@ void LoopForces::choose(const std::vector<Wrench>& tree_reactions) {
   norms_.finish(solution_.x);
 }
 
-// Of the changes that are open, all that the wishes of choose() concern.
+// Starts with the open directions that the criteria of choose() can tell apart.
 void LoopForces::startNorms() {
   if (!sound_) return norms_.start(factorization_.nullSpace());
   Eigen::Index count = 0;
@@ -254,7 +255,7 @@ void LoopForces::putCosts(const State& state, const std::vector<Wrench>* tree_re
 }
 
 double LoopForces::leastChange() const {
-  const double steps = static_cast<double>(G_.rows() + G_.cols());
+  const double steps = static_cast<double>(B_.rows() + B_.cols());
   return std::max(kOpen, steps * std::numeric_limits<double>::epsilon() * condition());
 }
 
@@ -316,7 +317,7 @@ void LoopForces::setClosures(State& state) const {
   }
 }
 
-// Where a closure bears a link, the joints behind that link need not.
+// A closure that bears a link relieves the joints that carry that link.
 ClosureWrench LoopForces::jointWrench(const LoopGroup::CrossedJoint& crossed,
                                       const State& state) const {
   ClosureWrench sum;

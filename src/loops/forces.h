@@ -14,16 +14,16 @@
 
 namespace virtual_work_dynamics {
 
-/// Efforts and closures' wrenches of one group of loops, (3.1)-(3.4): S^T tau + A^T lambda =
-/// tau_tree, G x = b, with x the efforts of actuated coordinates, those of actuated closures, and
-/// the multipliers of all conditions, whether these are of wrenches or not. Everything is made a
-/// force by a length, so that rank and least norms do not depend on units. Far from singular
-/// positions G is factorised loop by loop, at a cost that grows with their number; where the
-/// condition number leaves a doubt about the rank, as a whole. Nothing after construction
-/// allocates.
+/// Solves for the efforts and closures' wrenches of one group of loops, (3.1) with (3.2): S^T tau +
+/// A^T lambda = tau_tree, in units of force B x = load, where x holds the efforts of actuated
+/// coordinates, those of actuated closures, and the multipliers of all conditions, with or without
+/// a wrench. A length turns everything into forces, so that rank and least norms do not depend on
+/// units. Far from singular positions B is factorised loop by loop, at a cost that grows with their
+/// number; where the condition number leaves the rank in doubt, it is factorised as a whole.
+/// Nothing after construction allocates.
 class LoopForces {
  public:
-  /// All must outlive it.
+  /// All arguments must outlive it.
   LoopForces(const Mechanism& mechanism, const LoopKinematics& kinematics, const LoopScene& scene,
              const LoopGroup& group, double length);
 
@@ -36,12 +36,12 @@ class LoopForces {
   void solve(const Eigen::VectorXd& tree_effort, const std::vector<Wrench>& tree_reactions);
 
   const LoopGroup& group() const { return group_; }
-  Eigen::Index coordinates() const { return G_.rows(); }
-  Eigen::Index unknowns() const { return G_.cols(); }
+  Eigen::Index coordinates() const { return B_.rows(); }
+  Eigen::Index unknowns() const { return B_.cols(); }
   Eigen::Index rank() const { return sound_ ? coordinates() : factorization_.rank(); }
   double gap() const;
   double condition() const { return sound_ ? qr_.condition() : factorization_.condition(); }
-  /// Dimension of the multipliers that load no coordinate. Known after solve().
+  /// Dimension of the space of multipliers that load no coordinate. Known after solve().
   Eigen::Index redundantConstraints() const { return redundant_constraints_; }
   /// Whether a coordinate of the group takes part in a motion that nothing holds.
   bool isFree(Eigen::Index local) const;
@@ -50,25 +50,26 @@ class LoopForces {
   struct State {
     Eigen::VectorXd x;
     std::vector<ClosureWrench> closures;
-    /// Which of the group's closures and of efforts() it can change; the others are zero.
+    /// Indices of the group's closures and of efforts() that the state changes; the others are
+    /// zero.
     std::vector<std::size_t> touched_closures, touched_efforts;
     std::vector<std::size_t> touched_others;  ///< sets without a wrench
   };
   const State& solution() const { return solution_; }
-  /// Unit vectors that span the changes, all moments over the length. In a singular position that
-  /// cannot bear the load, these include all that shifting the load between the coordinates that
-  /// move freely would change.
+  /// Number of unit vectors that span the changes, with moments divided by the length. In a
+  /// singular position that cannot bear the load, they include every change that shifting the load
+  /// between the freely moving coordinates would make.
   Eigen::Index directions() const { return direction_count_; }
-  /// Valid until it is called again.
+  /// One of these unit vectors; valid until the next call.
   const State& direction(Eigen::Index i);
   double length() const { return length_; }
   /// A component is determined when no direction changes it by more than this. Near a singular
-  /// position directions are known to rounding errors times the condition only, as results are.
+  /// position directions, like results, are known only to rounding errors times the condition.
   double leastChange() const;
 
   const std::vector<LoopUnknowns::Effort>& efforts() const { return unknowns_.efforts; }
 
-  /// What a state adds to the wrench of a crossed joint, about the joint's origin. Root axes.
+  /// What a state adds to the wrench of a crossed joint, about the joint's origin, in root axes.
   ClosureWrench jointWrench(const LoopGroup::CrossedJoint& joint, const State& state) const;
 
  private:
@@ -91,17 +92,18 @@ class LoopForces {
   LoopUnknowns unknowns_;
   double rank_tolerance_, length_;
   std::vector<ClosureWrench> unit_wrenches_;  // by unknown
-  // Factors of reactions whose squares the policy keeps small; zero where it does not care.
+  // Factors of reactions whose squares the policy keeps small; zero for those that it ignores.
   std::vector<double> closure_costs_, joint_costs_;
   Eigen::Index cost_rows_ = 0;
 
-  MultifrontalQr qr_;  // of the transpose of G
-  bool sound_ = true;  // whether that is a factorization; if not, the next two are
-  Eigen::MatrixXd G_, G_transposed_;
+  MultifrontalQr qr_;  // of the transpose of B
+  // Whether qr_ holds a factorization; otherwise factorization_ and transposed_ do.
+  bool sound_ = true;
+  Eigen::MatrixXd B_, B_transposed_;  // of B x = load
   RankFactorization factorization_, transposed_;
   LeastNorms norms_;
   Eigen::VectorXd load_, gathered_;
-  bool bears_ = true;  // whether the load is in the range of G
+  bool bears_ = true;  // whether the load is in the range of B
   Eigen::Index redundant_constraints_ = 0;
   Eigen::Index direction_count_ = 0;
   Eigen::MatrixXd directions_;

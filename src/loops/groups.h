@@ -11,9 +11,9 @@ namespace virtual_work_dynamics {
 struct LoopGroup {
   std::vector<int> coordinates;
   std::vector<std::size_t> sets;        ///< of conditions; those of closures are the first
-  std::vector<std::size_t> closures;    ///< the same closures
+  std::vector<std::size_t> closures;    ///< the closures of these sets
   std::vector<std::vector<int>> moved;  ///< by set: which of `coordinates` its rows concern
-  /// Joints between the links of its closures, and how each closure's wrench passes through.
+  /// How the wrench of a closure passes through a joint between the closure's links.
   struct Passage {
     std::size_t closure;  ///< index into `closures`
     double sign;          ///< PathStep::sign
@@ -26,8 +26,8 @@ struct LoopGroup {
   std::vector<CrossedJoint> joints;
 };
 
-/// All groups; coordinates without a condition are in none. A group's loops do not feel those of
-/// others, so the cost of many small groups grows with their number and not with its cube.
+/// Divides conditions into groups; a coordinate without a condition is in none. Groups do not
+/// affect each other, so the cost of many small ones grows with their number and not with its cube.
 std::vector<LoopGroup> loopGroups(const Mechanism& mechanism, const LoopKinematics& kinematics);
 
 /// A characteristic size, m: the largest distance between two origins of joints and closure frames

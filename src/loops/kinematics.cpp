@@ -49,6 +49,8 @@ LoopKinematics::Norms LoopKinematics::normsOf(std::size_t set,
 }
 
 void LoopKinematics::setPosition(const Eigen::VectorXd& q) {
+  if (placed_ && state_.q == q) return;
+  placed_ = true;
   state_.q = q;
   state_.links.setPosition(q);
   for (std::size_t s = 0; s < sets_.size(); ++s) sets_[s]->setPosition(state_, rowsOf(s));
@@ -71,6 +73,7 @@ void LoopKinematics::subtractConstants() {
 
 void LoopKinematics::adoptConstants() {
   adopted_ = true;
+  placed_ = false;  // values_ are no longer those of the position
 }
 
 void LoopKinematics::setMotion(const Motion& motion) {

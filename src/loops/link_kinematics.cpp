@@ -4,7 +4,7 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// Whether each joint carries the link.
+// Tells for each joint whether it carries the link.
 std::vector<bool> carriersOf(const Mechanism& mechanism, int link) {
   std::vector<bool> carries(mechanism.joints().size(), false);
   while (link > 0) {
@@ -54,17 +54,17 @@ void LinkKinematics::moveLink(std::size_t k, const Eigen::VectorXd& qd,
   const Eigen::Vector3d r = link.o - parent.o;
   link.w = parent.w;
   link.alpha = parent.alpha;
-  link.v = parent.v + parent.w.cross(r);
-  link.a = parent.a + parent.alpha.cross(r) + parent.w.cross(parent.w.cross(r));
+  link.v = parent.v + parent.w.cross(r);                                          // (2.6)
+  link.a = parent.a + parent.alpha.cross(r) + parent.w.cross(parent.w.cross(r));  // (2.7)
   if (joint.coordinate < 0) return;
   const Eigen::Vector3d rate = joint.multiplier * qd[joint.coordinate] * link.z;
   const Eigen::Vector3d acceleration = joint.multiplier * qdd[joint.coordinate] * link.z;
   if (joint.slides) {
-    link.v += rate;
-    link.a += acceleration + 2 * parent.w.cross(rate);
+    link.v += rate;                                     // (2.6)
+    link.a += acceleration + 2 * parent.w.cross(rate);  // (2.7)
   } else {
-    link.w += rate;
-    link.alpha += acceleration + parent.w.cross(rate);
+    link.w += rate;                                     // (2.5)
+    link.alpha += acceleration + parent.w.cross(rate);  // (2.7)
   }
 }
 

@@ -9,20 +9,20 @@
 
 namespace virtual_work_dynamics {
 
-/// A joint between two links.
+/// A joint on the path between two links.
 struct PathStep {
   int joint;
   double sign;  ///< 1: moves the second of the two links, -1: the first
 };
 
-/// Poses and motions of all links of the tree, in root axes. What the joint types mean to closed
-/// loops stands here. Nothing after construction allocates.
+/// Poses and motions of all links of the tree, in root axes. What joint types mean to closed loops
+/// is written here. Nothing after construction allocates.
 class LinkKinematics {
  public:
   explicit LinkKinematics(const Mechanism& mechanism);
 
   void setPosition(const Eigen::VectorXd& q);
-  /// At the present position.
+  /// Computes motions of the links at the present position.
   void setMotion(const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd);
 
   const Eigen::Matrix3d& axesOf(int link) const { return links_[static_cast<std::size_t>(link)].R; }
@@ -43,18 +43,18 @@ class LinkKinematics {
   Eigen::Vector3d originOf(const Frame& frame) const {
     return originOf(frame.link) + axesOf(frame.link) * frame.p_LoFo_L;
   }
-  /// Axis i: 0, 1 or 2.
+  /// Axis i of a frame: 0 for x, 1 for y or 2 for z.
   Eigen::Vector3d axisOf(const Frame& frame, int i) const {
     return axesOf(frame.link) * frame.R_LF.col(i);
   }
   Eigen::Matrix3d axesOf(const Frame& frame) const { return axesOf(frame.link) * frame.R_LF; }
-  /// Its origin and what its link does there: m, m/s, rad/s, m/s^2, rad/s^2.
+  /// A frame's origin and how its link moves there: m, m/s, rad/s, m/s^2, rad/s^2.
   struct Point {
     Eigen::Vector3d o, v, w, a, alpha;
   };
   Point pointOf(const Frame& frame) const;
 
-  /// The coordinate that moves a joint; -1: it is fixed.
+  /// The coordinate that moves a joint; -1 when it is fixed.
   int coordinateOf(const PathStep& step) const {
     return joints_[static_cast<std::size_t>(step.joint)].coordinate;
   }

@@ -19,7 +19,7 @@ void check(const PointSpring& spring) {
   }
   if (!(spring.rest_length >= 0) || !std::isfinite(spring.rest_length)) {
     throw SceneError(what + ": rest_length = " + numberText(spring.rest_length) +
-                     " is not a number that is at least zero");
+                     " is neither zero nor a positive number");
   }
   if (!spring.at_a.allFinite() || !spring.at_b.allFinite()) {
     throw SceneError(what + ": an end is not finite");

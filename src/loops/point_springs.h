@@ -16,10 +16,11 @@ class PointSprings {
   PointSprings(const Mechanism& mechanism, const Scene& scene);
 
   std::size_t size() const { return springs_.size(); }
-  /// Two wrenches a spring, root axes, that act at its ends: first on link_a, then on link_b.
+  /// Two wrenches for each spring, in root axes, that act at its ends: first on link_a, then on
+  /// link_b.
   std::vector<AppliedWrench> wrenches() const;
-  /// Force on link_a, root axes, at the position of `kinematics`; its opposite acts on link_b. Zero
-  /// where the ends meet, as it has no direction there. Does not allocate.
+  /// Force on link_a, in root axes, at the position of `kinematics`; its opposite acts on link_b.
+  /// Zero where the ends meet, as a force has no direction there. Does not allocate.
   Eigen::Vector3d force(std::size_t spring, const LoopKinematics& kinematics) const;
 
  private:

@@ -23,7 +23,7 @@ void addSquares(const ClosureWrench& wrench, const LoopForces& forces,
 }  // namespace
 
 LoopReactions::LoopReactions(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
-                             const std::vector<LoopForces>& forces,
+                             const std::vector<LoopGroup>& groups,
                              const std::vector<std::string>& names, Axes axes)
     : child_axes_(axes == Axes::kLink) {
   for (auto name = names.begin(); name != names.end(); ++name) {
@@ -32,10 +32,8 @@ LoopReactions::LoopReactions(const Mechanism& mechanism, const Scene& scene, con
     }
     addItem(mechanism, scene, loops, *name);
   }
-  addChanges(forces);
-  values_.resize(names.size());
+  addChanges(groups);
   freedoms_.resize(names.size());
-  determined_.resize(names.size());
 }
 
 void LoopReactions::addItem(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
@@ -64,11 +62,11 @@ void LoopReactions::addItem(const Mechanism& mechanism, const Scene& scene, cons
   items_.push_back(item);
 }
 
-void LoopReactions::addChanges(const std::vector<LoopForces>& forces) {
-  changes_.resize(forces.size());
-  changes_of_.resize(forces.size());
-  for (std::size_t g = 0; g < forces.size(); ++g) {
-    const LoopGroup& group = forces[g].group();
+void LoopReactions::addChanges(const std::vector<LoopGroup>& groups) {
+  changes_.resize(groups.size());
+  changes_of_.resize(groups.size());
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const LoopGroup& group = groups[g];
     changes_of_[g].resize(group.closures.size());
     for (std::size_t i = 0; i < items_.size(); ++i) {
       for (const LoopGroup::CrossedJoint& crossed : group.joints) {
@@ -87,7 +85,7 @@ void LoopReactions::addChanges(const std::vector<LoopForces>& forces) {
   }
 }
 
-// From a wrench in root axes.
+// Turns a wrench in root axes into the one that is reported.
 ClosureWrench LoopReactions::reported(const LoopKinematics& kinematics, const Item& item,
                                       ClosureWrench wrench) const {
   const bool of_closure = item.closure >= 0;
@@ -105,15 +103,16 @@ ClosureWrench LoopReactions::reported(const LoopKinematics& kinematics, const It
 }
 
 void LoopReactions::setValues(const LoopKinematics& kinematics, const std::vector<Wrench>& tree,
-                              const std::vector<ClosureWrench>& closures) {
+                              const std::vector<ClosureWrench>& closures,
+                              std::vector<Wrench>& values) const {
   std::size_t of_tree = 0;
   for (std::size_t i = 0; i < items_.size(); ++i) {
     if (items_[i].closure < 0) {
-      values_[i] = tree[of_tree++];
+      values[i] = tree[of_tree++];
     } else {
       const auto wrench =
           reported(kinematics, items_[i], closures[static_cast<std::size_t>(items_[i].closure)]);
-      values_[i] = {wrench.force, wrench.moment};
+      values[i] = {wrench.force, wrench.moment};
     }
   }
 }
@@ -159,9 +158,9 @@ void LoopReactions::addChange(const LoopKinematics& kinematics, std::size_t grou
   }
 }
 
-void LoopReactions::setFlags() {
+void LoopReactions::setFlags(std::vector<Determined>& determined) const {
   for (std::size_t i = 0; i < items_.size(); ++i) {
-    for (std::size_t j = 0; j < 6; ++j) determined_[i][j] = freedoms_[i][j] <= 1;
+    for (std::size_t j = 0; j < 6; ++j) determined[i][j] = freedoms_[i][j] <= 1;
   }
 }
 

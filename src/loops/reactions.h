@@ -11,55 +11,60 @@
 
 namespace virtual_work_dynamics {
 
-/// A list of requested reactions: those of the tree and of closures put together in the request's
+/// Requested reactions: those of the tree and those of closures put together in the request's
 /// order, and which of their components are determined. Nothing after construction allocates.
 class LoopReactions {
  public:
-  /// @param axes in which they are reported
-  /// @throws SceneError for a name that is no joint and no closure, or that is given twice.
+  /// @param groups must outlive it and its copies
+  /// @param axes those in which reactions are reported
+  /// @throws SceneError for a name that is neither a joint nor a closure, or that is given twice.
   LoopReactions(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
-                const std::vector<LoopForces>& forces, const std::vector<std::string>& names,
+                const std::vector<LoopGroup>& groups, const std::vector<std::string>& names,
                 Axes axes);
 
-  /// The names that are not closures', in their order.
+  /// The requested names that are not closures, in the request's order.
   const std::vector<std::string>& treeNames() const { return tree_names_; }
 
-  /// @param tree of treeNames(); `closures` by closure
+  /// Sets the reactions.
+  /// @param tree by treeNames()
+  /// @param closures by closure
   void setValues(const LoopKinematics& kinematics, const std::vector<Wrench>& tree,
-                 const std::vector<ClosureWrench>& closures);
-  /// Poses and twists, likewise; those of closures are their child frames'.
+                 const std::vector<ClosureWrench>& closures, std::vector<Wrench>& values) const;
+  /// Sets the poses of the joints' frames and of the closures' child frames.
+  /// @param tree by treeNames()
   void setPoses(const LoopKinematics& kinematics, const std::vector<Pose>& tree,
                 std::vector<Pose>& poses) const;
+  /// Sets their twists.
+  /// @param tree by treeNames()
   void setTwists(const LoopKinematics& kinematics, const std::vector<Twist>& tree,
                  std::vector<Twist>& twists) const;
 
-  /// Flags follow from the changes that mechanics leaves open: call reset(), addChange() with each
-  /// of the changes of each group, then setFlags().
+  /// Starts anew. Flags follow from the changes that mechanics leaves open: call reset(), then
+  /// addChange() with each change of each group, then setFlags().
   void reset();
   void addChange(const LoopKinematics& kinematics, std::size_t group, const LoopForces& forces,
                  const LoopForces::State& change);
-  void setFlags();
+  void setFlags(std::vector<Determined>& determined) const;
 
-  const std::vector<Wrench>& values() const { return values_; }
-  const std::vector<Determined>& determined() const { return determined_; }
+  std::size_t size() const { return items_.size(); }
 
  private:
   struct Item {
-    int joint = -1;               ///< -1: ground, or a closure
-    int closure = -1;             ///< -1: of the tree
+    int joint = -1;               ///< -1 for ground or a closure
+    int closure = -1;             ///< -1 for what the tree has
     Unit active = Unit::kRadian;  ///< what its motion about or along its axis measures
     bool drops_active = false;
   };
   /// An item that a group of loops can change.
   struct Change {
     std::size_t item;
-    const LoopGroup::CrossedJoint* crossed;  ///< null: a closure
+    const LoopGroup::CrossedJoint* crossed;  ///< null for a closure
     std::size_t closure;                     ///< index into the group's
-    std::size_t counted = 0;                 ///< the addChange() that took it in last
+    std::size_t counted = 0;                 ///< number of the addChange() that included it last
   };
   void addItem(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
                const std::string& name);
-  void addChanges(const std::vector<LoopForces>& forces);
+  void addChanges(const std::vector<LoopGroup>& groups);
   ClosureWrench reported(const LoopKinematics& kinematics, const Item& item,
                          ClosureWrench wrench) const;
 
@@ -67,12 +72,10 @@ class LoopReactions {
   std::vector<Item> items_;
   std::vector<std::string> tree_names_;
   std::vector<std::vector<Change>> changes_;  // by group
-  // By group and by its closures: those of these that the closure's wrench is part of.
+  // changes_of_[g][c]: indices into changes_[g] of the items that closure c of group g affects.
   std::vector<std::vector<std::vector<std::size_t>>> changes_of_;
-  std::size_t calls_ = 0;  // of addChange()
-  std::vector<Wrench> values_;
-  std::vector<std::array<double, 6>> freedoms_;  // sums of squares, of the least
-  std::vector<Determined> determined_;
+  std::size_t calls_ = 0;                        // number of calls of addChange()
+  std::vector<std::array<double, 6>> freedoms_;  // sums of squared changes over leastChange()
 };
 
 }  // namespace virtual_work_dynamics

@@ -14,7 +14,7 @@ LoopResiduals::LoopResiduals(const Mechanism& mechanism, std::size_t closures, d
 
 void LoopResiduals::set(LoopKinematics& kinematics, const Motion& motion) {
   kinematics.setMotion(motion);
-  // A second is what makes rates comparable where nearly nothing moves.
+  // Where nearly nothing moves, rates are compared with 1/s.
   const double rate = std::max(1.0, largest(motion.qd));
   const double acceleration = std::max({1.0, largest(motion.qdd), rate * rate});
   for (std::size_t c = 0; c < values_.size(); ++c) {

@@ -9,14 +9,14 @@
 
 namespace virtual_work_dynamics {
 
-/// How far a motion violates each closure, as it stands and relative. Nothing after construction
+/// How far a motion violates each closure, in units and relative. Nothing after construction
 /// allocates.
 class LoopResiduals {
  public:
-  /// `length` of the loops, m.
+  /// @param length of the loops, m
   LoopResiduals(const Mechanism& mechanism, std::size_t closures, double length);
 
-  /// Of a motion at the position of `kinematics`.
+  /// Computes the residuals of a motion at the position of `kinematics`.
   void set(LoopKinematics& kinematics, const Motion& motion);
 
   const std::vector<ClosureResidual>& values() const { return values_; }

@@ -1,11 +1,11 @@
 vwd_core(
   assembly.cpp
   closed_loop_dynamics.cpp
+  closed_loop_workspace.cpp
   closure_conditions.cpp
   completion.cpp
   condition.cpp
   cut_tree.cpp
-  follower.cpp
   forces.cpp
   groups.cpp
   kinematics.cpp

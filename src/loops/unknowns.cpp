@@ -20,7 +20,7 @@ LoopUnknowns::LoopUnknowns(const Mechanism& mechanism, const LoopKinematics& kin
     for (Eigen::Index i = kinematics.firstOf(s); i < kinematics.firstOf(s + 1); ++i) {
       own.columns.push_back({i, effortScaleOf(kinematics.condition(i).unit, length)});
     }
-    const auto& actuated = scene.actuated_closures;  // their sets are counted like them
+    const auto& actuated = scene.actuated_closures;  // closure c is set c
     const auto found = std::find(actuated.begin(), actuated.end(), s);
     if (found != actuated.end()) {
       const double unit = effortScaleOf(kinematics.closure(s).freeUnit(), length) /

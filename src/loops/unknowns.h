@@ -12,28 +12,29 @@
 
 namespace virtual_work_dynamics {
 
-/// The unknowns x of G x = b for one group of loops, in units that make all of them forces: efforts
-/// of actuated coordinates, then of each set of conditions its multipliers and, if it is that of an
-/// actuated closure, its effort.
+/// The unknowns x of B x = load, (3.1), for one group of loops, in units that make all of them
+/// forces: efforts of actuated coordinates, then for each set of conditions its multipliers and,
+/// for that of an actuated closure, its effort.
 struct LoopUnknowns {
   LoopUnknowns(const Mechanism& mechanism, const LoopKinematics& kinematics, const LoopScene& scene,
                const LoopGroup& group, double length);
 
-  /// Efforts of actuated coordinates, one unknown each, then those of actuated closures.
+  /// An effort: first those of actuated coordinates, one unknown each, then those of actuated
+  /// closures.
   struct Effort {
     std::size_t index;     ///< into ClosedLoopDynamics::effort()
-    double unit;           ///< N m or N for an entry of x of one
+    double unit;           ///< N m or N for an entry of x equal to one
     Eigen::Index unknown;  ///< index of that entry
   };
   struct Column {
-    Eigen::Index condition;  ///< -1: the effort along the free axis
-    double unit;             ///< multiplier or effort for an entry of x of one
+    Eigen::Index condition;  ///< -1 for the effort along the free axis
+    double unit;             ///< multiplier or effort for an entry of x equal to one
   };
   struct OfSet {
     std::size_t set;
     Eigen::Index first;            ///< of its unknowns
     std::vector<Column> columns;   ///< of its unknowns
-    int effort = -1;               ///< into efforts; -1: it is not actuated
+    int effort = -1;               ///< into efforts; -1 when it is not actuated
     std::vector<int> coordinates;  ///< which its rows concern, as the group counts them
   };
 
@@ -41,10 +42,10 @@ struct LoopUnknowns {
   std::vector<Effort> efforts;
   std::vector<int> effort_rows;   ///< of actuated coordinates, as the group counts them
   std::vector<OfSet> of_sets;     ///< as the group counts them
-  std::vector<double> row_units;  ///< N m or N for an entry of b of one
+  std::vector<double> row_units;  ///< N m or N for an entry of the load equal to one
 
-  /// The transpose of G: a block of one entry for each actuated coordinate, then one for each
-  /// set.
+  /// Blocks of the transpose of B: one of a single entry for each actuated coordinate, then one for
+  /// each set.
   std::vector<RowBlock> rowBlocks() const;
 };
 

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kTurn = 6.283185307179586476925286766559;
 
-// The positions of a continuous joint without the jumps by whole turns of a driver that wraps.
+// Removes the jumps by whole turns that a driver which wraps makes in positions of a continuous
+// joint, rad.
 void unwrap(Eigen::Ref<Eigen::VectorXd> q) {
   double turns = 0;  // counted, not summed up as angles, so that nothing accumulates
   double previous = q.size() > 0 ? q[0] : 0;
@@ -42,7 +43,7 @@ void checkShapes(const Mechanism& mechanism, const MotionTable& motion) {
   for (const std::string& name : motion.joints) {
     const auto& known = mechanism.coordinateNames();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw MotionError("motion: '" + name + "' is no generalized coordinate of the robot");
+      throw MotionError("motion: '" + name + "' is not a generalized coordinate of the robot");
     }
   }
   const auto rows = static_cast<Eigen::Index>(motion.times.size());
@@ -76,7 +77,7 @@ void checkRows(const MotionTable& motion) {
   }
 }
 
-// The rows around each row, fitted and evaluated there.
+// Fits the rows around a row and gives the derivatives there.
 class CentredFit {
  public:
   CentredFit(const MotionTable& given, Eigen::MatrixXd positions)
@@ -89,7 +90,7 @@ class CentredFit {
     times_.resize(static_cast<std::size_t>(window_));
   }
 
-  // Goes to a row: afterwards evaluate() gives derivatives there.
+  // Fits the window around a row, in which evaluate() then gives derivatives.
   void moveTo(Eigen::Index row) {
     start_ = std::clamp<Eigen::Index>(row - window_ / 2, 0, rows_ - window_);
     for (std::size_t i = 0; i < times_.size(); ++i) {

@@ -28,7 +28,7 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// Text from the file for a message of one line: cut short, without control characters.
+// Quotes text from the file in a message of one line: cut short, without control characters.
 std::string quoted(std::string_view text) {
   std::string result = "'";
   for (const char c : text.substr(0, kLongestQuote)) {
@@ -37,7 +37,7 @@ std::string quoted(std::string_view text) {
   return result + (text.size() > kLongestQuote ? "...'" : "'");
 }
 
-// The lines of a text that hold something: neither blank nor a comment.
+// The lines of a text that are neither blank nor comments.
 class Lines {
  public:
   Lines(std::string_view text, const std::string& name) : rest_(text), name_(name) {
@@ -47,8 +47,8 @@ class Lines {
     }
   }
 
-  // Goes to the next line; false at the end. Rows after a blank line are refused: two files written
-  // into one look like that.
+  // Goes to the next line and returns false at the end. Refuses rows after a blank line, as two
+  // files written into one have them.
   bool next(bool blanks_may_stand_before) {
     std::size_t blank_line = 0;
     while (!rest_.empty()) {
@@ -89,7 +89,8 @@ std::size_t forEachCell(std::string_view line, Use use) {
   }
 }
 
-// Reads one CSV text into a table: first the header, which says where each column goes, then rows.
+// Reads one CSV text into a table: first the header, which says where each column goes, then the
+// rows.
 class CsvReader {
  public:
   CsvReader(std::string_view text, const std::string& name) : lines_(text, name), name_(name) {}
@@ -143,7 +144,7 @@ class CsvReader {
       const auto inserted = column_of_name_.emplace(column_name, column);
       if (!inserted.second) {
         throw FileError(atCell(header_line_, column) + ": " + quoted(cell) +
-                        " stands already in column " + std::to_string(inserted.first->second + 1));
+                        " already stands in column " + std::to_string(inserted.first->second + 1));
       }
       header_.push_back(std::move(column_name));
     });
@@ -155,8 +156,9 @@ class CsvReader {
     const std::string kind = column_name.substr(0, point);
     const bool known = std::find(kKinds.begin(), kKinds.end(), kind) != kKinds.end();
     if (known && point != std::string::npos && point + 1 < column_name.size()) return;
-    throw FileError(atCell(header_line_, column) + ": " + quoted(column_name) +
-                    " is none of time, position.<joint>, velocity.<joint>, acceleration.<joint>");
+    throw FileError(
+        atCell(header_line_, column) + ": " + quoted(column_name) +
+        " is not one of time, position.<joint>, velocity.<joint>, acceleration.<joint>");
   }
 
   std::vector<std::string> jointsWithPositions() const {
@@ -170,8 +172,8 @@ class CsvReader {
     return joints;
   }
 
-  // Decides for each column where its value goes in a row of targets: the time, then each kind that
-  // is given, joint by joint; -1: nowhere.
+  // Decides for each column where its value goes in a row of targets, or -1 for nowhere. The
+  // targets are the time, then each kind that is given, joint by joint.
   void assignColumns() {
     target_of_column_.assign(header_.size(), -1);
     assign(kTime, 0);
@@ -211,7 +213,7 @@ class CsvReader {
         double& value = values[row_start + static_cast<std::size_t>(target_of_column_[column])];
         if (!parseNumber(number, value)) throwNoNumber(column, cell);
       };
-      // Counted first: in a row with a cell too few, the numbers behind it are in wrong columns.
+      // Cells are counted first: behind a missing cell, the numbers of a row are in wrong columns.
       const auto commas = std::count(lines_.text().begin(), lines_.text().end(), ',');
       const std::size_t cells = static_cast<std::size_t>(commas) + 1;
       if (cells != header_.size()) {
@@ -226,8 +228,9 @@ class CsvReader {
   }
 
   [[noreturn]] void throwNoNumber(std::size_t column, std::string_view cell) const {
-    throw FileError(atCell(lines_.number(), column) + " (" + header_[column] + "): " +
-                    (cell.empty() ? "the cell is empty" : quoted(cell) + " is no finite number"));
+    throw FileError(
+        atCell(lines_.number(), column) + " (" + header_[column] +
+        "): " + (cell.empty() ? "the cell is empty" : quoted(cell) + " is not a finite number"));
   }
 
   void fillTable(const std::vector<double>& values) {

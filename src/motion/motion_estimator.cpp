@@ -18,17 +18,17 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kMaxWindow = PolynomialFit::kMaxWindow;
-/// Samples held of a coordinate. More than a window, so that a coordinate that comes more often
-/// than the others still has its samples around their common instant. A power of two.
+/// Number of samples held of a coordinate, a power of two. They are more than a window, so that a
+/// coordinate that comes more often than the others still has samples around the common instant.
 constexpr int kHistory = 512;
-/// Sets of weights held at once; more groups of coordinates than that are fitted anew each time.
+/// Number of sets of weights held; more groups of coordinates than that are fitted anew each time.
 constexpr std::size_t kMaxFits = 32;
-/// Longer jumps (rad) have no whole number of turns left in a double worth taking off.
+/// Longest jump that is unwrapped, rad: in a longer one a double does not resolve the turns well.
 constexpr double kLongestJump = 1e9;
 
 struct Sample {
   std::int64_t stamp;  // ns
-  double q;            // as it came
+  double q;            // position as it came
   double turns;        // 2 pi turns + q is the unwrapped position
   double qd;
   bool has_qd;
@@ -65,8 +65,8 @@ struct Coordinate {
 
   bool continuous;
   bool needed = true;
-  bool fresh = false;  // since the last evaluate() or skip()
-  bool seen = false;   // ever
+  bool fresh = false;  // refreshed since the last evaluate() or skip()
+  bool seen = false;   // whether any sample ever came
   double latest = 0;
   History history;
 };
@@ -74,7 +74,7 @@ struct Coordinate {
 /// Stamps of a window relative to the instant, oldest first, ns.
 using Stamps = std::array<std::int64_t, kMaxWindow>;
 
-/// Weights and what they were computed for.
+/// Weights and the window that they were computed for.
 struct Fit {
   Stamps stamps{};
   bool velocities = false;
@@ -105,14 +105,14 @@ void checkSettings(const EstimatorSettings& settings) {
     refuseSetting("max_gap", settings.max_gap, "a positive number of seconds");
 }
 
-/// s to ns, as far as 64 bits go.
+/// Converts s to ns, at most the largest number of 64 bits.
 std::int64_t nanoseconds(double seconds) {
   constexpr double longest = 9.2e9;
   if (!(seconds < longest)) return std::numeric_limits<std::int64_t>::max();
   return std::llround(seconds * 1e9);
 }
 
-/// Whole turns by which a jump is taken back, if it is longer than half a turn.
+/// Number of whole turns by which a jump is taken back: zero unless it is longer than half a turn.
 double turnsIn(double jump) {
   const double length = std::abs(jump);
   return length > kPi && length < kLongestJump ? std::round(jump / (2 * kPi)) : 0;
@@ -165,8 +165,8 @@ MotionEstimator::Impl::Impl(const Mechanism& mechanism, const EstimatorSettings&
   if (estimate) fits.resize(std::min(coordinates.size(), kMaxFits));
 }
 
-/// What is to become of a message with this stamp. A stamp before one sample goes back, whatever
-/// the message's other coordinates say; an equal one comes before a gap.
+/// Decides what to do with a message of this stamp. A stamp earlier than the sample of any
+/// coordinate in it means that time went back; an equal one is dropped even when others have a gap.
 MotionEstimator::Verdict MotionEstimator::Impl::judge(std::int64_t stamp, const int* indices,
                                                       int count) {
   bool equal = false;
@@ -192,7 +192,7 @@ void MotionEstimator::Impl::markStale() {
   for (Coordinate& coordinate : coordinates) coordinate.fresh = false;
 }
 
-/// True when every coordinate needed is fresh and has a window.
+/// True when every coordinate that is needed is fresh and has a full window.
 bool MotionEstimator::Impl::full() const {
   for (const Coordinate& coordinate : coordinates)
     if (coordinate.needed && (!coordinate.fresh || coordinate.history.size() < window))
@@ -200,14 +200,14 @@ bool MotionEstimator::Impl::full() const {
   return !coordinates.empty();
 }
 
-/// The instant for which every coordinate can be evaluated. Only when full().
+/// Finds the instant at which every coordinate can be evaluated; to be called when full() only.
 /// @returns false when a coordinate began later than that.
 bool MotionEstimator::Impl::commonInstant(std::int64_t& instant) const {
   instant = std::numeric_limits<std::int64_t>::max();
   for (const Coordinate& coordinate : coordinates)
     if (coordinate.needed) instant = std::min(instant, coordinate.history[lag].stamp);
   if (!estimate) return true;
-  // A polynomial is no good outside of its samples. Where the history held is too short, the
+  // A polynomial must not be evaluated outside of its samples. Where the history is too short, the
   // instant moves into it; where it still grows, waiting helps.
   const std::int64_t earliest = instant;
   for (const Coordinate& coordinate : coordinates) {
@@ -234,7 +234,7 @@ int MotionEstimator::Impl::windowAge(const History& history, std::int64_t instan
   return age;
 }
 
-/// Weights for `stamps`; computed only if none of those held fits.
+/// Returns the weights for `stamps`, which are computed only if no set of weights held fits.
 const PolynomialFit& MotionEstimator::Impl::weights(bool with_velocities) {
   Fit* spare = &fits.front();
   for (Fit& fit : fits) {
@@ -264,8 +264,8 @@ void MotionEstimator::Impl::fitAt(std::int64_t instant, Motion& motion) {
     if (!coordinates[c].needed) continue;
     const History& history = coordinates[c].history;
     const int newest = windowAge(history, instant);
-    // Turns are counted from the first sample on too: however far a joint has turned, the
-    // differences that make the acceleration keep their digits.
+    // Turns are relative to the first sample, too: however far a joint has turned, the differences
+    // that make the acceleration keep their digits.
     const Sample& first = history[newest + window - 1];
     bool all_velocities = use_velocity;
     for (int i = 0; i < window; ++i) {
@@ -323,8 +323,8 @@ MotionEstimator::Verdict MotionEstimator::push(std::int64_t stamp_ns, const int*
 
 void MotionEstimator::waitFor(const std::vector<bool>& coordinates) {
   if (coordinates.size() != impl_->coordinates.size())
-    throw MotionError("motion estimator: told of " + std::to_string(coordinates.size()) +
-                      " coordinates whether to wait for them, the mechanism has " +
+    throw MotionError("motion estimator: got " + std::to_string(coordinates.size()) +
+                      " entries for the coordinates to wait for, the mechanism has " +
                       std::to_string(impl_->coordinates.size()));
   for (std::size_t i = 0; i < coordinates.size(); ++i)
     impl_->coordinates[i].needed = coordinates[i];

@@ -49,7 +49,7 @@ class CosineLaw : public MotionLaw {
   void evaluate(double t, Motion& motion) const override {
     const double angle = rate_ * t;
     const double half_sine = std::sin(0.5 * angle);
-    // 1 - cos without its cancellation near zero.
+    // This is 1 - cos without its cancellation near zero.
     motion.q = 2 * half_sine * half_sine * amplitudes_;
     motion.qd = rate_ * std::sin(angle) * amplitudes_;
     motion.qdd = rate_ * rate_ * std::cos(angle) * amplitudes_;
@@ -85,7 +85,7 @@ class SineSweepLaw : public MotionLaw {
  private:
   VectorXd amplitudes_;
   double start_rate_;    ///< rad/s
-  double acceleration_;  ///< of the phase, rad/s^2
+  double acceleration_;  ///< acceleration of the phase, rad/s^2
   double duration_;
 };
 
@@ -109,17 +109,18 @@ MotionTable fromZero(MotionTable table) {
   return table;
 }
 
-/// What one inner point contributes to the linear system of fillMinimumJerk(): 2x2 blocks that
-/// multiply (qd, qdd) of the point before, the point and the point after.
+/// The rows of an inner point in the linear system of fillMinimumJerk(): 2x2 blocks that multiply
+/// (qd, qdd) of the point before, the point and the point after.
 struct Blocks {
   Matrix2d lower;
   Matrix2d diagonal;
   Matrix2d upper;
 };
 
-/// First row: the fourth derivative, second row: the third derivative of the quintic Hermite pieces
-/// on either side is equal. With `before` and `after` the inverse lengths of the pieces; rows are
-/// scaled such that the whole system is symmetric: it is the gradient of the integral.
+/// The blocks by which, in the first row, the fourth derivative and, in the second row, the third
+/// derivative of the quintic Hermite pieces on either side of a point are equal. `before` and
+/// `after` are the inverse lengths of the pieces. Rows are scaled such that the whole system is
+/// symmetric: it is the gradient of the integral.
 Blocks jerkBlocks(double before, double after) {
   const double before2 = before * before;
   const double after2 = after * after;
@@ -131,8 +132,8 @@ Blocks jerkBlocks(double before, double after) {
   return blocks;
 }
 
-/// Velocities and accelerations at the points of a motion from rest to rest that minimise the
-/// integral of the squared jerk of the quintic pieces between them.
+/// Fills in the velocities and accelerations at the points of a motion from rest to rest that
+/// minimise the integral of the squared jerk of the quintic pieces between the points.
 void fillMinimumJerk(MotionTable& points) {
   const Index rows = points.positions.rows();
   const Index columns = points.positions.cols();
@@ -146,14 +147,14 @@ void fillMinimumJerk(MotionTable& points) {
   qd.setZero(rows, columns);
   qdd.setZero(rows, columns);
 
-  // Block elimination; the matrix is symmetric positive definite, so it needs no pivoting. Row 0
+  // Block elimination needs no pivoting, as the matrix is symmetric and positive definite. Row 0
   // stands for the first point, which is at rest.
   std::vector<Matrix2d> coupling(static_cast<std::size_t>(rows), Matrix2d::Zero());
   MatrixXd values(2, columns);
   for (Index i = 1; i + 1 < rows; ++i) {
     const std::size_t row = static_cast<std::size_t>(i);
     const Blocks blocks = jerkBlocks(w(i - 1), w(i));
-    // w^2 d, with the slope d = w (q1 - q0).
+    // These are w^2 d of each piece, with the slope d = w (q1 - q0).
     const RowVectorXd before = std::pow(w(i - 1), 3) * (q.row(i) - q.row(i - 1));
     const RowVectorXd after = std::pow(w(i), 3) * (q.row(i + 1) - q.row(i));
     values.row(0) = 120 * (w(i - 1) * before + w(i) * after);

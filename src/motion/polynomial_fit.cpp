@@ -10,16 +10,17 @@ namespace {
 
 constexpr int kMaxTerms = PolynomialFit::kMaxOrder + 1;
 constexpr int kMaxRows = 2 * PolynomialFit::kMaxWindow;
-/// A polynomial of which less than this is its own has too few digits left to fit anything with.
+/// Least part of a polynomial that must be orthogonal to its predecessors: with less, too few
+/// digits are left to fit anything.
 constexpr double kDependent = 1e-10;
 
-/// Polynomials that are orthonormal over the samples: each is x times its predecessor, less what is
-/// not orthogonal (Brubeck, Nakatsukasa and Trefethen 2021, "Vandermonde with Arnoldi"). Powers of
-/// x, and combinations of them chosen beforehand, lose digits that these keep.
+/// Polynomials that are orthonormal over the samples: each is x times its predecessor, less the
+/// part that is not orthogonal (Brubeck, Nakatsukasa and Trefethen 2021, "Vandermonde with
+/// Arnoldi"). Powers of x, and combinations of them chosen beforehand, lose digits that these keep.
 struct OrthonormalBasis {
-  /// Column k: polynomial k at the samples, then its derivative times `slope_scale` there.
+  /// Column k has polynomial k at the samples, then its derivative times `slope_scale` there.
   Eigen::Matrix<double, kMaxRows, kMaxTerms> samples;
-  /// Column k: value, first and second derivative of polynomial k at the instant.
+  /// Column k has value, first and second derivative of polynomial k at the instant.
   Eigen::Matrix<double, 3, kMaxTerms> instant;
 
   void subtract(double factor, int from, int what, int rows) {
@@ -27,11 +28,11 @@ struct OrthonormalBasis {
     instant.col(from) -= factor * instant.col(what);
   }
 
-  /// Makes column k orthogonal to its predecessors and of length one, or zero if nearly nothing is
+  /// Makes column k orthogonal to its predecessors and of length one, or zero if almost nothing is
   /// left of it.
   void orthonormalize(int k, int rows) {
     const double length = samples.col(k).head(rows).norm();
-    // The second pass takes off what rounding left of the first.
+    // The second pass removes what rounding left behind in the first.
     for (int pass = 0; pass < 2; ++pass)
       for (int j = 0; j < k; ++j)
         subtract(samples.col(j).head(rows).dot(samples.col(k).head(rows)), k, j, rows);
@@ -67,7 +68,8 @@ void PolynomialFit::fit(const double* times, int window, int order, bool velocit
   const int terms = order + 1;
   const int rows = velocities ? 2 * window : window;
 
-  // Times become x in [-1, 1]; a velocity row is the mean spacing times the velocity, a length.
+  // Times are mapped to x in [-1, 1]; a velocity row is the mean spacing times the velocity, a
+  // length.
   const double half = 0.5 * (times[window - 1] - times[0]);
   const double centre = times[0] + half;
   const double spacing = 2 * half / (window - 1);

@@ -8,11 +8,11 @@
 #include "base/number_text.h"
 #include "virtual_work_dynamics/error.h"
 
-// On the piece between two knots of distance h: w = 1/h, d = (q1 - q0)/h, and the derivatives of
-// the quintic Hermite polynomial at its start are
+// With w = 1/h and d = (q1 - q0)/h on the piece between two knots of distance h, the derivatives of
+// the quintic Hermite polynomial at the start of the piece are
 //   third:   3 w [ 20 w (d - qd0) - 8 w (qd1 - qd0) - 3 qdd0 + qdd1 ]
 //   fourth: 12 w^2 [ -30 w (d - qd0) + 14 w (qd1 - qd0) + 3 qdd0 - 2 qdd1 ]
-// At its end: exchange 0 and 1, and the sign of w.
+// At its end they are the same with 0 and 1 exchanged and the sign of w changed.
 
 namespace virtual_work_dynamics {
 namespace {
@@ -75,7 +75,7 @@ void checkKnots(const MotionTable& knots) {
   checkFinite(knots.accelerations, knots, "acceleration");
 }
 
-/// Velocity at an end of the cubic spline; empty: at rest.
+/// The velocity at an end of the cubic spline: the given one, or zero when it is empty.
 VectorXd endVelocity(const VectorXd& given, Index coordinates, const std::string& what) {
   if (given.size() == 0) return VectorXd::Zero(coordinates);
   if (given.size() != coordinates || !given.allFinite()) {
@@ -94,7 +94,8 @@ struct Tridiagonal {
   VectorXd upper;  ///< [i] multiplies unknown i + 1
 };
 
-/// Thomas algorithm; the systems here are diagonally dominant, so it needs no pivoting.
+/// Solves a tridiagonal system by the Thomas algorithm, without pivoting, as the systems here are
+/// diagonally dominant.
 /// @param values right-hand sides in columns; on return the solutions.
 void solve(Tridiagonal system, MatrixXd& values) {
   const Index rows = values.rows();
@@ -109,7 +110,7 @@ void solve(Tridiagonal system, MatrixXd& values) {
   }
 }
 
-/// w of every piece.
+/// The inverse lengths w of all pieces.
 VectorXd inverseSteps(const std::vector<double>& times) {
   VectorXd w(static_cast<Index>(times.size()) - 1);
   for (Index i = 0; i < w.size(); ++i) {
@@ -119,12 +120,13 @@ VectorXd inverseSteps(const std::vector<double>& times) {
   return w;
 }
 
-/// d of every piece, in rows.
+/// The slopes d of all pieces, in rows.
 MatrixXd slopes(const MatrixXd& q, const VectorXd& w) {
   return w.asDiagonal() * (q.bottomRows(w.size()) - q.topRows(w.size()));
 }
 
-/// Velocities of the clamped cubic spline: its second derivative is continuous at inner knots.
+/// Fills in the velocities of the clamped cubic spline, whose second derivative is continuous at
+/// inner knots.
 void fillVelocities(MotionTable& knots, const VectorXd& start, const VectorXd& end) {
   const Index rows = knots.positions.rows();
   const VectorXd w = inverseSteps(knots.times);
@@ -144,7 +146,8 @@ void fillVelocities(MotionTable& knots, const VectorXd& start, const VectorXd& e
   solve(std::move(system), qd);
 }
 
-/// Accelerations of the cubic pieces between knots of known velocity, continuous by those.
+/// Fills in the accelerations of the cubic pieces between knots, which the velocities make
+/// continuous.
 void fillCubicAccelerations(MotionTable& knots) {
   const Index rows = knots.positions.rows();
   const VectorXd w = inverseSteps(knots.times);
@@ -161,8 +164,9 @@ void fillCubicAccelerations(MotionTable& knots) {
       -w[end - 1] * (6 * (d.row(end - 1) - qd.row(end)) - 2 * (qd.row(end - 1) - qd.row(end)));
 }
 
-/// Accelerations that make the third derivative of the quintic pieces continuous at inner knots and
-/// their fourth zero at both ends. Two knots: that of the cubic.
+/// Fills in the accelerations that make the third derivative of the quintic pieces continuous at
+/// inner knots and their fourth derivative zero at both ends; between two knots, those of the
+/// cubic.
 void fillQuinticAccelerations(MotionTable& knots) {
   const Index rows = knots.positions.rows();
   const VectorXd w = inverseSteps(knots.times);
@@ -204,7 +208,7 @@ Spline::Spline(MotionTable knots, const VectorXd& start_velocity, const VectorXd
   } else if (!knots_.hasAccelerations()) {
     fillQuinticAccelerations(knots_);
   }
-  // Knots too far apart for their distance in time.
+  // Values overflow where knots are too far apart for their distance in time.
   checkFinite(knots_.velocities, knots_, "computed velocity");
   checkFinite(knots_.accelerations, knots_, "computed acceleration");
 }
@@ -230,7 +234,8 @@ void Spline::evaluate(double t, Motion& motion) const {
     motion.qdd = knots_.accelerations.row(near).transpose();
     return;
   }
-  // Expanded about the nearer knot, for accuracy; with the later one the step is negative.
+  // The piece is expanded about the nearer knot, for accuracy; from the later one the step is
+  // negative.
   if (t - time(near) > time(far) - t) std::swap(near, far);
   const double tau = t - time(near);
   const double h = time(far) - time(near);
@@ -239,7 +244,7 @@ void Spline::evaluate(double t, Motion& motion) const {
     const double q = knots_.positions(near, j);
     const double qd = knots_.velocities(near, j);
     const double qdd = knots_.accelerations(near, j);
-    // What the parabola through the near knot misses at the far one.
+    // The parabola through the near knot misses the far one by these amounts.
     const double miss = knots_.positions(far, j) - q - h * (qd + 0.5 * h * qdd);
     const double miss_d = h * (knots_.velocities(far, j) - qd - h * qdd);
     const double miss_dd = h * h * (knots_.accelerations(far, j) - qdd);

@@ -24,8 +24,8 @@ Input
   --motion FILE         motion as CSV: a header with the columns time, position.<joint>,
                         velocity.<joint>, acceleration.<joint> in any order (s, rad or m); lines
                         that start with # are comments. Missing accelerations, or velocities, are
-                        estimated from the rows around each row. Where the scene closes loops,
-                        all joints, or the actuated ones only: the others follow.
+                        estimated from the rows around each row. Where the scene closes loops, the
+                        columns are of all joints, or of the actuated joints, which move the others.
   --scene FILE          scene file (YAML); the options below override it
 
 What is computed
@@ -35,21 +35,22 @@ What is computed
                         commas; fixed joints and "ground" by name only
   --no-efforts          reactions only
   --method NAME         virtual_work (the default), or lagrange: Lagrange's equations with a
-                        fictitious mobility at each joint, in long double; slow, shares no formula
-                        with the other and is there to check it
-  --certificates        adds the columns certificate.{power,ground_force,ground_moment}: what each
-                        row misses of the balance of power, and ground's wrench of the rates of
-                        change of momentum, relative to the sum of all terms' magnitudes
+                        fictitious mobility at each joint, in long double; it is slow, shares no
+                        formula with virtual_work and serves to check it
+  --certificates        adds the columns certificate.{power,ground_force,ground_moment}: how far
+                        each row violates the balance of power, and the wrench of ground the rates
+                        of change of momentum, relative to the sum of all terms' magnitudes
   --loop-tolerance X    how far the motion may violate closed loops, relative to the loops' size
                         and to the largest rate and acceleration (default: 1e-6)
   --threads N           divides the rows among N threads (default: 1)
 
 Output
-  --output FILE         result as CSV (default: standard output); FILE is complete or not there
-  --check               say what the robot is and what is doubtful about it, compute nothing; of
-                        closed loops with --motion: how close it comes to singular positions
-  --explain             say what a sample costs and what is left out of its computation because
-                        nothing that is asked for needs it; compute nothing
+  --output FILE         result as CSV (default: standard output); FILE is written as a whole or not
+                        at all
+  --check               only describes the robot and says what is doubtful about it; for closed
+                        loops with --motion, also how close it comes to singular positions
+  --explain             only says what a sample costs and what its computation leaves out because
+                        no result that is asked for needs it
   --help                this text
   --version             the version of the package
 
@@ -57,11 +58,11 @@ The result has the columns time, effort.<joint> (N m or N) and, for each reactio
 reaction.<name>.{fx,fy,fz,tx,ty,tz}: force (N) and moment about the joint's origin (N m) that the
 parent link exerts on the child link. An empty cell is a value that overflowed.
 
-Where the scene closes loops, closures have effort and reaction columns like joints. Behind them stand
-determined.effort.<joint>, determined.<name>.{fx,fy,fz,tx,ty,tz}: 1 where rigid-body mechanics
-determines the value, 0 where the scene's policy does; in singular positions such cells are empty.
-residual.{position,velocity,acceleration}.<closure>: by how much the motion violates it, in m or rad,
-m/s or rad/s, m/s^2 or rad/s^2.
+Where the scene closes loops, closures have effort and reaction columns like joints. Further columns
+are determined.effort.<joint>, determined.<name>.{fx,fy,fz,tx,ty,tz}: 1 where rigid-body mechanics
+determines the value, 0 where the scene's policy does; in singular positions such values are left
+empty. The columns residual.{position,velocity,acceleration}.<closure> say by how much the motion
+violates the closure, in m or rad, m/s or rad/s, m/s^2 or rad/s^2.
 
 Exit status: 0 done, 1 something is wrong with the input or output, 2 wrong usage.
 
@@ -70,7 +71,7 @@ Example
     --reactions shoulder,ground --axes child --output swing_loads.csv
 )";
 
-// Cuts a text at any of the separators; blanks around the pieces are removed.
+// Cuts a text at each separator; blanks around the pieces are removed.
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> pieces;
   std::istringstream stream(text + separator);
@@ -90,7 +91,7 @@ Eigen::Vector3d parseGravity(const std::string& text) {
   while (stream >> number) {
     double value = 0;
     if (!parseNumber(number, value)) {
-      throw UsageError("--gravity: '" + number + "' is no finite number");
+      throw UsageError("--gravity: '" + number + "' is not a finite number");
     }
     if (count < 3) gravity[count] = value;
     ++count;
@@ -135,7 +136,7 @@ int parseThreads(const std::string& text) {
   constexpr double kMost = 1024;
   double value = 0;
   if (!parseNumber(text, value) || value != std::floor(value) || value < 1 || value > kMost) {
-    throw UsageError("--threads: '" + text + "' is no whole number from 1 to 1024");
+    throw UsageError("--threads: '" + text + "' is not a whole number from 1 to 1024");
   }
   return static_cast<int>(value);
 }
@@ -143,7 +144,7 @@ int parseThreads(const std::string& text) {
 double parseTolerance(const std::string& text) {
   double value = 0;
   if (!parseNumber(text, value) || value <= 0) {
-    throw UsageError("--loop-tolerance: '" + text + "' is no positive number");
+    throw UsageError("--loop-tolerance: '" + text + "' is not a positive number");
   }
   return value;
 }
@@ -243,7 +244,7 @@ Arguments parseArguments(const std::vector<std::string>& words) {
       throw UsageError("--threads: --method lagrange runs in one thread, not in " +
                        std::to_string(arguments.threads));
     }
-    if (arguments.explain) throw UsageError("--explain: there is none of --method lagrange");
+    if (arguments.explain) throw UsageError("--explain cannot be used with --method lagrange");
   }
   return arguments;
 }

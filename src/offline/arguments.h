@@ -10,7 +10,7 @@
 
 namespace virtual_work_dynamics {
 
-/// The command line asks for something that does not exist or contradicts itself.
+/// The command line contradicts itself or asks for something that does not exist.
 class UsageError : public Error {
  public:
   using Error::Error;
@@ -19,34 +19,36 @@ class UsageError : public Error {
 /// How efforts and reactions are computed.
 enum class Method {
   kVirtualWork,
-  kLagrange  ///< in long double
+  kLagrange  ///< Lagrange's equations, in long double
 };
 
-/// How far a motion may violate the loops of a mechanism, relative, unless the command line says.
+/// How far a motion may violate the loops of a mechanism, relative, unless the command line says
+/// it.
 constexpr double kLoopTolerance = 1e-6;
 
-/// What the command line of inverse_dynamics_offline says. Empty texts: not given.
+/// The contents of the command line of inverse_dynamics_offline. Texts that are not given are
+/// empty.
 struct Arguments {
   std::string urdf;
   std::string motion;
   std::string scene;
   std::string output;                      ///< empty: standard output
-  std::optional<Eigen::Vector3d> gravity;  ///< instead of the scene's
+  std::optional<Eigen::Vector3d> gravity;  ///< m/s^2, root axes; replaces the scene's
   bool child_axes = false;                 ///< reactions in child link axes rather than root axes
-  std::optional<ReactionSelection> reactions;  ///< instead of the scene's
-  std::vector<std::string> reaction_names;     ///< of ReactionSelection::kNamed
+  std::optional<ReactionSelection> reactions;  ///< replaces the scene's choice
+  std::vector<std::string> reaction_names;     ///< names for ReactionSelection::kNamed
   bool no_efforts = false;
   Method method = Method::kVirtualWork;
   bool certificates = false;
   int threads = 1;
-  std::optional<double> loop_tolerance;  ///< relative; not given: kLoopTolerance
+  std::optional<double> loop_tolerance;  ///< relative; none: kLoopTolerance
   bool check = false;
   bool explain = false;
-  bool help = false;  ///< nothing behind --help or --version is looked at
+  bool help = false;  ///< words after --help or --version are ignored
   bool version = false;
 };
 
-/// Reads a command line without the program's name; `--option value` and `--option=value`.
+/// Reads a command line without the program's name, with `--option value` or `--option=value`.
 /// @throws UsageError, one line naming the option.
 Arguments parseArguments(const std::vector<std::string>& words);
 

@@ -12,7 +12,7 @@ namespace virtual_work_dynamics {
 /// coordinates in the order of the results with their units.
 void printMechanism(std::ostream& out, const Mechanism& mechanism);
 
-/// Prints names on one line behind a label, or "none".
+/// Prints names on one line after a label, or "none".
 void printNames(std::ostream& out, const std::string& label, const std::vector<std::string>& names);
 
 /// Prints one `warning:` line for each doubt about the description.

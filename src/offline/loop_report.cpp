@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "offline/check_report.h"
-#include "offline/loop_rows.h"
+#include "offline/result_writer.h"
 #include "scene/closure_types.h"
 
 namespace virtual_work_dynamics {
@@ -33,14 +33,13 @@ void printClosures(std::ostream& out, const Scene& scene) {
   printNames(out, "springs", springs);
 }
 
-void printActuated(std::ostream& out, const Mechanism& mechanism,
-                   const ClosedLoopDynamics& dynamics) {
+void printActuated(std::ostream& out, const Mechanism& mechanism, const Dynamics& dynamics) {
   Names actuated, passive;
-  for (std::size_t i = 0; i < dynamics.actuated().size(); ++i) {
-    (dynamics.actuated()[i] ? actuated : passive).push_back(mechanism.coordinateNames()[i]);
+  const std::size_t coordinates = mechanism.coordinateNames().size();
+  for (std::size_t i = 0; i < dynamics.effortNames().size(); ++i) {
+    const bool carries = i >= coordinates || dynamics.actuated()[i];
+    (carries ? actuated : passive).push_back(dynamics.effortNames()[i]);
   }
-  const Names& closures = dynamics.actuatedClosures();
-  actuated.insert(actuated.end(), closures.begin(), closures.end());
   printNames(out, "actuated", actuated);
   printNames(out, "passive", passive);
 }
@@ -49,7 +48,7 @@ void printCount(std::ostream& out, const std::string& what, int count) {
   out << "  " << what << ": " << count << "\n";
 }
 
-// "pin (fz tx ty)" for each reaction with components that are not determined.
+// Lists each reaction with components that are not determined, as "pin (fz tx ty)".
 Names undeterminedReactions(const Names& names, const std::vector<Determined>& flags) {
   Names texts;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -63,19 +62,18 @@ Names undeterminedReactions(const Names& names, const std::vector<Determined>& f
   return texts;
 }
 
-void printUndetermined(std::ostream& out, const Mechanism& mechanism,
-                       const ClosedLoopDynamics& dynamics) {
+void printUndetermined(std::ostream& out, const Dynamics& dynamics, const Results& results) {
   const Request& request = dynamics.request();
+  const LoopResults& loops = results.loops;
   Names texts;
   if (request.efforts) {
-    const Names names = namesOfEfforts(mechanism, dynamics);
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      if (!dynamics.effortDetermined()[i]) texts.push_back("effort of " + names[i]);
+    for (std::size_t i = 0; i < dynamics.effortNames().size(); ++i) {
+      if (!loops.effort_determined[i]) texts.push_back("effort of " + dynamics.effortNames()[i]);
     }
   }
   for (const Names& found :
-       {undeterminedReactions(request.child_axes, dynamics.childAxesDetermined()),
-        undeterminedReactions(request.root_axes, dynamics.rootAxesDetermined())}) {
+       {undeterminedReactions(request.child_axes, loops.child_axes_determined),
+        undeterminedReactions(request.root_axes, loops.root_axes_determined)}) {
     texts.insert(texts.end(), found.begin(), found.end());
   }
   printNames(out, "undetermined", texts);
@@ -84,13 +82,14 @@ void printUndetermined(std::ostream& out, const Mechanism& mechanism,
 }  // namespace
 
 void printLoops(std::ostream& out, const Mechanism& mechanism, const Scene& scene,
-                ClosedLoopDynamics& dynamics) {
+                const Dynamics& dynamics) {
   printClosures(out, scene);
   printActuated(out, mechanism, dynamics);
   Motion assembled(dynamics.coordinates());
   assembled.q = dynamics.assembly();
-  dynamics.compute(assembled);
-  const Determinacy& found = dynamics.determinacy();
+  Dynamics::Workspace workspace = dynamics.makeWorkspace();
+  dynamics.compute(assembled, workspace);
+  const Determinacy& found = workspace.results().loops.determinacy;
   const int conditions = conditionsOf(scene);
   const int independent = conditions - found.redundant_constraints;
   out << "as assembled:\n";
@@ -105,31 +104,18 @@ void printLoops(std::ostream& out, const Mechanism& mechanism, const Scene& scen
   if (found.free_motions > 0) {
     printCount(out, "a singular position, free motions", found.free_motions);
   }
-  printUndetermined(out, mechanism, dynamics);
+  printUndetermined(out, dynamics, workspace.results());
 }
 
-void explainLoops(std::ostream& out, const Mechanism& mechanism, const Scene& scene,
-                  const ClosedLoopDynamics& dynamics) {
-  Scene tree = scene;
-  tree.closures.clear();
-  tree.springs.clear();
-  tree.actuated.reset();
-  tree.assembly.clear();
-  Request request = dynamics.request();
-  for (Names* names : {&request.child_axes, &request.root_axes}) {
-    const auto isClosure = [&](const std::string& name) {
-      return name != kGround && mechanism.jointIndex(name) < 0;
-    };
-    names->erase(std::remove_if(names->begin(), names->end(), isClosure), names->end());
-  }
-  out << "the tree without its closures and springs:\n";
-  for (const std::string& line : InverseDynamics(mechanism, tree, request).summary().lines()) {
-    out << "  " << line << "\n";
-  }
+void printCost(std::ostream& out, const Scene& scene, const Dynamics& dynamics) {
+  const char* indent = dynamics.closed() ? "  " : "";
+  if (dynamics.closed()) out << "the tree without its closures and springs:\n";
+  for (const std::string& line : dynamics.summary().lines()) out << indent << line << "\n";
+  if (!dynamics.closed()) return;
   out << "closed loops are solved, sample by sample: " << conditionsOf(scene) << " conditions of "
       << scene.closures.size() << (scene.closures.size() == 1 ? " closure" : " closures") << ", "
       << scene.springs.size() << (scene.springs.size() == 1 ? " spring" : " springs")
-      << "; the tree is gone through twice, first for efforts alone; not counted above\n";
+      << "; the tree is computed twice, first for efforts alone; this is not counted above\n";
 }
 
 }  // namespace virtual_work_dynamics

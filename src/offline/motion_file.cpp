@@ -14,10 +14,10 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Times may be known this coarsely, in parts of their mean spacing, before estimates suffer.
+// Resolution of times up to which estimates do not suffer, as a part of their mean spacing.
 constexpr double kFineTimes = 1e-6;
 
-// "position.j", "velocity.j", "position.k" -> "j, k"
+// Lists the joints of columns, each once: "position.j", "velocity.j", "position.k" become "j, k".
 std::string jointsOfColumns(const std::vector<std::string>& columns) {
   std::vector<std::string> joints;
   std::string text;
@@ -70,7 +70,7 @@ MotionFile readMotion(const std::string& path, const Mechanism& mechanism,
   }
   if (!unused.empty()) {
     std::cerr << "note: " << path
-              << ": ignored, no coordinates of the robot: " << jointsOfColumns(unused) << "\n";
+              << ": ignored, not coordinates of the robot: " << jointsOfColumns(unused) << "\n";
   }
   return motion;
 }

@@ -11,26 +11,28 @@
 
 namespace virtual_work_dynamics {
 
-/// A recorded motion with the lines on which its rows stand.
+/// A recorded motion with the line of each of its rows.
 struct MotionFile {
   std::string path;
   MotionTable table;
   std::vector<std::size_t> lines;
 
-  /// "path: line n", of a row.
+  /// Names the line of a row in messages: "path: line n".
   std::string at(std::size_t row) const { return path + ": line " + std::to_string(lines[row]); }
 };
 
-/// Reads a motion of all coordinates, and notes on standard error what of it is ignored.
-/// @throws FileError
+/// Reads a motion of all coordinates, and notes on standard error which joints of it are ignored.
+/// @throws FileError as readMotionCsv(), or for a coordinate without positions.
 MotionFile readMotion(const std::string& path, const Mechanism& mechanism);
 
-/// The same of the coordinates that `choose` takes of the joints that have a position.
+/// Reads a motion of the coordinates that `choose` takes from the joints that have a position, and
+/// notes on standard error which joints of it are ignored.
+/// @throws FileError as readMotionCsv(), or for a coordinate without positions.
 MotionFile readMotion(const std::string& path, const Mechanism& mechanism,
                       const JointChoice& choose);
 
-/// Gives the motion every derivative that it lacks, with a note on standard error: zero in static
-/// scenes, else estimated. @throws FileError when times do not allow that.
+/// Fills in the derivatives that the motion lacks: zero in static scenes, otherwise estimated, with
+/// a note on standard error. @throws FileError when the times or rows do not allow that.
 void completeDerivatives(const Mechanism& mechanism, const Scene& scene, MotionFile& motion);
 
 }  // namespace virtual_work_dynamics

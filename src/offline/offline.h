@@ -5,8 +5,8 @@
 namespace virtual_work_dynamics {
 
 /// Does what the command line asks for: reads and checks all of the input, then computes row by
-/// row. Results go to the output, warnings and notes to standard error, a line each.
-/// @throws Error, UsageError among them; then no output file is left behind.
+/// row. Results go to the output, warnings and notes to standard error, one line each.
+/// @throws Error, also UsageError; no output file is left behind then.
 void runOffline(const Arguments& arguments);
 
 }  // namespace virtual_work_dynamics

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<int, 3> kEndingSignals{SIGINT, SIGTERM, SIGHUP};
 
-// What a signal handler may remove; null: nothing.
+// The file that a signal handler may remove; null when there is none.
 const char* volatile part_to_remove = nullptr;
 
 extern "C" void removePartAndEnd(int signal_number) {
@@ -24,7 +24,7 @@ extern "C" void removePartAndEnd(int signal_number) {
   raise(signal_number);
 }
 
-// No ending signal falls between creating or renaming a file and taking note of it.
+// Holds back ending signals while a file is created or renamed and this is taken note of.
 class SignalsHeld {
  public:
   SignalsHeld() {
@@ -64,12 +64,12 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
     stream_ = stdout;
     return;
   }
-  std::error_code no_matter;  // what is wrong shows when the file is opened
+  std::error_code no_matter;  // a problem shows when the file is opened
   const auto kind = std::filesystem::status(path_, no_matter).type();
   const bool may_replace =
       kind == std::filesystem::file_type::regular || kind == std::filesystem::file_type::not_found;
   if (may_replace) {
-    // A link stays a link; what it points to is replaced.
+    // A symbolic link is kept; the file to which it points is replaced.
     if (std::filesystem::is_symlink(path_, no_matter)) {
       path_ = std::filesystem::weakly_canonical(path_, no_matter).string();
     }

@@ -5,27 +5,29 @@
 
 namespace virtual_work_dynamics {
 
-/// A file that is complete or not there: written to `<path>.part` beside it and renamed by
-/// commit(). Without commit(), and when SIGINT, SIGTERM or SIGHUP ends the process, the partial
-/// file is removed. Standard output, devices and pipes are written directly. One at a time.
+/// A file that is written as a whole or not at all: its text goes to `<path>.part` beside it, which
+/// commit() renames. Without commit(), and when SIGINT, SIGTERM or SIGHUP ends the process, the
+/// partial file is removed. Standard output, devices and pipes are written directly. A process may
+/// have one such object at a time.
 class OutputFile {
  public:
-  /// @param path empty: standard output.   @throws FileError naming path and reason.
+  /// Opens the file. @param path where it is to be; empty: standard output.
+  /// @throws FileError naming path and reason.
   explicit OutputFile(const std::string& path);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// @throws FileError as soon as a failure shows, at the latest in commit().
+  /// Writes a text. @throws FileError as soon as a failure shows, at the latest in commit().
   void write(const std::string& text);
-  /// Once, at the end.
+  /// Completes the file; to be called once, at the end. @throws FileError naming path and reason.
   void commit();
 
  private:
   [[noreturn]] void throwCannotWrite(int error) const;
 
-  std::string path_;  ///< where the content ends up; for messages too
-  std::string part_;  ///< where it is written meanwhile; empty: nothing to rename or remove
+  std::string path_;  ///< final path, also for messages
+  std::string part_;  ///< path until commit(); empty: nothing to rename or remove
   std::FILE* stream_ = nullptr;
 };
 

@@ -6,14 +6,14 @@
 
 namespace virtual_work_dynamics {
 
-/// A percentage on one line of a terminal that appears when work takes long, and is wiped out when
-/// it ends, so that whatever is printed next starts on a clean line.
+/// A percentage on one line of a terminal. It appears when work takes long and is wiped out in the
+/// end, so that whatever is printed next starts on a clean line.
 class Progress {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// @param enabled false: prints nothing, as when `terminal` is none.
-  /// @param delay before the line first appears.
+  /// @param enabled false: prints nothing, for a stream that is not a terminal.
+  /// @param delay time before the line first appears.
   Progress(std::ostream& terminal, bool enabled,
            Clock::duration delay = std::chrono::milliseconds(500))
       : terminal_(terminal), enabled_(enabled), next_(Clock::now() + delay) {}

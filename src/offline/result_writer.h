@@ -11,7 +11,7 @@ namespace virtual_work_dynamics {
 
 constexpr const char* kWrenchComponents[] = {"fx", "fy", "fz", "tx", "ty", "tz"};
 
-/// What the columns of a result hold, in this order behind the time.
+/// What the columns of a result hold, in this order after the time.
 struct Columns {
   std::vector<std::string> efforts;    ///< names of joints
   std::vector<std::string> reactions;  ///< names of joints, six columns each
@@ -22,12 +22,13 @@ struct Columns {
 /// @throws FileError naming a name that cannot stand in a CSV header.
 std::string resultHeader(const Columns& columns);
 
-/// Writes results as CSV rows, each number with the shortest digits that read back equal; what is
-/// not finite becomes an empty cell.
+/// Writes results as CSV rows, each number with the fewest digits that read back equal; a number
+/// that is not finite becomes an empty cell.
 class ResultWriter {
  public:
   ResultWriter(OutputFile& file, const std::string& header) : file_(file), text_(header) {}
 
+  /// Writes a row: efforts and reactions in the order of the columns, then the cells of `more`.
   void writeRow(double time, const Eigen::VectorXd& effort, const std::vector<Wrench>& reactions,
                 const std::vector<double>& more);
   /// Hands the rest over to the file and commits it.

@@ -1,40 +1,113 @@
 #include "offline/rows.h"
 
 #include <algorithm>
+#include <limits>
+#include <sstream>
 
-#include "offline/loop_rows.h"
+#include "base/number_text.h"
 
 namespace virtual_work_dynamics {
 
-Rows::Rows(const MotionFile& file, const Columns& columns, bool child_axes,
+std::vector<std::string> loopColumns(const Columns& results,
+                                     const std::vector<std::string>& closures) {
+  std::vector<std::string> columns;
+  for (const std::string& name : results.efforts) columns.push_back("determined.effort." + name);
+  for (const std::string& name : results.reactions) {
+    for (const char* component : kWrenchComponents) {
+      columns.push_back("determined." + name + "." + component);
+    }
+  }
+  for (const char* level : {"position", "velocity", "acceleration"}) {
+    for (const std::string& closure : closures) {
+      columns.push_back(std::string("residual.") + level + "." + closure);
+    }
+  }
+  return columns;
+}
+
+void Conditions::note(std::size_t row, const Results& results) {
+  const double condition = results.loops.determinacy.condition;
+  if (results.singular()) return;
+  if (condition > kCloseToSingular) ++close_;
+  if (condition <= largest_) return;
+  largest_ = condition;
+  row_ = row;
+}
+
+std::string Conditions::worst(const MotionFile& file) const {
+  if (largest_ == 0) return "singular positions only";
+  std::ostringstream text;
+  text.precision(3);
+  text << "condition " << largest_ << " at worst, line " << file.lines[row_] << ", at "
+       << numberText(file.table.times[row_]) << " s";
+  return text.str();
+}
+
+Rows::Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool loops,
            CertifiedRows* certified, ResultWriter& writer)
     : file_(file),
       columns_(columns),
       child_axes_(child_axes),
+      loops_(loops),
       certified_(certified),
       writer_(writer),
-      motion_(file.table.positions.cols()),
       effort_(static_cast<Eigen::Index>(columns.efforts.size())),
       reactions_(columns.reactions.size()) {}
 
-const Motion& Rows::motion(std::size_t row) {
-  if (motion_.q.size() > 0) {
-    const auto index = static_cast<Eigen::Index>(row);
-    motion_.q = file_.table.positions.row(index);
-    motion_.qd = file_.table.velocities.row(index);
-    motion_.qdd = file_.table.accelerations.row(index);
+void Rows::write(std::size_t row, const Motion& motion, const Results& results) {
+  take(row, results);
+  more_.clear();
+  if (loops_) {
+    if (results.singular()) leaveOut(row, results);
+    conditions_.note(row, results);
+    addLoopCells(results);
   }
-  return motion_;
+  if (certified_) certified_->check(motion, results, file_.lines[row], more_);
+  writer_.writeRow(file_.table.times[row], effort_, reactions_, more_);
+  progress_.update(row + 1, file_.table.times.size());
 }
 
-void Rows::takeLoops(std::size_t row, const LoopSample& loops) {
-  if (loops.singular()) {
-    if (++singular_ == 1) first_singular_line_ = file_.lines[row];
-    leaveOutUndetermined(loops, child_axes_, effort_, reactions_);
+void Rows::take(std::size_t row, const Results& results) {
+  effort_ = results.effort.head(effort_.size());
+  const std::vector<Wrench>& reactions = child_axes_ ? results.child_axes : results.root_axes;
+  std::copy_n(reactions.begin(), reactions_.size(), reactions_.begin());
+  const bool finite = effort_.allFinite() &&
+                      std::all_of(reactions_.begin(), reactions_.end(), [](const Wrench& wrench) {
+                        return wrench.force.allFinite() && wrench.torque.allFinite();
+                      });
+  if (!finite && ++overflowed_ == 1) first_line_ = file_.lines[row];
+}
+
+// Turns results without a value into NaN, which is written as an empty cell.
+void Rows::leaveOut(std::size_t row, const Results& results) {
+  constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+  if (++singular_ == 1) first_singular_line_ = file_.lines[row];
+  for (Eigen::Index i = 0; i < effort_.size(); ++i) {
+    if (!results.effortExists(static_cast<std::size_t>(i))) effort_[i] = kNothing;
   }
-  conditions_.note(row, loops);
-  more_.clear();
-  appendLoopCells(loops, columns_, child_axes_, more_);
+  for (std::size_t i = 0; i < reactions_.size(); ++i) {
+    const Determined exist = child_axes_ ? results.childAxesExist(i) : results.rootAxesExist(i);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto j = static_cast<std::size_t>(axis);
+      if (!exist[j]) reactions_[i].force[axis] = kNothing;
+      if (!exist[j + 3]) reactions_[i].torque[axis] = kNothing;
+    }
+  }
+}
+
+void Rows::addLoopCells(const Results& results) {
+  const LoopResults& loops = results.loops;
+  for (std::size_t i = 0; i < columns_.efforts.size(); ++i) {
+    more_.push_back(loops.effort_determined[i] ? 1 : 0);
+  }
+  const auto& flags = child_axes_ ? loops.child_axes_determined : loops.root_axes_determined;
+  for (std::size_t i = 0; i < columns_.reactions.size(); ++i) {
+    for (const bool flag : flags[i]) more_.push_back(flag ? 1 : 0);
+  }
+  for (const auto level :
+       {&ClosureResidual::position, &ClosureResidual::velocity, &ClosureResidual::acceleration}) {
+    for (const ClosureResidual& residual : loops.residuals) more_.push_back(residual.*level);
+  }
 }
 
 std::string Rows::warning() const {
@@ -44,35 +117,19 @@ std::string Rows::warning() const {
   std::string text;
   if (overflowed_ > 0) {
     text = "warning: " + file_.path + ": results of " + rows(overflowed_) +
-           " overflow, first of line " + std::to_string(first_line_) + "; their cells are empty\n";
+           " overflow, first in line " + std::to_string(first_line_) + "; their cells are empty\n";
   }
   if (singular_ > 0) {
     text += "warning: " + file_.path + ": " + rows(singular_) +
             " in singular positions, first in line " + std::to_string(first_singular_line_) +
-            "; cells of what is not determined there are empty\n";
+            "; cells of results without a value there are empty\n";
   }
   if (conditions_.close() > 0) {
     text += "warning: " + file_.path + ": " + rows(conditions_.close()) +
             " close to singular positions, " + conditions_.worst(file_) +
-            ": forces may be as many times the load\n";
+            ": forces may exceed the load by this factor\n";
   }
   return text;
-}
-
-void Rows::take(std::size_t row, const Eigen::VectorXd& effort,
-                const std::vector<Wrench>& reactions) {
-  effort_ = effort.head(effort_.size());
-  std::copy_n(reactions.begin(), reactions_.size(), reactions_.begin());
-  const bool finite = effort_.allFinite() &&
-                      std::all_of(reactions_.begin(), reactions_.end(), [](const Wrench& wrench) {
-                        return wrench.force.allFinite() && wrench.torque.allFinite();
-                      });
-  if (!finite && ++overflowed_ == 1) first_line_ = file_.lines[row];
-}
-
-void Rows::put(std::size_t row) {
-  writer_.writeRow(file_.table.times[row], effort_, reactions_, more_);
-  progress_.update(row + 1, count());
 }
 
 }  // namespace virtual_work_dynamics

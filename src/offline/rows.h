@@ -2,68 +2,66 @@
 
 #include <unistd.h>
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <iostream>
 #include <string>
 #include <vector>
 
 #include "offline/certified_rows.h"
-#include "offline/loop_rows.h"
-#include "offline/loop_sample.h"
 #include "offline/motion_file.h"
 #include "offline/progress.h"
 #include "offline/result_writer.h"
-#include "virtual_work_dynamics/inverse_dynamics.h"
+#include "virtual_work_dynamics/dynamics.h"
 
 namespace virtual_work_dynamics {
 
-/// Writes rows in their order, and tells of those that overflowed. Shows progress until its end.
+/// Names of the columns that closed loops add: which efforts and reactions are determined, and how
+/// far each closure is violated.
+std::vector<std::string> loopColumns(const Columns& results,
+                                     const std::vector<std::string>& closures);
+
+/// How close rows come to singular positions.
+class Conditions {
+ public:
+  void note(std::size_t row, const Results& results);
+
+  /// Says, for example, "condition 12.3 at worst, line 7, at 0.5 s".
+  std::string worst(const MotionFile& file) const;
+  /// Number of rows close to a singular position, without the singular ones.
+  std::size_t close() const { return close_; }
+
+ private:
+  double largest_ = 0;
+  std::size_t row_ = 0;
+  std::size_t close_ = 0;
+};
+
+/// Writes rows in their order, and tells of those that overflowed or lack values. Shows progress
+/// until it is destroyed.
 class Rows {
  public:
-  /// @param child_axes reactions in child link axes rather than root axes
+  /// @param child_axes whether reactions are in child link axes rather than root axes
+  /// @param loops whether the columns include loopColumns()
   /// @param certified null when no certificates are asked for
-  Rows(const MotionFile& file, const Columns& columns, bool child_axes, CertifiedRows* certified,
-       ResultWriter& writer);
+  Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool loops,
+       CertifiedRows* certified, ResultWriter& writer);
 
-  std::size_t count() const { return file_.table.times.size(); }
+  void write(std::size_t row, const Motion& motion, const Results& results);
 
-  /// Of a motion of all coordinates.
-  const Motion& motion(std::size_t row);
-
-  /// Of a Workspace, or of LagrangeDynamics.
-  template <typename Results>
-  void write(std::size_t row, const Results& results) {
-    take(row, results.effort(), child_axes_ ? results.childAxes() : results.rootAxes());
-    more_.clear();
-    if (certified_) certified_->check(motion(row), results, file_.lines[row], more_);
-    put(row);
-  }
-
-  /// Of a mechanism with closed loops: its own results, or those of another formalism.
-  template <typename Results>
-  void write(std::size_t row, const LoopSample& loops, const Results& results) {
-    take(row, results.effort(), child_axes_ ? results.childAxes() : results.rootAxes());
-    takeLoops(row, loops);
-    if (certified_) certified_->check(loops, results, file_.lines[row], more_);
-    put(row);
-  }
-
-  /// Lines on what is missing in the rows; may be none.
+  /// Lines on what is missing in the rows; empty when nothing is.
   std::string warning() const;
 
  private:
-  // Those that are written; certificates' own come behind them.
-  void take(std::size_t row, const Eigen::VectorXd& effort, const std::vector<Wrench>& reactions);
-  void takeLoops(std::size_t row, const LoopSample& loops);
-  void put(std::size_t row);
+  void take(std::size_t row, const Results& results);
+  void leaveOut(std::size_t row, const Results& results);
+  void addLoopCells(const Results& results);
 
   const MotionFile& file_;
   const Columns& columns_;
-  bool child_axes_;
+  const bool child_axes_, loops_;
   CertifiedRows* certified_;
   ResultWriter& writer_;
-  Motion motion_;
+  // The results that are written; those that only certificates need come after them.
   Eigen::VectorXd effort_;
   std::vector<Wrench> reactions_;
   std::vector<double> more_;

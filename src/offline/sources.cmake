@@ -3,12 +3,10 @@ foreach(file
     arguments.cpp
     certified_rows.cpp
     check_report.cpp
-    loop_computation.cpp
-    loop_lagrange.cpp
-    loop_motion.cpp
+    completed_motion.cpp
+    computation.cpp
+    lagrange_rows.cpp
     loop_report.cpp
-    loop_rows.cpp
-    loop_sample.cpp
     motion_file.cpp
     offline.cpp
     output_file.cpp

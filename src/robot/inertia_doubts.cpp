@@ -7,8 +7,8 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// Share of the trace by which printed moments may miss an inequality: descriptions are written with
-// few digits.
+// Share of the trace by which moments may break an inequality, as descriptions are written with few
+// digits.
 constexpr long double kTolerance = 1e-9L;
 
 std::string momentsText(Vector3l moments) {

@@ -6,9 +6,9 @@
 
 namespace virtual_work_dynamics {
 
-/// Inertias that no body can have, one doubt for each link or moving body: a negative principal
-/// moment or a broken triangle inequality (both beyond 1e-9 of the trace), and moving leaves
-/// without mass. Zero moments are legal: the paper's slender rods have one.
+/// Finds inertias that no body can have and moving leaves without mass, one doubt for each link or
+/// moving body. Impossible are a negative principal moment and a broken triangle inequality, both
+/// beyond 1e-9 of the trace. Zero moments are possible: the paper's slender rods have one.
 std::vector<Doubt> inertiaDoubts(const std::vector<Link>& links, const std::vector<Joint>& joints);
 
 }  // namespace virtual_work_dynamics

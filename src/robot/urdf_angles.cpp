@@ -12,7 +12,7 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// Fixed-axis roll, pitch, yaw: Rz(yaw) Ry(pitch) Rx(roll).
+// The rotation by roll, pitch and yaw about fixed axes: Rz(yaw) Ry(pitch) Rx(roll).
 Matrix3l rotationOf(const std::array<long double, 3>& rpy) {
   const long double cr = std::cos(rpy[0]), sr = std::sin(rpy[0]);
   const long double cp = std::cos(rpy[1]), sp = std::sin(rpy[1]);
@@ -24,7 +24,7 @@ Matrix3l rotationOf(const std::array<long double, 3>& rpy) {
   return R;
 }
 
-// The angles are the doubles nearest to the text, as for every other number of the description;
+// Reads the angles as the doubles nearest to the text, like every other number of the description;
 // only what is computed from them carries more digits.
 void readOrigin(const tinyxml2::XMLElement* holder, const std::string& who,
                 std::map<std::string, Matrix3l>& rotations, const std::string& name) {

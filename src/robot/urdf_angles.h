@@ -9,16 +9,16 @@ namespace virtual_work_dynamics {
 
 /// Orientations of a description's frames, from the `rpy` of its text.
 ///
-/// urdfdom hands orientations out as double quaternions, which has lost the last bits already; a
+/// urdfdom gives orientations as double quaternions, in which the last bits are lost already; a
 /// needle-shaped body (axial inertia 1e-9 of the transverse) then loses most of its axial inertia's
 /// digits when it is rotated. Frames without `rpy` are absent.
 struct UrdfAngles {
-  std::map<std::string, Matrix3l> joint_origins;     ///< by joint name, R_PK
-  std::map<std::string, Matrix3l> inertial_origins;  ///< by link name, link <- inertial frame
+  std::map<std::string, Matrix3l> joint_origins;     ///< R_PK by joint name
+  std::map<std::string, Matrix3l> inertial_origins;  ///< inertial frame -> link, by link name
 };
 
-/// Reads them from XML that urdfdom has accepted. @throws UrdfError naming the link or joint when
-/// an `rpy` is not three finite numbers.
+/// Reads the orientations from XML that urdfdom has accepted.
+/// @throws UrdfError naming the link or joint when an `rpy` is not three finite numbers.
 UrdfAngles readUrdfAngles(const std::string& urdf);
 
 }  // namespace virtual_work_dynamics

@@ -22,10 +22,10 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// How far an axis may be from unit length before the user is told.
+// Largest deviation of an axis from unit length of which the user is not told.
 constexpr long double kUnitTolerance = 1e-6L;
 
-// urdfdom tells what is wrong through console_bridge only; this keeps it for the error message.
+// Keeps the complaints of urdfdom for the error message: it makes them through console_bridge only.
 class CapturedConsole : public console_bridge::OutputHandler {
  public:
   CapturedConsole() { console_bridge::useOutputHandler(this); }
@@ -53,7 +53,7 @@ std::string joined(const std::vector<std::string>& lines) {
 
 struct Parsed {
   urdf::ModelInterfaceSharedPtr model;
-  std::vector<std::string> complaints;  // what urdfdom disliked and went on without
+  std::vector<std::string> complaints;  // messages of urdfdom about what it dropped
 };
 
 Parsed parse(const std::string& text) {
@@ -103,7 +103,7 @@ class Reader {
     for (const std::string& line : parsed.complaints) doubts_.push_back({line});
   }
 
-  // urdfdom's links own their children: a loop of links would never be freed.
+  // Breaks loops of links, which would never be freed, as urdfdom's links own their children.
   ~Reader() {
     for (const auto& entry : model_->links_) entry.second->child_links.clear();
   }
@@ -120,7 +120,7 @@ class Reader {
   }
 
  private:
-  // urdfdom lets a link have two parents and computes with neither.
+  // Refuses a link with two parents; urdfdom accepts it and uses neither.
   void checkParents() const {
     std::map<std::string, std::string> joint_of;  // by child link
     for (const auto& [name, joint] : model_->joints_) {
@@ -132,7 +132,7 @@ class Reader {
     }
   }
 
-  // Links that are one another's parents hang on no root, and urdfdom is content with that.
+  // Refuses links that are one another's parents and so hang on no root; urdfdom accepts them.
   void checkReached() const {
     if (links_.size() == model_->links_.size()) return;
     for (const auto& entry : model_->links_) {
@@ -146,7 +146,8 @@ class Reader {
     }
   }
 
-  // Depth first, children by joint name. No recursion: a chain may be as long as memory allows.
+  // Visits the links depth first, children by joint name. Does not recurse, as a chain may be as
+  // long as memory allows.
   void walk() {
     std::vector<std::pair<const urdf::Joint*, int>> pending;  // joint, its parent link
     const auto addLink = [&](const urdf::Link& source, int parent_joint) {

@@ -1,6 +1,6 @@
 #include "ros/active_plan.h"
 
-#include <numeric>
+#include <algorithm>
 #include <utility>
 
 namespace virtual_work_dynamics {
@@ -13,90 +13,47 @@ bool isEmpty(const Request& request) {
   return !request.efforts && request.child_axes.empty() && request.root_axes.empty();
 }
 
-// What is computed: that and what certificates need.
+// Adds what certificates need to what outputs need.
 Request computed(const Request& request, PlanChecks checks) {
   return checks.certificates && !isEmpty(request) ? Certifier::extended(request) : request;
 }
 
-// With determinacy, everything that the scene asks for.
-std::unique_ptr<LoopPlan> compileLoops(const Mechanism& mechanism, const Scene& scene,
-                                       Request request, const Audience& audience,
-                                       PlanChecks checks) {
-  std::vector<std::size_t> wrenches = audience.wrenches;
-  if (audience.determinacy) {
-    request.efforts = true;
-    request.root_axes = request.child_axes = requestedReactions(mechanism, scene);
-    wrenches.resize(request.child_axes.size());
-    std::iota(wrenches.begin(), wrenches.end(), 0);
+std::vector<std::size_t> placesOf(const std::vector<std::string>& names,
+                                  const std::vector<std::string>& all) {
+  std::vector<std::size_t> places;
+  for (const std::string& name : names) {
+    places.push_back(
+        static_cast<std::size_t>(std::find(all.begin(), all.end(), name) - all.begin()));
   }
-  return std::make_unique<LoopPlan>(mechanism, scene, computed(request, checks), wrenches);
+  return places;
 }
 
 }  // namespace
 
-Request requestFor(const Audience& audience, const std::vector<std::string>& joints, bool twist) {
-  Request request;
-  request.efforts = audience.effort || audience.trajectory;
-  if (audience.reactions) {
-    request.root_axes = joints;
-    request.poses = true;
-    request.twists = twist;
+ActivePlan::ActivePlan(const Mechanism& mechanism, const Scene& scene, const Outputs& all,
+                       const std::vector<std::string>& reactions, Audience who, PlanChecks checks)
+    : audience(std::move(who)),
+      dynamics(mechanism, scene, computed(requestFor(all, audience), checks)),
+      workspace(dynamics.makeWorkspace()),
+      points(dynamics, kPointsAtOnce) {
+  for (const std::size_t i : audience) {
+    outputs.push_back({i, all[i]->ofTrajectories(), all[i]->makeMessage(dynamics)});
+    (outputs.back().of_trajectories ? wants_trajectories : wants_samples) = true;
   }
-  for (const std::size_t index : audience.wrenches) request.child_axes.push_back(joints[index]);
-  return request;
-}
-
-std::string operationsOf(const ActivePlan& plan) {
-  if (plan.loops) return "";
-  const PlanSummary summary = plan.chain->dynamics.summary();
-  if (summary.multiplications + summary.additions == 0) return "";
-  return std::to_string(summary.multiplications) + " multiplications, " +
-         std::to_string(summary.additions) + " additions, " +
-         std::to_string(summary.sines_and_cosines) + " sines and cosines";
-}
-
-ChainPlan::ChainPlan(const Mechanism& mechanism, const Scene& scene, const Request& request)
-    : dynamics(mechanism, scene, request),
-      results(dynamics.makeWorkspace()),
-      points(dynamics, kPointsAtOnce) {}
-
-ActivePlan::ActivePlan(const Mechanism& mechanism, const Scene& scene, const Request& request,
-                       Audience who, const std::string& frame_prefix, PlanChecks checks)
-    : audience(std::move(who)), messages(mechanism, scene, request, frame_prefix) {
-  if (needsClosedLoops(scene)) {
-    loops = compileLoops(mechanism, scene, request, audience, checks);
-    messages.setComputed(loops->results().request());
-    if (isEmpty(loops->results().request())) return;
-    if (checks.cross_check) {
-      cross_check = std::make_shared<CrossCheckSlot>(mechanism, loops->results());
-    }
-    if (checks.certificates) {
-      certifier.emplace(mechanism, loops->results().tree());
-      ground = Certifier::groundIndex(loops->results().request());
-    }
-    return;
-  }
-  chain.emplace(mechanism, scene, computed(request, checks));
+  const Request request = requestFor(all, audience);
   if (isEmpty(request)) return;
-  if (checks.cross_check) {
-    cross_check = std::make_shared<CrossCheckSlot>(mechanism, scene, chain->dynamics.request());
-  }
+  root_reactions = placesOf(request.root_axes, reactions);
+  child_reactions = placesOf(request.child_axes, reactions);
+  if (checks.cross_check) cross_check = std::make_shared<CrossCheckSlot>(mechanism, dynamics);
   if (checks.certificates) {
-    certifier.emplace(mechanism, scene);
-    ground = Certifier::groundIndex(chain->dynamics.request());
+    certifier.emplace(mechanism, dynamics.tree());
+    ground = Certifier::groundIndex(dynamics.request());
+    tree_load = Load(dynamics.tree());
   }
-}
-
-const Request& ActivePlan::request() const {
-  return loops ? loops->results().request() : chain->dynamics.request();
-}
-
-const Eigen::VectorXd& ActivePlan::effort() const {
-  return loops ? loops->results().effort() : chain->results.effort();
 }
 
 std::string describe(const ActivePlan& plan) {
-  const Request& request = plan.request();
+  const Request& request = plan.dynamics.request();
   std::string text;
   const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
   if (request.efforts) add("efforts");
@@ -109,8 +66,17 @@ std::string describe(const ActivePlan& plan) {
   if (request.poses) add("poses");
   if (request.twists) add("twists");
   if (plan.certifier) add("certificates");
-  if (plan.loops && !text.empty()) add("closed loops");
+  if (plan.dynamics.closed() && !text.empty()) add("closed loops");
   return text.empty() ? "nothing" : text;
+}
+
+std::string operationsOf(const ActivePlan& plan) {
+  if (plan.dynamics.closed()) return "";
+  const PlanSummary summary = plan.dynamics.summary();
+  if (summary.multiplications + summary.additions == 0) return "";
+  return std::to_string(summary.multiplications) + " multiplications, " +
+         std::to_string(summary.additions) + " additions, " +
+         std::to_string(summary.sines_and_cosines) + " sines and cosines";
 }
 
 }  // namespace virtual_work_dynamics

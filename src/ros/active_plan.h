@@ -6,35 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/sample_rows.h"
 #include "ros/cross_check.h"
-#include "ros/loop_plan.h"
-#include "ros/output_messages.h"
-#include "tree/sample_block.h"
+#include "ros/outputs.h"
 #include "virtual_work_dynamics/certificates.h"
-#include "virtual_work_dynamics/inverse_dynamics.h"
+#include "virtual_work_dynamics/dynamics.h"
 
 namespace virtual_work_dynamics {
-
-/// Which outputs of the node somebody listens to.
-struct Audience {
-  bool effort = false;
-  bool reactions = false;
-  bool trajectory = false;
-  bool determinacy = false;
-  std::vector<std::size_t> wrenches;  ///< indices of the ~reaction/<joint> topics, ascending
-
-  bool wantsSamples() const { return effort || reactions || determinacy || !wrenches.empty(); }
-  bool wantsPoints() const { return wantsSamples() || trajectory; }
-  bool operator==(const Audience& other) const {
-    return effort == other.effort && reactions == other.reactions &&
-           trajectory == other.trajectory && determinacy == other.determinacy &&
-           wrenches == other.wrenches;
-  }
-};
-
-/// What is published to the audience, and no more.
-/// @param joints whose reactions the scene asks for.
-Request requestFor(const Audience& audience, const std::vector<std::string>& joints, bool twist);
 
 /// How the samples of a plan are checked.
 struct PlanChecks {
@@ -42,41 +20,47 @@ struct PlanChecks {
   bool certificates = false;
 };
 
-/// An open chain compiled.
-struct ChainPlan {
-  ChainPlan(const Mechanism& mechanism, const Scene& scene, const Request& request);
-
-  InverseDynamics dynamics;
-  Workspace results;
-  SampleBlock points;  ///< of trajectories
+/// An output that somebody listens to.
+struct ActiveOutput {
+  std::size_t index;  ///< among all outputs
+  bool of_trajectories;
+  std::unique_ptr<OutputMessage> message;
 };
 
-/// An audience compiled: plan, memory and messages that belong together, so that whatever is
-/// published from one of these is complete.
+/// The compiled plan of an audience, with the memory and the messages that belong to it, so that
+/// whatever is published from it is complete.
 struct ActivePlan {
-  /// The outputs' messages hold every result of `request`. Where nothing is requested, nothing is
-  /// checked.
-  ActivePlan(const Mechanism& mechanism, const Scene& scene, const Request& request, Audience who,
-             const std::string& frame_prefix, PlanChecks checks);
+  /// Compiles what the audience needs. Where nothing is requested, nothing is checked.
+  /// @param reactions all that the scene asks for
+  ActivePlan(const Mechanism& mechanism, const Scene& scene, const Outputs& all,
+             const std::vector<std::string>& reactions, Audience who, PlanChecks checks);
 
-  /// What is computed, for outputs and checks.
-  const Request& request() const;
-  const Eigen::VectorXd& effort() const;
+  bool wantsSamples() const { return wants_samples; }
+  /// Whether points of trajectories are wanted, each by itself or for a message of the whole
+  /// trajectory.
+  bool wantsPoints() const { return !outputs.empty(); }
+  bool wantsTrajectories() const { return wants_trajectories; }
 
-  Audience audience;
-  std::optional<ChainPlan> chain;   ///< of an open chain; none:
-  std::unique_ptr<LoopPlan> loops;  ///< of a mechanism with closed loops; null: an open chain
-  OutputMessages messages;
-  std::shared_ptr<CrossCheckSlot> cross_check;  ///< null: off
-  std::optional<Certifier> certifier;           ///< none: off
-  std::size_t ground = 0;  ///< with a certifier: where childAxes() has the reaction of ground
+  const Audience audience;
+  const Dynamics dynamics;
+  Dynamics::Workspace workspace;
+  SampleRows points;  ///< of trajectories
+  std::vector<ActiveOutput> outputs;
+  bool wants_samples = false, wants_trajectories = false;
+  std::shared_ptr<CrossCheckSlot> cross_check;  ///< null when off
+  std::optional<Certifier> certifier;           ///< empty when off
+  std::size_t ground = 0;  ///< with a certifier: place of ground's reaction in Results::child_axes
+  Load tree_load;          ///< with a certifier: load of the sample that is certified
+  /// Indices into the scene's reactions of the first results; the results after these are for
+  /// checks.
+  std::vector<std::size_t> root_reactions, child_reactions;
 };
 
-/// One line for the user: what is computed.
+/// Says in one line for the user what is computed.
 std::string describe(const ActivePlan& plan);
 
-/// One line for the user: what a sample costs. Empty when nothing is computed, and with closed
-/// loops, whose operations depend on the position.
+/// Says in one line for the user what a sample costs. Empty when nothing is computed, and with
+/// closed loops, whose operations depend on the position.
 std::string operationsOf(const ActivePlan& plan);
 
 }  // namespace virtual_work_dynamics

@@ -10,19 +10,19 @@
 
 namespace virtual_work_dynamics {
 
-/// The largest certificates since they were last asked for. One thread records, another one takes;
-/// neither waits for the other nor allocates.
+/// The largest certificates since the last report. One thread records and another one takes
+/// reports; neither waits for the other nor allocates.
 class CertificateRecord {
  public:
-  /// NaN counts as infinity.
+  /// Records the certificates of a sample; NaN counts as infinity.
   void record(const Certificates& certificates) {
     raise(power_, certificates.power);
     raise(ground_force_, certificates.ground_force);
     raise(ground_moment_, certificates.ground_moment);
   }
 
-  /// The largest of each kind since the call before; nothing when none was recorded. Of a sample
-  /// that is recorded meanwhile some kinds may belong to the next interval.
+  /// The largest of each kind since the call before; nothing when none was recorded. When a sample
+  /// is recorded meanwhile, some of its kinds may belong to the next interval.
   std::optional<Certificates> take() {
     const double power = power_.exchange(kNone, std::memory_order_relaxed);
     const double force = ground_force_.exchange(kNone, std::memory_order_relaxed);
@@ -40,7 +40,7 @@ class CertificateRecord {
 
   static void raise(std::atomic<double>& largest, double value) {
     if (std::isnan(value)) value = std::numeric_limits<double>::infinity();
-    // Taken between the two lines, the larger value belongs to the next interval.
+    // If take() runs between the two lines, the larger value belongs to the next interval.
     if (value > largest.load(std::memory_order_relaxed)) {
       largest.store(value, std::memory_order_relaxed);
     }

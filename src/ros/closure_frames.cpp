@@ -35,7 +35,7 @@ tf2_msgs::TFMessage closureFrames(const Mechanism& mechanism, const Scene& scene
     if (std::any_of(links.begin(), links.end(),
                     [&](const Link& link) { return link.name == closure.name; })) {
       throw SceneError("closures: '" + closure.name +
-                       "' is the name of a link, too; its frame in tf needs a name of its own");
+                       "' is also the name of a link; a closure's frame in tf needs another name");
     }
     message.transforms.emplace_back();
     message.transforms.back().header.frame_id = frame_prefix + closure.child.link;

@@ -10,10 +10,10 @@
 
 namespace virtual_work_dynamics {
 
-/// The child frames of closures in their links, for /tf_static: what ~reaction/<closure> refers to.
-/// @param reactions names of those wanted, among others.
+/// The child frames of closures in their links, for /tf_static; ~reaction/<closure> refers to them.
+/// @param reactions names of reactions; only closures among them get a frame.
 /// @param frame_prefix put before every frame_id.
-/// @throws SceneError when a closure is named like a link, so that there would be two such frames.
+/// @throws SceneError when a closure has the name of a link, so that two frames would have it.
 tf2_msgs::TFMessage closureFrames(const Mechanism& mechanism, const Scene& scene,
                                   const std::vector<std::string>& reactions,
                                   const std::string& frame_prefix);

@@ -11,7 +11,7 @@
 
 namespace virtual_work_dynamics {
 
-/// A count that one thread raises and others read.
+/// A count that one thread increases and others read.
 class Counter {
  public:
   void add() { value_.store(value() + 1, std::memory_order_relaxed); }
@@ -21,21 +21,21 @@ class Counter {
   std::atomic<std::uint64_t> value_{0};
 };
 
-/// What the receiving thread has done; any thread may read.
+/// Counts what the receiving thread does; any thread may read them.
 struct Counters {
   Counter joint_states;
   Counter trajectories;
   Counter accepted_joint_states;
   Counter restarts;
-  Counter samples;  ///< computed from joint states
-  Counter points;   ///< computed of trajectories
-  Counter skipped;  ///< samples that nobody listened for
+  Counter samples;  ///< samples computed from joint states
+  Counter points;   ///< points of trajectories computed
+  Counter skipped;  ///< samples not computed because nobody listened
   Counter outputs;  ///< samples and points published
-  Counter late;     ///< outputs of joint states
+  Counter late;     ///< samples published later than the threshold
   std::array<Counter, kDropReasonNames.size()> dropped;
   RunTimeHistogram run_times;
 
-  /// Counts and remembers a rejection. Locks: not for messages that are good.
+  /// Counts and remembers a rejection. Locks a mutex, which good messages must not wait for.
   void drop(DropReason reason, const std::string& text);
   std::uint64_t allDropped() const;
   std::string lastDrop() const;

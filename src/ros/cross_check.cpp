@@ -8,20 +8,20 @@
 #include <limits>
 #include <utility>
 
-#include "loops/cut_tree.h"
-
 namespace virtual_work_dynamics {
 namespace {
 
-// How soon a sample is seen, as the thread that computes does not so much as wake another one.
+// Time after which a waiting sample is looked for: the computing thread does not wake this one.
 constexpr std::chrono::milliseconds kPoll{20};
 
-// Sums below this, that lose digits to denormal numbers, are not held against the results.
+// Sums below this lose digits to denormal numbers; differences are then relative to this.
 constexpr double kSmallestSum =
     std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 
-Request withEfforts(Request request) {
-  request.efforts = true;
+// With closed loops efforts are compared even if nobody listens to them.
+Request comparedRequest(const Dynamics& plan) {
+  Request request = plan.treeRequest();
+  request.efforts = request.efforts || plan.closed();
   return request;
 }
 
@@ -32,7 +32,7 @@ double relative(double difference, double sum) {
   return difference / std::max(sum, kSmallestSum);
 }
 
-// Norms that neither overflow nor underflow pass over NaN.
+// Norms that neither overflow nor underflow ignore NaN, so NaN is tested for first.
 double distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   const Eigen::Vector3d difference = a - b;
   return difference.allFinite() ? difference.stableNorm() : std::numeric_limits<double>::infinity();
@@ -45,8 +45,8 @@ void keepLarger(double value, const char* what, const std::string& name,
   finding.where = what + name;
 }
 
-// Whatever else wants the processor goes first, also when the node was started with a real-time
-// priority, which threads inherit. Where the system refuses, priorities stay equal.
+// Lets everything else that wants the processor go first, also when the node was started with a
+// real-time priority, which threads inherit. Where the system refuses, priorities stay equal.
 void yieldToOthers() {
 #ifdef SCHED_IDLE
   sched_param none{};
@@ -56,59 +56,45 @@ void yieldToOthers() {
 
 }  // namespace
 
-CrossCheckSlot::CrossCheckSlot(const Mechanism& mechanism, const Scene& scene,
-                               const Request& request)
-    : CrossCheckSlot(mechanism, scene, request, request, 0) {}
-
-CrossCheckSlot::CrossCheckSlot(const Mechanism& mechanism, const ClosedLoopDynamics& loops)
-    : CrossCheckSlot(mechanism, loops.tree(), loops.request(),
-                     withEfforts(treeRequest(mechanism, loops.request())),
-                     loops.treeWrenches().size()) {}
-
-CrossCheckSlot::CrossCheckSlot(const Mechanism& mechanism, const Scene& tree,
-                               const Request& request, const Request& compared,
-                               std::size_t tree_wrenches)
+CrossCheckSlot::CrossCheckSlot(const Mechanism& mechanism, const Dynamics& plan)
     : coordinates_(mechanism.coordinateNames()),
-      child_compared_(comparedOf(mechanism, request.child_axes)),
-      root_compared_(comparedOf(mechanism, request.root_axes)),
-      own_wrenches_(tree.applied_wrenches.size() - tree_wrenches),
-      lagrange_(mechanism, tree, compared),
-      bound_(mechanism, tree),
+      child_compared_(comparedOf(mechanism, plan.request().child_axes)),
+      root_compared_(comparedOf(mechanism, plan.request().root_axes)),
+      closed_(plan.closed()),
+      lagrange_(mechanism, plan.tree(), comparedRequest(plan)),
+      bound_(mechanism, plan.tree()),
       motion_(lagrange_.coordinates()),
-      effort_(compared.efforts ? lagrange_.coordinates() : 0),
-      child_axes_(request.child_axes.size()),
-      root_axes_(request.root_axes.size()),
-      tree_wrenches_(tree_wrenches) {}
+      effort_(lagrange_.request().efforts ? lagrange_.coordinates() : 0),
+      child_axes_(plan.request().child_axes.size()),
+      root_axes_(plan.request().root_axes.size()),
+      load_(plan.tree()) {}
 
 std::vector<CrossCheckSlot::Compared> CrossCheckSlot::comparedOf(
     const Mechanism& mechanism, const std::vector<std::string>& joints) {
   std::vector<Compared> compared;
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    if (isClosure(mechanism, joints[i])) continue;
     const int index = joints[i] == kGround ? -1 : mechanism.jointIndex(joints[i]);
+    if (index < 0 && joints[i] != kGround) continue;  // a closure
     compared.push_back({i, static_cast<std::size_t>(index + 1)});
   }
   return compared;
 }
 
-bool CrossCheckSlot::offer(const Motion& motion, const Eigen::VectorXd& effort,
-                           const std::vector<Wrench>& child_axes,
-                           const std::vector<Wrench>& root_axes,
-                           const std::vector<Wrench>& tree_wrenches) {
+bool CrossCheckSlot::offer(const Motion& motion, const Results& results) {
   State state = state_.load(std::memory_order_relaxed);
   if (state == State::kChecking) return false;
   if (state == State::kEmpty) offered_ = 0;
-  // The n-th in place of the one before with probability 1/n leaves all equally likely.
+  // If the n-th sample replaces the one before with probability 1/n, all are equally likely.
   ++offered_;
   if (state == State::kFull && random_() % offered_ != 0) return false;
   if (!state_.compare_exchange_strong(state, State::kWriting, std::memory_order_acquire)) {
     return false;
   }
   motion_ = motion;
-  effort_ = effort.head(effort_.size());  // behind them those of closures
-  child_axes_ = child_axes;
-  root_axes_ = root_axes;
-  tree_wrenches_ = tree_wrenches;
+  effort_ = results.effort.head(effort_.size());  // those of closures come after them
+  child_axes_ = results.child_axes;
+  root_axes_ = results.root_axes;
+  if (closed_) load_.wrenches = results.loops.tree_wrenches;
   state_.store(State::kFull, std::memory_order_release);
   return true;
 }
@@ -118,9 +104,8 @@ std::optional<CrossCheckSlot::Finding> CrossCheckSlot::check() {
   if (!state_.compare_exchange_strong(state, State::kChecking, std::memory_order_acquire)) {
     return std::nullopt;
   }
-  applyTreeWrenches();
-  lagrange_.compute(motion_);
-  bound_.compute(motion_);
+  lagrange_.compute(motion_, load_);
+  bound_.compute(motion_, load_);
   const Request& request = lagrange_.request();
   Finding finding;
   compareEfforts(finding);
@@ -128,14 +113,6 @@ std::optional<CrossCheckSlot::Finding> CrossCheckSlot::check() {
   compareWrenches(root_axes_, lagrange_.rootAxes(), request.root_axes, root_compared_, finding);
   state_.store(State::kEmpty, std::memory_order_release);
   return finding;
-}
-
-void CrossCheckSlot::applyTreeWrenches() {
-  for (std::size_t i = 0; i < tree_wrenches_.size(); ++i) {
-    const Wrench& wrench = tree_wrenches_[i];
-    lagrange_.setAppliedWrench(own_wrenches_ + i, wrench.force, wrench.torque);
-    bound_.setAppliedWrench(own_wrenches_ + i, wrench.force, wrench.torque);
-  }
 }
 
 void CrossCheckSlot::compareEfforts(Finding& finding) const {
@@ -176,7 +153,7 @@ CrossCheck::~CrossCheck() {
 }
 
 void CrossCheck::watch(std::shared_ptr<CrossCheckSlot> slot) {
-  // What is outworn is deleted by whoever lets go of it last, outside the lock.
+  // The replaced slot is deleted outside the lock, by its last owner.
   const std::lock_guard<std::mutex> lock(mutex_);
   slot_.swap(slot);
 }

@@ -14,45 +14,38 @@
 #include <thread>
 #include <vector>
 
-#include "virtual_work_dynamics/closed_loop_dynamics.h"
+#include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/error_bound.h"
-#include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/lagrange_dynamics.h"
 
 namespace virtual_work_dynamics {
 
-/// Where the thread that computes leaves a sample of one plan for the thread that checks it: of all
-/// those offered since the check before, each with the same probability. Always the first one, or
-/// the last one, would see trajectories at rest, where many errors do not show. The computing side
-/// neither waits, locks nor allocates: samples that come during a check pass by.
+/// Holds a sample of one plan that the computing thread leaves for the checking thread: one of all
+/// samples offered since the check before, each with equal probability. Always taking the first or
+/// the last one would see trajectories at rest, where many errors do not show. The computing side
+/// neither waits, locks nor allocates; samples offered during a check are ignored.
 class CrossCheckSlot {
  public:
-  /// How far results are from Lagrange's.
+  /// The largest difference between results and Lagrange's equations.
   struct Finding {
-    double largest = 0;  ///< difference over the sum of magnitudes; infinity: not comparable
+    double largest = 0;  ///< difference over the sum of magnitudes; infinity when not comparable
     std::string where;   ///< "effort of elbow", "moment at wrist"
   };
 
-  /// @param request of the plan, its results' order.
-  /// @throws SceneError as InverseDynamics does.
-  CrossCheckSlot(const Mechanism& mechanism, const Scene& scene, const Request& request);
+  /// For a mechanism with closed loops Lagrange's equations see its tree, with the wrenches found
+  /// for the loops applied to it. Reactions of closures, which are these wrenches, are not
+  /// compared. All efforts are: those of passive joints vanish when the wrenches are a solution.
+  /// @param plan the plan whose samples will be offered; need not outlive this
+  CrossCheckSlot(const Mechanism& mechanism, const Dynamics& plan);
 
-  /// Of a mechanism with closed loops: its tree, with the wrenches that the loops were solved for
-  /// applied to it. Reactions of closures, which are these wrenches, are not compared; all efforts
-  /// are: that those of passive joints vanish says that the wrenches are a solution.
-  CrossCheckSlot(const Mechanism& mechanism, const ClosedLoopDynamics& loops);
+  /// For the computing thread: copies the sample over the one before if it is drawn, and returns
+  /// whether it is. Motion and results are the plan's.
+  bool offer(const Motion& motion, const Results& results);
 
-  /// Computing thread: copies the sample in place of the one before if its turn has come, and says
-  /// whether it has. Motion and results are of the plan's sizes.
-  /// @param tree_wrenches with closed loops, of ClosedLoopDynamics
-  bool offer(const Motion& motion, const Eigen::VectorXd& effort,
-             const std::vector<Wrench>& child_axes, const std::vector<Wrench>& root_axes,
-             const std::vector<Wrench>& tree_wrenches = {});
-
-  /// Any thread: true while a sample waits to be checked.
+  /// For any thread: true while a sample waits to be checked.
   bool full() const { return state_.load(std::memory_order_acquire) == State::kFull; }
-  /// Checking thread: computes the sample by Lagrange's equations, compares, and makes room for the
-  /// next one; nothing when there is none. Allocates only for the name of the culprit.
+  /// For the checking thread: computes the sample by Lagrange's equations, compares, and makes room
+  /// for the next one. Returns nothing when there is no sample. Allocates only for Finding::where.
   std::optional<Finding> check();
 
  private:
@@ -64,43 +57,40 @@ class CrossCheckSlot {
     std::size_t magnitude = 0;  // place in ErrorBound::wrenches()
   };
 
-  CrossCheckSlot(const Mechanism& mechanism, const Scene& tree, const Request& request,
-                 const Request& compared, std::size_t tree_wrenches);
   static std::vector<Compared> comparedOf(const Mechanism& mechanism,
                                           const std::vector<std::string>& joints);
-  void applyTreeWrenches();
   void compareEfforts(Finding& finding) const;
   void compareWrenches(const std::vector<Wrench>& results, const std::vector<Wrench>& others,
                        const std::vector<std::string>& joints,
                        const std::vector<Compared>& compared, Finding& finding) const;
 
   const std::vector<std::string> coordinates_;
-  // In the order of Lagrange's equations' request.
+  // By the reactions of lagrange_.request(), in its order.
   const std::vector<Compared> child_compared_, root_compared_;
-  const std::size_t own_wrenches_;  // of the scene, before those of the tree
+  const bool closed_;
   LagrangeDynamics<long double> lagrange_;
   ErrorBound bound_;
 
   std::atomic<State> state_{State::kEmpty};
   std::uint64_t offered_ = 0;  // since the check before
   std::minstd_rand random_;
-  // The computing thread's while writing, the checking thread's while checking.
+  // Used by the computing thread while writing, by the checking thread while checking.
   Motion motion_;
   Eigen::VectorXd effort_;
   std::vector<Wrench> child_axes_;
   std::vector<Wrench> root_axes_;
-  std::vector<Wrench> tree_wrenches_;
+  Load load_;  // of the tree
 };
 
-/// Checks now and then a sample of the plan in use against the paper's other formalism, in a thread
-/// of its own, as Lagrange's equations of a large robot take seconds: neither what computes nor
-/// what reports waits for it.
+/// Checks a sample of the plan in use now and then by the paper's other formalism. This has a
+/// thread of its own, as Lagrange's equations of a large robot take seconds; neither computing nor
+/// reporting waits for it.
 class CrossCheck {
  public:
   struct Report {
     std::uint64_t done = 0;           ///< checks in all
-    bool news = false;                ///< any since the report before
-    CrossCheckSlot::Finding finding;  ///< the largest of these
+    bool news = false;                ///< whether there are any since the last report
+    CrossCheckSlot::Finding finding;  ///< the largest of the new ones
   };
 
   /// @param rate the most checks a second, 0.001 to 1000.
@@ -110,10 +100,10 @@ class CrossCheck {
   CrossCheck(const CrossCheck&) = delete;
   CrossCheck& operator=(const CrossCheck&) = delete;
 
-  /// Checks the samples of this slot from now on, and no others; null: none.
+  /// From now on checks only the samples of this slot, or none when it is null.
   void watch(std::shared_ptr<CrossCheckSlot> slot);
 
-  /// What was found since the call before. Waits for no check.
+  /// What was found since the call before. Does not wait for a check.
   Report takeReport();
 
  private:
@@ -122,7 +112,7 @@ class CrossCheck {
   void run();
 
   const Clock::duration period_;
-  std::mutex mutex_;  // of all below but the thread
+  std::mutex mutex_;  // guards all members below except the thread
   std::condition_variable changed_;
   std::shared_ptr<CrossCheckSlot> slot_;
   Report report_;

@@ -3,6 +3,7 @@
 #include <ros/time.h>
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "base/number_text.h"
@@ -31,6 +32,17 @@ void summarize(DiagnosticStatus& status, std::size_t open, const std::string& po
       position;
 }
 
+// Copies flags from their places; returns whether any changed.
+bool take(const std::vector<Determined>& results, const std::vector<std::size_t>& places,
+          std::vector<Determined>& flags) {
+  bool changed = false;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    changed = changed || flags[i] != results[places[i]];
+    flags[i] = results[places[i]];
+  }
+  return changed;
+}
+
 }  // namespace
 
 DeterminacyMessage::DeterminacyMessage(const std::string& robot, std::vector<std::string> efforts,
@@ -38,8 +50,9 @@ DeterminacyMessage::DeterminacyMessage(const std::string& robot, std::vector<std
     : efforts_(std::move(efforts)),
       reactions_(std::move(reactions)),
       condition_warn_(condition_warn),
+      root_axes_(reactions_.size()),
       child_axes_(reactions_.size()) {
-  determinacy_.rank = -1;  // like no other
+  determinacy_.rank = -1;  // differs from every real rank
   message_.status.resize(3);
   message_.status[0].name = "determinacy of efforts";
   message_.status[1].name = "determinacy of reactions, root axes";
@@ -47,28 +60,23 @@ DeterminacyMessage::DeterminacyMessage(const std::string& robot, std::vector<std
   for (DiagnosticStatus& status : message_.status) status.hardware_id = robot;
 }
 
-bool DeterminacyMessage::changed(const ClosedLoopDynamics& results) const {
-  const Determinacy& now = results.determinacy();
-  return now.rank != determinacy_.rank || now.redundancy != determinacy_.redundancy ||
-         now.redundant_constraints != determinacy_.redundant_constraints ||
-         now.free_motions != determinacy_.free_motions || isClose(now) != isClose(determinacy_) ||
-         results.effortDetermined() != effort_ || results.rootAxesDetermined() != root_axes_ ||
-         !std::equal(child_axes_.begin(), child_axes_.end(), results.childAxesDetermined().begin());
-}
-
 bool DeterminacyMessage::isClose(const Determinacy& determinacy) const {
   return determinacy.free_motions == 0 && determinacy.condition > condition_warn_;
 }
 
-bool DeterminacyMessage::update(std::int64_t stamp_ns, const ClosedLoopDynamics& results) {
-  if (!changed(results)) return false;
-  determinacy_ = results.determinacy();
-  effort_ = results.effortDetermined();
-  root_axes_ = results.rootAxesDetermined();
-  // Behind these there may be others, of no interest here.
-  const auto child_axes = results.childAxesDetermined().begin();
-  std::copy(child_axes, child_axes + static_cast<std::ptrdiff_t>(child_axes_.size()),
-            child_axes_.begin());
+bool DeterminacyMessage::update(std::int64_t stamp_ns, const LoopResults& results,
+                                const std::vector<std::size_t>& root_places,
+                                const std::vector<std::size_t>& child_places) {
+  const Determinacy& now = results.determinacy;
+  bool changed = now.rank != determinacy_.rank || now.redundancy != determinacy_.redundancy ||
+                 now.redundant_constraints != determinacy_.redundant_constraints ||
+                 now.free_motions != determinacy_.free_motions ||
+                 isClose(now) != isClose(determinacy_) || results.effort_determined != effort_;
+  determinacy_ = now;
+  effort_ = results.effort_determined;
+  changed = take(results.root_axes_determined, root_places, root_axes_) || changed;
+  changed = take(results.child_axes_determined, child_places, child_axes_) || changed;
+  if (!changed) return false;
   message_.header.stamp.fromNSec(static_cast<std::uint64_t>(stamp_ns));
   write();
   return true;
@@ -103,6 +111,20 @@ void DeterminacyMessage::write() {
     }
     summarize(status, components, position);
   }
+}
+
+DeterminacyMessage assembledDeterminacy(const Mechanism& mechanism, const Dynamics& everything,
+                                        const std::vector<std::string>& reactions,
+                                        double condition_warn) {
+  DeterminacyMessage message(mechanism.name(), everything.effortNames(), reactions, condition_warn);
+  std::vector<std::size_t> places(reactions.size());
+  std::iota(places.begin(), places.end(), 0);
+  Motion motion(everything.coordinates());
+  motion.q = everything.assembly();
+  Dynamics::Workspace workspace = everything.makeWorkspace();
+  everything.compute(motion, workspace);
+  message.update(0, workspace.results().loops, places, places);
+  return message;
 }
 
 }  // namespace virtual_work_dynamics

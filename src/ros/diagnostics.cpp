@@ -51,7 +51,7 @@ void Diagnostics::setPlan(const std::vector<std::string>& outputs, const std::st
 void Diagnostics::update(JointWatch::Clock::time_point now) {
   if (now < next_) return;
   next_ += period_;
-  // After a pause, no burst of reports.
+  // A pause is not followed by a burst of reports.
   if (next_ < now) next_ = now + period_;
   // Updater::update() would go by ROS time, which a looping bag turns back.
   updater_.force_update();
@@ -73,8 +73,8 @@ Diagnostics::Before Diagnostics::count() const {
 
 void Diagnostics::report(DiagnosticStatusWrapper& status) {
   const Before now = count();
-  // A joint that has stopped is only missed while others go on; one that never came, from the first
-  // joint state on.
+  // A joint that has stopped counts as missing only while others go on, one that was never received
+  // from the first joint state on.
   std::vector<std::string> missing;
   if (now.accepted > before_.accepted) {
     missing = joints_.missing();
@@ -111,7 +111,7 @@ void Diagnostics::summarize(DiagnosticStatusWrapper& status, const Before& now,
   }
   if (now.restarts > before_.restarts && now.motions == before_.motions) {
     status.mergeSummaryf(DiagnosticStatus::WARN,
-                         "no result of joint states: their stamps made the estimator start anew "
+                         "no result from joint states: their stamps made the estimator restart "
                          "%llu times (see ~estimator/max_gap)",
                          static_cast<unsigned long long>(now.restarts - before_.restarts));
   }

@@ -14,7 +14,7 @@
 
 namespace virtual_work_dynamics {
 
-/// Reports the counters on /diagnostics. One thread.
+/// Reports the counters on /diagnostics. Serves one thread.
 class Diagnostics {
  public:
   /// @param period s.
@@ -22,7 +22,7 @@ class Diagnostics {
               const SelfCheckReport& self_check, const LoopReport& loops, const std::string& robot,
               double period);
 
-  /// What the node is at: the subscribed outputs and what they make it compute.
+  /// Sets what the node does now: the subscribed outputs, and what it computes for them.
   void setPlan(const std::vector<std::string>& outputs, const std::string& plan,
                const std::string& operations);
 
@@ -36,7 +36,7 @@ class Diagnostics {
     std::uint64_t inputs = 0;
     std::uint64_t accepted = 0;
     std::uint64_t restarts = 0;
-    std::uint64_t motions = 0;  ///< that the estimator had, computed or not
+    std::uint64_t motions = 0;  ///< from the estimator, computed or not
     std::uint64_t outputs = 0;
     std::uint64_t samples = 0;
     std::uint64_t late = 0;

@@ -18,24 +18,12 @@ namespace {
 // How soon the node's own thread sees that it is to stop, or that a report is due.
 constexpr double kManageWait = 0.05;  // s
 
-// Of the efforts, those that do not exist as NaN.
-void copyEfforts(const ActivePlan& plan, Eigen::MatrixXd::RowXpr row) {
-  row = plan.effort().head(row.size());
-  for (Eigen::Index i = 0; plan.loops && i < row.size(); ++i) {
-    const bool exists = plan.loops->effortExists()[static_cast<std::size_t>(i)];
-    if (!exists) row[i] = std::numeric_limits<double>::quiet_NaN();
-  }
-}
-
 }  // namespace
 
 using Outcome = SampleComputation::Outcome;
 
 InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parameters)
     : task_(parameters),
-      loops_(task_.loops.get()),
-      frame_prefix_(parameters.frame_prefix),
-      twist_(parameters.twist),
       output_queue_(parameters.output_queue),
       at_once_(parameters.trajectory_rate == 0),
       late_threshold_(parameters.late_threshold),
@@ -43,29 +31,27 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       joint_states_(task_.mechanism),
       trajectories_(task_.mechanism, task_.scene.static_motion, task_.passive()),
       estimator_(task_.mechanism, task_.estimator),
-      samples_(static_cast<Eigen::Index>(task_.mechanism.coordinates().size()),
-               task_.scene.static_motion, counters_, certificates_, loops_),
+      loops_(task_.everything, task_.reactions.size(), parameters.loop_limits),
+      completer_(task_.mechanism, task_.everything, task_.scene.static_motion),
+      samples_(task_.everything.coordinates(), task_.scene.static_motion, completer_,
+               {counters_, certificates_, loops_}),
       played_(parameters.trajectory_rate),
-      joint_watch_(task_.mechanism.coordinateNames(), task_.needed()),
+      joint_watch_(task_.mechanism.coordinateNames(), completer_.needed()),
       plans_(compile(Audience())),
       cross_check_(checks_.cross_check
                        ? std::make_unique<CrossCheck>(parameters.self_check.cross_check_rate)
                        : nullptr),
-      outputs_(ros::NodeHandle("~"), task_.reaction_topics, loops_ != nullptr,
-               parameters.output_queue, manage_queue_, [this] { audience_changed_ = true; }),
-      diagnostics_(
-          counters_, counters_.run_times, joint_watch_,
-          SelfCheckReport(parameters.self_check, cross_check_.get(), certificates_),
-          LoopReport(task_.mechanism, task_.scene, task_.reactions,
-                     loops_ != nullptr ? &loops_->record : nullptr, parameters.loop_limits),
-          task_.mechanism.name(), parameters.diagnostic_period),
+      outputs_(ros::NodeHandle("~"), task_.outputs, parameters.output_queue, manage_queue_,
+               [this] { audience_changed_ = true; }),
+      diagnostics_(counters_, counters_.run_times, joint_watch_,
+                   SelfCheckReport(parameters.self_check, cross_check_.get(), certificates_),
+                   LoopReport(task_.everything, task_.reactions, loops_, parameters.loop_limits),
+                   task_.mechanism.name(), parameters.diagnostic_period),
       sim_time_(ros::Time::isSimTime()) {
   task_.log(parameters);
   ros::NodeHandle node;
-  if (loops_ != nullptr) {
-    estimator_.waitFor(loops_->completer.needed());
-    outputs_.publishDeterminacy(loops_->determinacy.message());
-  }
+  if (task_.everything.closed()) estimator_.waitFor(completer_.needed());
+  loops_.setPassiveGiven(completer_.passiveGiven());
   if (!task_.closure_frames.transforms.empty()) {
     closure_frames_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
     closure_frames_.publish(task_.closure_frames);
@@ -90,7 +76,8 @@ InverseDynamicsNode::~InverseDynamicsNode() {
   manager_.join();
 }
 
-// One message that cannot be dealt with, for want of memory say, does not end the node.
+// Drops a message whose processing throws, for example for lack of memory, and keeps the node
+// running.
 template <typename Work>
 void InverseDynamicsNode::guard(const ros::Subscriber& source, Work work) {
   try {
@@ -127,34 +114,35 @@ bool InverseDynamicsNode::push(const JointSample& sample) {
       estimator_.push(sample.stamp_ns, sample.coordinates, sample.q, sample.qd, sample.count);
   if (verdict == Verdict::kEqualStamp) {
     drop(joint_state_subscriber_.getTopic(), DropReason::kEqualStamp,
-         "its stamp " + stampText(sample.stamp_ns) + " was there before");
+         "its stamp " + stampText(sample.stamp_ns) + " was received before");
     return false;
   }
   if (verdict != Verdict::kAccepted) counters_.restarts.add();
   if (verdict == Verdict::kRestartedGap) reportGap();
   if (verdict == Verdict::kRestartedBack && restart_throttle_.open()) {
-    ROS_INFO("%s: time went back to stamp %s: the estimator starts anew",
+    ROS_INFO("%s: time went back to stamp %s: the estimator restarts",
              joint_state_subscriber_.getTopic().c_str(), stampText(sample.stamp_ns).c_str());
   }
   if (verdict != Verdict::kAccepted) window_filled_ = false;
   counters_.accepted_joint_states.add();
   joint_watch_.saw(sample.coordinates, sample.count);
-  if (loops_ != nullptr && loops_->completer.saw(sample.coordinates, sample.count)) {
-    estimator_.waitFor(loops_->completer.needed());
+  if (completer_.saw(sample.coordinates, sample.count)) {
+    estimator_.waitFor(completer_.needed());
     joint_watch_.needAll();
-    loops_->record.setPassiveGiven(true);
+    loops_.setPassiveGiven(true);
   }
   return true;
 }
 
-// Joint states that are always too far apart would never give anything.
+// Warns when the window was not full before: joint states that are always too far apart never give
+// a result.
 void InverseDynamicsNode::reportGap() {
   if (!(window_filled_ ? restart_throttle_ : gap_throttle_).open()) return;
   const std::string text =
       joint_state_subscriber_.getTopic() + ": a gap of " +
       numberText(static_cast<double>(estimator_.latestGap()) / 1e9) +
       " s is longer than ~estimator/max_gap = " + numberText(task_.estimator.max_gap) +
-      " s: the estimator starts anew";
+      " s: the estimator restarts";
   if (window_filled_) {
     ROS_INFO("%s", text.c_str());
   } else {
@@ -164,7 +152,7 @@ void InverseDynamicsNode::reportGap() {
 
 void InverseDynamicsNode::evaluate(ros::Time receipt) {
   ActivePlan& plan = plans_.current();
-  if (!plan.audience.wantsSamples()) {
+  if (!plan.wantsSamples()) {
     estimator_.skip();
     counters_.skipped.add();
     return;
@@ -174,20 +162,18 @@ void InverseDynamicsNode::evaluate(ros::Time receipt) {
   if (outcome != Outcome::kDone) {
     const bool open = outcome == Outcome::kOpenLoop;
     drop(joint_state_subscriber_.getTopic(), open ? DropReason::kOpenLoop : DropReason::kOverflow,
-         (open ? loops_->completer.problem() + "," : std::string("not finite")) + " at stamp " +
-             stampText(stamp_ns));
+         (open ? completer_.problem(plan.dynamics, plan.workspace) + ","
+               : std::string("not finite")) +
+             " at stamp " + stampText(stamp_ns));
     return;
   }
-  publishSample(plan, stamp_ns);
+  publishSample(plan);
   if (!sim_time_ && ros::Time::now() - receipt > late_threshold_) counters_.late.add();
 }
 
-void InverseDynamicsNode::publishSample(const ActivePlan& plan, std::int64_t stamp_ns) {
+void InverseDynamicsNode::publishSample(const ActivePlan& plan) {
   outputs_.publishSample(plan);
   counters_.outputs.add();
-  if (plan.audience.determinacy && loops_->determinacy.update(stamp_ns, plan.loops->results())) {
-    outputs_.publishDeterminacy(loops_->determinacy.message());
-  }
 }
 
 void InverseDynamicsNode::receiveTrajectory(
@@ -200,15 +186,15 @@ void InverseDynamicsNode::take(const trajectory_msgs::JointTrajectory& message, 
   const std::string topic = trajectory_subscriber_.getTopic();
   const ros::Time start = message.header.stamp.isZero() ? receipt : message.header.stamp;
   if (start.isZero()) {
-    drop(topic, DropReason::kNoTime, "its stamp is zero, and /clock has not come yet");
+    drop(topic, DropReason::kNoTime, "its stamp is zero, and /clock has not been received yet");
     return;
   }
   auto rejection = trajectories_.convert(message, static_cast<std::int64_t>(start.toNSec()),
                                          estimator_, trajectory_);
-  if (!rejection && loops_ != nullptr) rejection = loops_->completer.check(trajectory_);
+  if (!rejection) rejection = completer_.check(trajectory_);
   // One plan for the whole trajectory, so that ~joint_trajectory is complete.
   ActivePlan& plan = plans_.current();
-  if (!rejection && !plan.audience.wantsPoints()) return;
+  if (!rejection && !plan.wantsPoints()) return;
   if (!rejection && played_.waiting() > static_cast<std::size_t>(output_queue_)) {
     rejection = Rejection{DropReason::kBacklog,
                           std::to_string(played_.waiting()) + " points still wait to be played, " +
@@ -219,7 +205,7 @@ void InverseDynamicsNode::take(const trajectory_msgs::JointTrajectory& message, 
     drop(topic, rejection->reason, rejection->text);
     return;
   }
-  if (loops_ != nullptr) loops_->completer.complete(trajectory_);
+  completer_.complete(trajectory_, plan.dynamics, plan.workspace);
   const std::size_t points = message.points.size();
   if (!trajectory_.completion.empty() && completion_throttle_.open()) {
     ROS_INFO("%s: %zu points, %s", topic.c_str(), points, trajectory_.completion.c_str());
@@ -233,25 +219,19 @@ void InverseDynamicsNode::take(const trajectory_msgs::JointTrajectory& message, 
 
 void InverseDynamicsNode::respond(ActivePlan& plan,
                                   const trajectory_msgs::JointTrajectory& message) {
-  const std::size_t points = trajectory_.stamps_ns.size();
-  const bool fill = plan.audience.trajectory;
-  if (at_once_ || fill) {
-    Eigen::MatrixXd efforts(fill ? trajectory_.table.positions.rows() : 0,
-                            trajectory_.table.positions.cols());
-    bool complete = true;
-    for (std::size_t i = 0; i < points; ++i) {
-      const Outcome outcome = samples_.computeNext(plan, trajectory_, i);
+  if (at_once_ || plan.wantsTrajectories()) {
+    for (ActiveOutput& output : plan.outputs) output.message->begin(message, trajectory_);
+    for (std::size_t i = 0; i < trajectory_.stamps_ns.size(); ++i) {
+      const Outcome outcome = samples_.computeNext(plan, trajectory_, i, at_once_);
       if (outcome != Outcome::kDone) {
         dropPoint(outcome, trajectory_, i);
-        complete = false;
-        continue;
+      } else if (at_once_ && plan.wantsSamples()) {
+        publishSample(plan);
       }
-      if (fill) copyEfforts(plan, efforts.row(static_cast<Eigen::Index>(i)));
-      if (at_once_) publishSample(plan, trajectory_.stamps_ns[i]);
     }
-    if (fill && complete) outputs_.publishTrajectory(withEfforts(message, trajectory_, efforts));
+    outputs_.publishTrajectory(plan);
   }
-  if (at_once_ || !plan.audience.wantsSamples()) return;
+  if (at_once_ || !plan.wantsSamples()) return;
   played_.add(std::move(trajectory_), Clock::now());
   player_.start();
 }
@@ -260,13 +240,13 @@ void InverseDynamicsNode::playDue() {
   guard(trajectory_subscriber_, [this] {
     ActivePlan& plan = plans_.current();
     played_.playDue(Clock::now(), [&](const TrajectoryMotion& trajectory, std::size_t point) {
-      if (!plan.audience.wantsSamples()) return;
+      if (!plan.wantsSamples()) return;
       const Outcome outcome = samples_.compute(plan, trajectory, point);
       if (outcome != Outcome::kDone) {
         dropPoint(outcome, trajectory, point);
         return;
       }
-      publishSample(plan, trajectory.stamps_ns[point]);
+      publishSample(plan);
     });
   });
   if (played_.empty()) player_.stop();
@@ -303,9 +283,8 @@ void InverseDynamicsNode::manage() {
 }
 
 std::unique_ptr<ActivePlan> InverseDynamicsNode::compile(const Audience& audience) const {
-  return std::make_unique<ActivePlan>(task_.mechanism, task_.scene,
-                                      requestFor(audience, task_.reactions, twist_), audience,
-                                      frame_prefix_, checks_);
+  return std::make_unique<ActivePlan>(task_.mechanism, task_.scene, task_.outputs, task_.reactions,
+                                      audience, checks_);
 }
 
 void InverseDynamicsNode::adaptPlan() {
@@ -319,7 +298,7 @@ void InverseDynamicsNode::adaptPlan() {
     plans_.offer(std::move(plan));
     audience_ = audience;
   } catch (const std::exception& error) {
-    ROS_ERROR("what is computed stays as it is, as the change that subscribers make failed: %s",
+    ROS_ERROR("the change of subscribers failed, and what is computed stays as it is: %s",
               error.what());
   }
 }
@@ -332,14 +311,14 @@ void InverseDynamicsNode::watchJoints(Clock::time_point now) {
   const std::vector<std::string> in_vain = joint_watch_.notNeeded(true);
   if (!in_vain.empty()) {
     ROS_WARN(
-        "%s: passive joints %s have come, but not %s: they are ignored, and all of them follow "
-        "from the closures",
+        "%s: passive joints %s are given, but not %s: they are ignored, and the motion of all "
+        "passive joints follows from the closures",
         joint_state_subscriber_.getTopic().c_str(), shortList(in_vain).c_str(),
         shortList(joint_watch_.notNeeded(false)).c_str());
   }
   const std::vector<std::string> missing = joint_watch_.neverSeen();
   if (missing.empty()) return;
-  ROS_WARN("%s: after 5 s still without joints %s; nothing is published until all have come",
+  ROS_WARN("%s: joints %s have not been received in 5 s; nothing is published until all have been",
            joint_state_subscriber_.getTopic().c_str(), shortList(missing).c_str());
 }
 

@@ -24,6 +24,8 @@
 #include "ros/inverse_dynamics_parameters.h"
 #include "ros/joint_state_conversion.h"
 #include "ros/joint_watch.h"
+#include "ros/loop_record.h"
+#include "ros/motion_completer.h"
 #include "ros/output_topics.h"
 #include "ros/plan_switch.h"
 #include "ros/robot_task.h"
@@ -38,13 +40,13 @@ namespace virtual_work_dynamics {
 
 /// Inverse dynamics between topics: joint states and trajectories in, efforts and reactions out.
 ///
-/// Two threads, and a third one where Lagrange's equations check (CrossCheck). The one that spins
-/// the global callback queue takes messages in, computes and publishes. The other one is the node's
-/// own: it watches who subscribes, compiles the plan for them, hands it over by PlanSwitch, and
-/// reports diagnostics.
+/// It has two threads, and a third one if Lagrange's equations check results (CrossCheck). The
+/// thread that spins the global callback queue receives messages, computes and publishes. The other
+/// one is the node's own: it watches who subscribes, compiles the plan for them, hands it over by
+/// PlanSwitch, and reports diagnostics.
 class InverseDynamicsNode {
  public:
-  /// Checks everything, then advertises and subscribes; nothing of either is done if it throws.
+  /// Checks everything, then advertises and subscribes; if it throws, it has done neither.
   /// @throws Error, one line naming what is wrong with the robot, the scene or a parameter.
   explicit InverseDynamicsNode(const InverseDynamicsParameters& parameters);
   ~InverseDynamicsNode();
@@ -64,7 +66,7 @@ class InverseDynamicsNode {
   void take(const trajectory_msgs::JointTrajectory& message, ros::Time receipt);
   void respond(ActivePlan& plan, const trajectory_msgs::JointTrajectory& message);
   void playDue();
-  void publishSample(const ActivePlan& plan, std::int64_t stamp_ns);
+  void publishSample(const ActivePlan& plan);
   void dropPoint(SampleComputation::Outcome outcome, const TrajectoryMotion& trajectory,
                  std::size_t point);
   void drop(const std::string& topic, DropReason reason, const std::string& text);
@@ -76,11 +78,8 @@ class InverseDynamicsNode {
   std::unique_ptr<ActivePlan> compile(const Audience& audience) const;
 
   const RobotTask task_;
-  LoopSamples* const loops_;  ///< null: an open chain
-  const std::string frame_prefix_;
-  const bool twist_;
   const int output_queue_;
-  const bool at_once_;  ///< all points of a trajectory
+  const bool at_once_;  ///< whether all points of a trajectory are
   const ros::Duration late_threshold_;
   const PlanChecks checks_;
 
@@ -89,11 +88,13 @@ class InverseDynamicsNode {
   MotionEstimator estimator_;
   Counters counters_;
   CertificateRecord certificates_;
+  LoopRecord loops_;
+  MotionCompleter completer_;
   SampleComputation samples_;
   TrajectoryMotion trajectory_;
   TrajectoryQueue played_;
   bool window_filled_ = false;  // since the estimator's latest restart
-  // One for each reason: a flood of one kind does not hide the others.
+  // By reason, so that a flood of one kind does not hide the others.
   std::array<Throttle, kDropReasonNames.size()> drop_throttles_;
   Throttle restart_throttle_;
   Throttle gap_throttle_;
@@ -102,9 +103,9 @@ class InverseDynamicsNode {
 
   JointWatch joint_watch_;
   PlanSwitch plans_;
-  std::unique_ptr<CrossCheck> cross_check_;  // null: off
+  std::unique_ptr<CrossCheck> cross_check_;  // null when off
 
-  // From here on, constructing means talking to ROS.
+  // Constructing the members from here on talks to ROS.
   ros::CallbackQueue manage_queue_;
   bool audience_changed_ = true;
   Audience audience_;

@@ -100,7 +100,7 @@ LoopLimits readLoopLimits(PrivateParameters& parameters) {
   limits.condition = parameters.number("condition_warn", limits.condition);
   if (!(limits.condition > 1)) {
     throw parameterError("condition_warn", numberText(limits.condition) +
-                                               " is not greater than 1, where conditions begin");
+                                               " is not greater than 1, the least condition");
   }
   return limits;
 }

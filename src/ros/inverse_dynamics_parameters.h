@@ -15,20 +15,20 @@ namespace virtual_work_dynamics {
 /// How the node checks what it computes.
 struct SelfCheckSettings {
   double cross_check_rate = 0;   ///< samples/s that Lagrange's equations check; 0: none
-  bool certificates = false;     ///< of every sample
-  double residual_warn = 1e-10;  ///< relative to sums of magnitudes; from here on, WARN
-  double residual_error = 1e-7;  ///< from here on, ERROR
+  bool certificates = false;     ///< whether every sample is certified
+  double residual_warn = 1e-10;  ///< WARN from here on, relative to sums of magnitudes
+  double residual_error = 1e-7;  ///< ERROR from here on, relative to sums of magnitudes
 };
 
-/// Everything the node inverse_dynamics_node reads from the parameter server.
+/// Everything that inverse_dynamics_node reads from the parameter server.
 struct InverseDynamicsParameters {
   std::string robot_description;      ///< URDF text
-  std::string robot_description_key;  ///< name of the parameter it was found under
+  std::string robot_description_key;  ///< name of the parameter that holds the URDF text
   Scene scene;
   bool scene_given = false;        ///< false: the scene is the default one
-  EstimatorSettings estimator;     ///< as set; a static scene does not estimate
-  std::string frame_prefix;        ///< put before every frame_id
-  bool twist = false;              ///< fill the twists of ~reactions
+  EstimatorSettings estimator;     ///< settings as given; a static scene does not estimate
+  std::string frame_prefix;        ///< prefix of every frame_id
+  bool twist = false;              ///< whether the twists of ~reactions are filled in
   int input_queue = 1000;          ///< messages
   int output_queue = 20000;        ///< messages
   double trajectory_rate = 0;      ///< points/s; 0: all points of a trajectory at once
@@ -38,11 +38,11 @@ struct InverseDynamicsParameters {
   SelfCheckSettings self_check;
 };
 
-/// Reads and checks the private parameters of the node, and robot_description, searched upwards
-/// from the private namespace.
-/// @param private_node NodeHandle("~")
-/// @throws ParameterError or SceneError, one line naming the parameter: missing, unknown, of the
-///   wrong type or out of range.
+/// Reads and checks the private parameters of the node, and robot_description, which is searched
+/// upwards from the private namespace.
+/// @param private_node the handle NodeHandle("~").
+/// @throws ParameterError or SceneError, one line naming the parameter that is missing, unknown, of
+///   a wrong type or out of range.
 InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& private_node);
 
 }  // namespace virtual_work_dynamics

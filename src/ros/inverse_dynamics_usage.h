@@ -24,15 +24,15 @@ loops /tf_static has a frame for each closure, that of ~reaction/<closure>.
 
 parameters
   robot_description          URDF text; searched from the private namespace upwards
-  ~scene                     gravity, reactions, applied wrenches...; see README, "The scene file"
+  ~scene                     gravity, reactions, applied wrenches...; see doc/scene_file.md
   ~estimator/window          samples in the acceleration estimate (9)
   ~estimator/order           order of its polynomial (3)
   ~estimator/lag             samples the outputs are behind the newest joint state (4)
   ~estimator/use_velocity    fit the velocities of joint states, too (true)
   ~estimator/max_gap         longest gap between joint states, s (0.25)
   ~estimator/acceleration    estimate | zero (estimate)
-  ~frame_prefix              put before every frame_id ("")
-  ~twist                     fill the twists of ~reactions (false)
+  ~frame_prefix              prefix of every frame_id ("")
+  ~twist                     fill in the twists of ~reactions (false)
   ~queue_size/input          messages (1000)
   ~queue_size/output         messages (20000)
   ~trajectory_rate           points a second of a trajectory's results; 0: all at once (0)
@@ -40,10 +40,10 @@ parameters
   ~late_threshold            an output this long after its joint state's receipt is late, s (0.001)
   ~cross_check_rate          samples a second that Lagrange's equations check; 0: none (0)
   ~certificates              check power balance and ground's wrench of every sample (false)
-  ~residual_warn             what checks find, relative to sums of magnitudes: WARN from here (1e-10)
-  ~residual_error            ERROR from here (1e-7)
-  ~loop_tolerance            closed loops: a motion that violates one by more, relative, is a WARN (1e-6)
-  ~condition_warn            closed loops: close to a singular position, a WARN, from this condition (1e4)
+  ~residual_warn             WARN from this residual of a check on, relative to sums of magnitudes (1e-10)
+  ~residual_error            ERROR from this residual of a check on (1e-7)
+  ~loop_tolerance            closed loops: WARN where a motion violates one by more, relative (1e-6)
+  ~condition_warn            closed loops: WARN close to a singular position, from this condition on (1e4)
 )";
 
 }  // namespace virtual_work_dynamics

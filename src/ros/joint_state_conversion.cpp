@@ -10,7 +10,8 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Encoders of coupled joints do not agree to the last digit; rad or m.
+// Difference up to which coupled joints agree, as their encoders do not agree to the last digit;
+// rad or m.
 constexpr double kMimicTolerance = 1e-3;
 constexpr double kTurn = 6.283185307179586;
 
@@ -136,7 +137,7 @@ void JointStateConversion::checkMimics(Layout& layout, const std::vector<double>
     const double expected = joint.multiplier * master + joint.offset;
     double difference = given - expected;
     if (joint.type == JointType::kContinuous) difference = std::remainder(difference, kTurn);
-    // NaN disagrees: it is not below the tolerance.
+    // NaN disagrees, too, as it is not below the tolerance.
     if (reported || std::abs(difference) <= kMimicTolerance) continue;
     reported = 1;
     disagreement += (disagreement.empty() ? "" : "; ") + ("mimic joint '" + joint.name) +

@@ -15,25 +15,25 @@
 namespace virtual_work_dynamics {
 
 /// The part of a joint state that belongs to generalized coordinates, as MotionEstimator takes it.
-/// Points into the conversion that made it, until its next call.
+/// Its pointers are valid until the next call of the conversion that made it.
 struct JointSample {
   std::int64_t stamp_ns = 0;
   int count = 0;
   const int* coordinates = nullptr;
   const double* q = nullptr;   ///< rad or m
   const double* qd = nullptr;  ///< rad/s or m/s; null: not given
-  /// Set for the first position of each mimic joint that disagrees with its master; else empty.
+  /// Text about the first position of each mimic joint that disagrees with its master; else empty.
   std::string mimic_disagreement;
 };
 
-/// Joint states by joint name to samples by generalized coordinate. Names are looked up when a list
-/// of names is new; a few lists are remembered, as several drivers may publish in turn.
+/// Converts joint states by joint name into samples by generalized coordinate. Names are looked up
+/// when a list of names is new; a few lists are remembered, as several drivers may publish in turn.
 class JointStateConversion {
  public:
   explicit JointStateConversion(const Mechanism& mechanism);
 
-  /// Checks and converts. Joints that the robot does not have and mimic joints are ignored.
-  /// Allocates only for new lists of names, a rejection or a disagreement.
+  /// Checks and converts a message. Joints that the robot does not have and mimic joints are
+  /// ignored. Allocates only for new lists of names, a rejection or a disagreement.
   /// @returns why the message is to be dropped, or nothing.
   std::optional<Rejection> convert(const sensor_msgs::JointState& message, JointSample& sample);
 
@@ -43,11 +43,11 @@ class JointStateConversion {
     int master_column;
     int joint;
   };
-  /// What a list of names means.
+  /// The columns of a message with a certain list of names.
   struct Layout {
     std::vector<std::string> names;
-    std::vector<int> columns;      ///< of the message
-    std::vector<int> coordinates;  ///< in the order of `columns`
+    std::vector<int> columns;      ///< columns of the message that are coordinates
+    std::vector<int> coordinates;  ///< coordinates in the order of `columns`
     std::vector<MimicColumn> mimics;
     std::optional<Rejection> rejection;
   };

@@ -9,28 +9,29 @@
 
 namespace virtual_work_dynamics {
 
-/// When the joint states last showed each coordinate. The reading thread tells the time, so that
-/// the other one, which takes in the messages, need not look at a clock.
+/// Remembers when the joint states last showed each coordinate. The reading thread tells the time,
+/// so that the receiving thread need not look at a clock.
 class JointWatch {
  public:
   using Clock = std::chrono::steady_clock;
-  /// A joint that was not shown for so long is waited for.
+  /// A joint that was not shown for longer than this is missing.
   static constexpr std::chrono::seconds kPatience{5};
 
-  /// @param needed which of them are waited for.
+  /// @param needed which of the joints are waited for.
   JointWatch(std::vector<std::string> joints, std::vector<bool> needed);
 
-  /// Receiving thread.
+  /// Takes note of `count` coordinates that a joint state shows; called by the receiving thread.
   void saw(const int* coordinates, int count);
-  /// From now on all are waited for.
+  /// Makes all joints be waited for from now on; called by the receiving thread.
   void needAll() { all_needed_ = true; }
 
-  /// Reading thread.
+  /// Tells the time; called by the reading thread.
   void setTime(Clock::time_point now);
+  /// The joints waited for that were never seen.
   std::vector<std::string> neverSeen() const;
-  /// Those not waited for that were ever seen, or that never were.
+  /// The joints not waited for that were seen before (true) or never (false).
   std::vector<std::string> notNeeded(bool seen) const;
-  /// Those never seen, and those not seen for kPatience.
+  /// The joints waited for that were never seen, or not for kPatience.
   std::vector<std::string> missing() const;
 
  private:

@@ -1,13 +1,13 @@
 #pragma once
 
-#include "virtual_work_dynamics/closed_loop_dynamics.h"
+#include "virtual_work_dynamics/results.h"
 
 namespace virtual_work_dynamics {
 
-/// What samples of closed loops are to keep within; beyond is a WARN.
+/// Limits for samples of closed loops; beyond them there is a WARN.
 struct LoopLimits {
-  double tolerance = 1e-6;              ///< of the loops, relative
-  double condition = kCloseToSingular;  ///< of ClosedLoopDynamics::closureConditions()
+  double tolerance = 1e-6;              ///< of relative residuals
+  double condition = kCloseToSingular;  ///< of LoopResults::closure_conditions
 };
 
 }  // namespace virtual_work_dynamics

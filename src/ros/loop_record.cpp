@@ -9,7 +9,7 @@ constexpr double ClosureResidual::*kLevel[] = {
     &ClosureResidual::position, &ClosureResidual::velocity, &ClosureResidual::acceleration};
 
 void raise(std::atomic<double>& largest, double value) {
-  // Taken between the two lines, the larger value belongs to the next report.
+  // If take() runs between the two lines, the larger value belongs to the next report.
   if (value > largest.load(std::memory_order_relaxed)) {
     largest.store(value, std::memory_order_relaxed);
   }
@@ -27,46 +27,62 @@ std::vector<std::size_t> takeMarks(std::vector<std::atomic<bool>>& marks) {
 
 constexpr std::size_t LoopRecord::kLevels;
 
-LoopRecord::LoopRecord(std::size_t closures, std::size_t efforts, std::size_t reactions)
-    : closures_(closures), efforts_(efforts), reactions_(reactions) {}
+LoopRecord::LoopRecord(const Dynamics& dynamics, std::size_t reactions, const LoopLimits& limits)
+    : closed_(dynamics.closed()),
+      limits_(limits),
+      closures_(dynamics.closureNames().size()),
+      efforts_(dynamics.effortNames().size()),
+      reactions_(reactions) {}
 
-void LoopRecord::record(const LoopPlan& plan, const LoopLimits& limits) {
-  const ClosedLoopDynamics& results = plan.results();
-  bool violated = false;
-  for (std::size_t c = 0; c < closures_.size(); ++c) {
-    if (!plan.singular()) raise(closures_[c].condition, results.closureConditions()[c]);
-    for (std::size_t i = 0; i < kLevels; ++i) {
-      const double relative = results.relativeResiduals()[c].*kLevel[i];
-      raise(closures_[c].largest[i], results.residuals()[c].*kLevel[i]);
-      raise(closures_[c].relative[i], relative);
-      violated = violated || !(relative <= limits.tolerance);
-    }
-  }
-  if (violated) violations_.add();
-  const Determinacy& found = results.determinacy();
+void LoopRecord::record(const Results& results, const ActivePlan& plan) {
+  if (!closed_) return;
+  recordResiduals(results);
+  const Determinacy& found = results.loops.determinacy;
   rank_.store(found.rank, std::memory_order_relaxed);
   redundant_constraints_.store(found.redundant_constraints, std::memory_order_relaxed);
   redundancy_.store(found.redundancy, std::memory_order_relaxed);
   free_motions_.store(found.free_motions, std::memory_order_relaxed);
   gap_.store(found.gap, std::memory_order_relaxed);
   condition_.store(found.condition, std::memory_order_relaxed);
-  if (!plan.singular() && found.condition > limits.condition) close_to_singular_.add();
-  if (plan.singular()) {
-    singular_.add();
-    const auto mark = [](std::atomic<bool>& left_out, bool exists) {
-      if (!exists) left_out.store(true, std::memory_order_relaxed);
-    };
-    for (std::size_t i = 0; results.request().efforts && i < efforts_.size(); ++i) {
-      mark(efforts_[i], plan.effortExists()[i]);
-    }
-    for (std::size_t i = 0; i < plan.rootAxesExist().size(); ++i) {
-      mark(reactions_[i], plan.rootAxesExist()[i]);
-    }
-    for (std::size_t i = 0; i < plan.wrenches(); ++i) {
-      mark(reactions_[plan.reactionOf(i)], plan.childAxesExist()[i]);
-    }
+  if (results.singular()) {
+    recordSingular(results, plan);
+  } else if (found.condition > limits_.condition) {
+    close_to_singular_.add();
   }
   samples_.add();
+}
+
+void LoopRecord::recordResiduals(const Results& results) {
+  bool violated = false;
+  for (std::size_t c = 0; c < closures_.size(); ++c) {
+    if (!results.singular()) {
+      raise(closures_[c].condition, results.loops.closure_conditions[c]);
+    }
+    for (std::size_t i = 0; i < kLevels; ++i) {
+      const double relative = results.loops.relative_residuals[c].*kLevel[i];
+      raise(closures_[c].largest[i], results.loops.residuals[c].*kLevel[i]);
+      raise(closures_[c].relative[i], relative);
+      violated = violated || !(relative <= limits_.tolerance);
+    }
+  }
+  if (violated) violations_.add();
+}
+
+// Marks results that somebody listens to and that have no value.
+void LoopRecord::recordSingular(const Results& results, const ActivePlan& plan) {
+  singular_.add();
+  const auto mark = [](std::atomic<bool>& left_out, bool exists) {
+    if (!exists) left_out.store(true, std::memory_order_relaxed);
+  };
+  for (std::size_t i = 0; plan.dynamics.request().efforts && i < efforts_.size(); ++i) {
+    mark(efforts_[i], results.effortExists(i));
+  }
+  for (std::size_t i = 0; i < plan.root_reactions.size(); ++i) {
+    mark(reactions_[plan.root_reactions[i]], results.rootAxesExist(i) == kAllComponents);
+  }
+  for (std::size_t i = 0; i < plan.child_reactions.size(); ++i) {
+    mark(reactions_[plan.child_reactions[i]], results.childAxesExist(i) == kAllComponents);
+  }
 }
 
 LoopRecord::Report LoopRecord::take() {

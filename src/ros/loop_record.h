@@ -7,38 +7,43 @@
 #include <string>
 #include <vector>
 
+#include "ros/active_plan.h"
 #include "ros/counters.h"
 #include "ros/loop_limits.h"
-#include "ros/loop_plan.h"
 
 namespace virtual_work_dynamics {
 
-/// What the samples of a mechanism with closed loops were like since they were last asked for. One
-/// thread records, another one takes; neither waits for the other nor allocates to record.
+/// Residuals, conditions and missing results of samples with closed loops since the last report.
+/// One thread records and another one takes reports; neither waits for the other, and recording
+/// does not allocate.
 class LoopRecord {
  public:
   static constexpr std::size_t kLevels = 3;  // positions, velocities, accelerations
-  /// By level.
+  /// One value for each level.
   using Levels = std::array<double, kLevels>;
 
-  LoopRecord(std::size_t closures, std::size_t efforts, std::size_t reactions);
+  /// @param dynamics of the mechanism and the scene; for an open chain nothing is recorded
+  /// @param reactions number of reactions that the scene asks for
+  LoopRecord(const Dynamics& dynamics, std::size_t reactions, const LoopLimits& limits);
 
-  void record(const LoopPlan& plan, const LoopLimits& limits);
+  /// Records a sample. Does not allocate.
+  void record(const Results& results, const ActivePlan& plan);
   /// Whether the positions of passive joints come with the joint states.
   void setPassiveGiven(bool given) { passive_given_ = given; }
 
   struct Report {
-    bool news = false;               ///< samples were computed since the report before
+    bool news = false;               ///< whether samples were computed since the last report
     std::vector<Levels> residuals;   ///< largest of each closure, m or rad, per s, per s^2
-    std::vector<Levels> relative;    ///< the same without units
-    std::vector<double> conditions;  ///< largest of each closure, out of singular positions
-    std::vector<std::size_t> efforts, reactions;  ///< left out
+    std::vector<Levels> relative;    ///< largest of each closure, without units
+    std::vector<double> conditions;  ///< largest of each closure, without singular positions
+    std::vector<std::size_t> efforts, reactions;  ///< indices of those left out
     std::uint64_t singular = 0;                   ///< samples, ever
     std::uint64_t violations = 0;                 ///< samples, ever
-    std::uint64_t close_to_singular = 0;          ///< samples, ever; none that are singular
+    std::uint64_t close_to_singular = 0;          ///< samples, ever, without singular ones
     Determinacy determinacy;                      ///< of the latest sample
     bool passive_given = false;
   };
+  /// What was recorded since the call before. Allocates.
   Report take();
 
  private:
@@ -47,6 +52,11 @@ class LoopRecord {
     std::atomic<double> condition{0};
   };
 
+  void recordResiduals(const Results& results);
+  void recordSingular(const Results& results, const ActivePlan& plan);
+
+  const bool closed_;
+  const LoopLimits limits_;
   std::vector<OfClosure> closures_;
   std::vector<std::atomic<bool>> efforts_;    // left out
   std::vector<std::atomic<bool>> reactions_;  // left out
@@ -54,7 +64,7 @@ class LoopRecord {
   std::atomic<double> gap_{0}, condition_{0};
   std::atomic<bool> passive_given_{false};
   Counter samples_, singular_, violations_, close_to_singular_;
-  std::uint64_t reported_ = 0;  // samples, the taking thread's
+  std::uint64_t reported_ = 0;  // samples; only the taking thread uses it
 };
 
 }  // namespace virtual_work_dynamics

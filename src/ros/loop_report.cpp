@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "ros/determinacy_message.h"
 #include "ros/message_text.h"
-#include "ros/output_messages.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -48,15 +48,16 @@ std::string count(std::size_t number, const char* one, const char* many) {
 
 }  // namespace
 
-Names loopLines(const Mechanism& mechanism, const Scene& scene, const LoopSamples& loops) {
+Names loopLines(const Mechanism& mechanism, const Scene& scene, const Dynamics& everything) {
   Names actuated, passive;
-  for (std::size_t i = 0; i < mechanism.coordinateNames().size(); ++i) {
-    (loops.completer.actuated()[i] ? actuated : passive).push_back(mechanism.coordinateNames()[i]);
+  const Names& efforts = everything.effortNames();
+  for (std::size_t i = 0; i < efforts.size(); ++i) {
+    const bool carries = i >= everything.actuated().size() || everything.actuated()[i];
+    (carries ? actuated : passive).push_back(efforts[i]);
   }
-  const Names efforts = namesOfEfforts(mechanism, scene);
-  actuated.insert(actuated.end(), efforts.begin() + mechanism.coordinateNames().size(),
-                  efforts.end());
-  const diagnostic_msgs::DiagnosticArray& found = loops.determinacy.message();
+  const DeterminacyMessage assembled = assembledDeterminacy(
+      mechanism, everything, requestedReactions(mechanism, scene), kCloseToSingular);
+  const diagnostic_msgs::DiagnosticArray& found = assembled.message();
   std::string numbers;
   for (std::size_t i = 0; i < 4; ++i) {
     const diagnostic_msgs::KeyValue& entry = found.status[0].values[i];
@@ -69,19 +70,19 @@ Names loopLines(const Mechanism& mechanism, const Scene& scene, const LoopSample
               "; components of reactions: " + found.status[2].message};
 }
 
-LoopReport::LoopReport(const Mechanism& mechanism, const Scene& scene, Names reactions,
-                       LoopRecord* record, const LoopLimits& limits)
-    : efforts_(namesOfEfforts(mechanism, scene)),
+LoopReport::LoopReport(const Dynamics& dynamics, Names reactions, LoopRecord& record,
+                       const LoopLimits& limits)
+    : closures_(dynamics.closureNames()),
+      efforts_(dynamics.effortNames()),
       reactions_(std::move(reactions)),
+      closed_(dynamics.closed()),
       record_(record),
-      limits_(limits) {
-  for (const Closure& closure : scene.closures) closures_.push_back(closure.name);
-}
+      limits_(limits) {}
 
 void LoopReport::add(DiagnosticStatusWrapper& status) {
-  if (record_ == nullptr) return;
-  const LoopRecord::Report report = record_->take();
-  status.add("passive joints", report.passive_given ? "given" : "by the closures");
+  if (!closed_) return;
+  const LoopRecord::Report report = record_.take();
+  status.add("passive joints", report.passive_given ? "given" : "from the closures");
   if (report.news) latest_ = report;
   status.add("samples that violate a loop", report.violations);
   status.add("samples in singular positions", report.singular);
@@ -139,7 +140,7 @@ void LoopReport::addConditions(DiagnosticStatusWrapper& status,
   status.mergeSummary(DiagnosticStatus::WARN,
                       "close to a singular position of the loops through " + shortList(loops) +
                           ", condition " + shortNumber(largestOf(conditions)) +
-                          ": forces may be as many times the load; ~condition_warn is " +
+                          ": forces may exceed the load by this factor; ~condition_warn is " +
                           numberText(limits_.condition));
 }
 

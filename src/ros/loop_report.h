@@ -7,25 +7,26 @@
 #include <vector>
 
 #include "ros/loop_record.h"
-#include "ros/loop_samples.h"
+#include "virtual_work_dynamics/dynamics.h"
 
 namespace virtual_work_dynamics {
 
-/// Lines for the log: what the closed loops are like where they were assembled.
+/// Describes, in lines for the log, the closed loops in their assembled position.
+/// @param everything Dynamics of all that the scene asks for, in both axes
 std::vector<std::string> loopLines(const Mechanism& mechanism, const Scene& scene,
-                                   const LoopSamples& loops);
+                                   const Dynamics& everything);
 
-/// How far motions violate the loops, what is determined and where positions were singular, for
-/// /diagnostics. One thread.
+/// Reports on /diagnostics how far motions violate the loops, what is determined and whether
+/// positions were singular. Serves one thread.
 class LoopReport {
  public:
-  /// @param reactions that the scene asks for. @param record null: an open chain, nothing to
-  /// report.
-  LoopReport(const Mechanism& mechanism, const Scene& scene, std::vector<std::string> reactions,
-             LoopRecord* record, const LoopLimits& limits);
+  /// @param dynamics of the mechanism and the scene; for an open chain there is nothing to report
+  /// @param reactions those that the scene asks for
+  LoopReport(const Dynamics& dynamics, std::vector<std::string> reactions, LoopRecord& record,
+             const LoopLimits& limits);
 
-  /// Adds what samples since the call before were like, and to the summary what is wrong with them.
-  /// Residuals hold until there are others.
+  /// Adds what was recorded since the call before, and to the summary what is wrong with it.
+  /// Residuals stay until there are new ones.
   void add(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
@@ -39,9 +40,10 @@ class LoopReport {
                    const LoopRecord::Report& report) const;
 
   std::vector<std::string> closures_, efforts_, reactions_;
-  LoopRecord* record_;
+  bool closed_;
+  LoopRecord& record_;
   LoopLimits limits_;
-  LoopRecord::Report latest_;  // that had news
+  LoopRecord::Report latest_;  // the last one with news
   std::uint64_t singular_ = 0, violations_ = 0;
 };
 

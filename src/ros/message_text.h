@@ -6,7 +6,7 @@
 
 namespace virtual_work_dynamics {
 
-/// Names as a list for a message to the user, cut short after a few.
+/// Lists names for a message to the user, cut short after a few.
 template <typename Names>
 std::string shortList(const Names& names) {
   constexpr std::size_t kMost = 8;
@@ -19,7 +19,7 @@ std::string shortList(const Names& names) {
   return text;
 }
 
-/// Seconds with all nine decimals.
+/// A stamp in seconds with all nine decimals.
 inline std::string stampText(std::int64_t stamp_ns) {
   std::string fraction = std::to_string(stamp_ns % 1000000000);
   fraction.insert(0, 9 - fraction.size(), '0');

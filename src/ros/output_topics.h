@@ -1,49 +1,41 @@
 #pragma once
 
-#include <diagnostic_msgs/DiagnosticArray.h>
 #include <ros/callback_queue_interface.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
-#include <trajectory_msgs/JointTrajectory.h>
 
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "ros/active_plan.h"
+#include "ros/outputs.h"
 
 namespace virtual_work_dynamics {
 
-/// The node's publishers and who listens to them. Publishing and asking for the audience may happen
-/// in different threads.
+/// The publishers of the node's outputs and who listens to them. Publishing and asking for the
+/// audience may happen in different threads.
 class OutputTopics {
  public:
-  /// Advertises everything.
-  /// @param reactions topic names of the reactions that the scene asks for; none: no reaction
-  /// topics.
-  /// @param closed_loops whether there is a ~determinacy, latched.
+  /// Advertises all outputs, and publishes what latched ones say at the start.
   /// @param queue_size messages each subscriber may be behind.
   /// @param callbacks queue on which `changed` is called when a subscriber comes or goes.
-  OutputTopics(ros::NodeHandle private_node, const std::vector<std::string>& reactions,
-               bool closed_loops, int queue_size, ros::CallbackQueueInterface& callbacks,
-               const std::function<void()>& changed);
+  OutputTopics(ros::NodeHandle private_node, const Outputs& outputs, int queue_size,
+               ros::CallbackQueueInterface& callbacks, const std::function<void()>& changed);
 
+  /// The outputs that have subscribers now.
   Audience audience() const;
   /// The topics of an audience.
   std::vector<std::string> names(const Audience& audience) const;
 
-  /// Publishes the messages of a plan to its audience, ~effort first; of closed loops, wrenches
-  /// that exist.
-  void publishSample(const ActivePlan& plan) const;
-  void publishDeterminacy(const diagnostic_msgs::DiagnosticArray& message) const;
-  void publishTrajectory(const trajectory_msgs::JointTrajectory& message) const;
+  /// Publishes the messages of samples, or that of trajectories, to a plan's audience.
+  void publishSample(const ActivePlan& plan) const { publish(plan, false); }
+  void publishTrajectory(const ActivePlan& plan) const { publish(plan, true); }
 
  private:
-  ros::Publisher effort_;
-  ros::Publisher reactions_;
-  ros::Publisher trajectory_;
-  ros::Publisher determinacy_;
-  std::vector<ros::Publisher> wrenches_;
+  void publish(const ActivePlan& plan, bool trajectories) const;
+
+  std::vector<ros::Publisher> publishers_;  // by output
 };
 
 }  // namespace virtual_work_dynamics

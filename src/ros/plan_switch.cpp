@@ -16,13 +16,13 @@ void PlanSwitch::offer(std::unique_ptr<ActivePlan> plan) {
 }
 
 void PlanSwitch::collect() {
-  const std::unique_ptr<ActivePlan> outworn(retired_.exchange(nullptr));
+  const std::unique_ptr<ActivePlan> replaced(retired_.exchange(nullptr));
 }
 
 ActivePlan& PlanSwitch::current() {
-  // With the slot for the outworn plan still full, the switch waits for the next sample.
+  // While the slot for the replaced plan is still full, the switch waits for the next sample.
   if (offered_.load(std::memory_order_relaxed) != nullptr && retired_.load() == nullptr) {
-    // Only the compiling thread fills the slot, and it never leaves it empty again.
+    // Only the compiling thread fills offered_, and it does not empty it again.
     ActivePlan* const next = offered_.exchange(nullptr);
     retired_.store(current_);
     current_ = next;

@@ -7,30 +7,31 @@
 
 namespace virtual_work_dynamics {
 
-/// Hands plans from the thread that compiles them to the thread that computes, and the outworn ones
-/// back for deletion. The computing side neither waits, allocates nor frees.
+/// Hands plans from the thread that compiles them to the thread that computes, and the replaced
+/// ones back for deletion. The computing side neither waits, allocates nor frees.
 class PlanSwitch {
  public:
-  /// @param first in use from the start.
+  /// @param first the plan in use at the start
   explicit PlanSwitch(std::unique_ptr<ActivePlan> first);
-  /// Only when no thread uses it any more.
+  /// To be called only when no thread uses the switch any more.
   ~PlanSwitch();
   PlanSwitch(const PlanSwitch&) = delete;
   PlanSwitch& operator=(const PlanSwitch&) = delete;
 
-  /// Compiling thread: makes `plan` the one that current() will return next. One that was offered
-  /// before and never taken is deleted.
+  /// For the compiling thread: makes `plan` the one that current() returns next. A plan that was
+  /// offered before and never taken is deleted.
   void offer(std::unique_ptr<ActivePlan> plan);
-  /// Compiling thread: deletes the plan that has been replaced, if any.
+  /// For the compiling thread: deletes the plan that has been replaced, if any.
   void collect();
 
-  /// Computing thread: the newest plan. The one of the call before must no longer be used.
+  /// For the computing thread: returns the newest plan. The plan of the call before must no longer
+  /// be used.
   ActivePlan& current();
 
  private:
   std::atomic<ActivePlan*> offered_{nullptr};
   std::atomic<ActivePlan*> retired_{nullptr};
-  ActivePlan* current_;  // the computing thread's own
+  ActivePlan* current_;  // used by the computing thread only
 };
 
 }  // namespace virtual_work_dynamics

@@ -100,7 +100,8 @@ std::vector<double> numbersOf(const XmlRpcValue& value, const std::string& name)
 }
 
 PrivateParameters::PrivateParameters(const ros::NodeHandle& private_node) {
-  // A failed read looks like an unset parameter, so ask first whether there is anything to read.
+  // A failed read looks like an unset parameter, so that the first question is whether there is
+  // anything to read.
   std::vector<std::string> names;
   if (!ros::param::getParamNames(names)) {
     throw ParameterError("the parameter server does not answer");

@@ -20,19 +20,20 @@ class ParameterError : public Error {
   using Error::Error;
 };
 
-/// The private parameters of a node, read once and type-checked; remembers what was asked for, so
-/// that keys nobody knows can be refused. Names may be nested: "estimator/window". Integers and
-/// numeric strings are numbers (rosparam turns `1e9` into a string). Getters return the fallback
-/// for a parameter that is not set, and throw ParameterError naming one of the wrong type.
+/// The private parameters of a node, read once and type-checked. The object remembers which were
+/// asked for, so that unknown ones can be refused. Names may be nested: "estimator/window".
+/// Integers and numeric strings are numbers (rosparam turns `1e9` into a string). Getters return
+/// the fallback for a parameter that is not set, and throw ParameterError naming one of a wrong
+/// type.
 class PrivateParameters {
  public:
   /// Takes all parameters in the namespace of `private_node`, NodeHandle("~").
   /// @throws ParameterError when the parameter server does not answer.
   explicit PrivateParameters(const ros::NodeHandle& private_node);
-  /// The same from a struct (or an invalid value: nothing is set).
+  /// Takes the parameters from a struct; with an invalid value, none is set.
   explicit PrivateParameters(XmlRpc::XmlRpcValue tree);
 
-  /// True when the parameter is set. Does not count as reading it.
+  /// Whether the parameter is set. A call does not count as reading it.
   bool has(const std::string& name) const;
 
   double number(const std::string& name, double fallback);
@@ -45,7 +46,7 @@ class PrivateParameters {
   /// The value as it is, with everything below it; an invalid value when it is not set.
   XmlRpc::XmlRpcValue raw(const std::string& name);
 
-  /// Marks a parameter as known that another library of this node reads by itself.
+  /// Marks as known a parameter that another library of this node reads.
   void expect(const std::string& name) { known_.insert(name); }
 
   /// @throws ParameterError naming every parameter that was set but never read.
@@ -59,14 +60,15 @@ class PrivateParameters {
   std::set<std::string> known_;
 };
 
-/// A value inside a raw parameter as a finite number; `name` stands for it in the message.
-/// @throws ParameterError when it is none.
+/// Reads a value inside a raw parameter as a finite number; `name` stands for it in the message.
+/// @throws ParameterError when it is not a finite number.
 double numberOf(const XmlRpc::XmlRpcValue& value, const std::string& name);
 
-/// The same for a list of numbers.
+/// Reads a value inside a raw parameter as a list of finite numbers; `name` stands for it in the
+/// message. @throws ParameterError when it is not a list of finite numbers.
 std::vector<double> numbersOf(const XmlRpc::XmlRpcValue& value, const std::string& name);
 
-/// "parameter ~name: problem", for errors about a parameter's value.
+/// Makes the error "parameter ~name: problem".
 ParameterError parameterError(const std::string& name, const std::string& problem);
 
 }  // namespace virtual_work_dynamics

@@ -35,7 +35,7 @@ constexpr std::size_t index(DropReason reason) {
   return static_cast<std::size_t>(reason);
 }
 
-/// A reason and the line that names the culprit.
+/// Why a message is dropped, with a line that names the culprit.
 struct Rejection {
   DropReason reason;
   std::string text;

@@ -8,7 +8,6 @@
 #include "ros/message_text.h"
 #include "ros/private_parameters.h"
 #include "ros/topic_names.h"
-#include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {
@@ -22,7 +21,7 @@ Mechanism readRobot(const InverseDynamicsParameters& parameters) {
   }
 }
 
-// The estimator names its setting itself; what is wrong must show before anything is advertised.
+// Checks the settings before anything is advertised; the estimator names a wrong one itself.
 EstimatorSettings checkedSettings(const Mechanism& mechanism, EstimatorSettings settings,
                                   const Scene& scene) {
   try {
@@ -34,6 +33,15 @@ EstimatorSettings checkedSettings(const Mechanism& mechanism, EstimatorSettings 
   return settings;
 }
 
+// Compiles all that the scene asks for.
+Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const std::string& key) {
+  if (mechanism.coordinates().empty()) {
+    throw UrdfError("parameter " + key + ": robot '" + mechanism.name() +
+                    "' has no joint that moves");
+  }
+  return Dynamics(mechanism, scene);
+}
+
 }  // namespace
 
 RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
@@ -41,30 +49,20 @@ RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
       scene(parameters.scene),
       reactions(requestedReactions(mechanism, scene)),
       reaction_topics(legalTopicNames(reactions)),
-      estimator(checkedSettings(mechanism, parameters.estimator, scene)) {
-  if (mechanism.coordinates().empty()) {
-    throw UrdfError("parameter " + parameters.robot_description_key + ": robot '" +
-                    mechanism.name() + "' has no joint that moves");
-  }
+      estimator(checkedSettings(mechanism, parameters.estimator, scene)),
+      everything(movableDynamics(mechanism, scene, parameters.robot_description_key)) {
   closure_frames = closureFrames(mechanism, scene, reactions, parameters.frame_prefix);
-  if (needsClosedLoops(scene)) {
-    loops = std::make_unique<LoopSamples>(mechanism, scene, reactions, parameters.loop_limits);
-    plan_lines = loopLines(mechanism, scene, *loops);
-  } else {
-    plan_lines = InverseDynamics(mechanism, scene).summary().lines();
-  }
+  outputs = makeOutputs(mechanism, everything,
+                        {reactions, reaction_topics, parameters.frame_prefix, parameters.twist,
+                         parameters.loop_limits.condition});
+  plan_lines =
+      everything.closed() ? loopLines(mechanism, scene, everything) : everything.summary().lines();
 }
 
 std::vector<bool> RobotTask::passive() const {
-  if (!loops) return {};
-  std::vector<bool> passive = loops->completer.actuated();
+  std::vector<bool> passive = everything.actuated();
   passive.flip();
   return passive;
-}
-
-std::vector<bool> RobotTask::needed() const {
-  if (loops) return loops->completer.needed();
-  return std::vector<bool>(mechanism.coordinates().size(), true);
 }
 
 void RobotTask::log(const InverseDynamicsParameters& parameters) const {
@@ -72,7 +70,7 @@ void RobotTask::log(const InverseDynamicsParameters& parameters) const {
   const auto& names = mechanism.coordinateNames();
   const Eigen::Vector3d& g = scene.gravity;
   const std::string accelerations =
-      scene.static_motion ? "static scene, no velocities nor accelerations"
+      scene.static_motion ? "static scene without velocities and accelerations"
       : !estimator.estimate
           ? "accelerations of joint states taken as zero"
           : "accelerations of joint states estimated (window " + std::to_string(estimator.window) +

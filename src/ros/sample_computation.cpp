@@ -1,132 +1,92 @@
 #include "ros/sample_computation.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace virtual_work_dynamics {
 
 SampleComputation::SampleComputation(Eigen::Index coordinates, bool static_motion,
-                                     Counters& counters, CertificateRecord& certificates,
-                                     LoopSamples* loops)
+                                     MotionCompleter& completer, const SampleRecords& records)
     : static_motion_(static_motion),
-      counters_(counters),
-      certificates_(certificates),
-      loops_(loops),
+      completer_(completer),
+      records_(records),
       motion_(coordinates),
       tree_effort_(coordinates) {}
 
 SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan, std::int64_t stamp_ns) {
   if (static_motion_) motion_.qd.setZero();
-  counters_.samples.add();
-  if (loops_ == nullptr) return computeOne(plan, stamp_ns);
+  records_.counters.samples.add();
   const auto start = Clock::now();
-  if (!loops_->completer.complete(motion_)) return Outcome::kOpenLoop;
-  return computeLoops(plan, stamp_ns, start);
+  if (!completer_.complete(motion_, plan.dynamics, plan.workspace)) return Outcome::kOpenLoop;
+  return computeOne(plan, stamp_ns, start);
 }
 
 SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan,
                                                       const TrajectoryMotion& trajectory,
                                                       std::size_t point) {
   takePoint(trajectory, point);
-  if (loops_ != nullptr) {
-    if (trajectory.open[point]) return Outcome::kOpenLoop;
-    return computeLoops(plan, trajectory.stamps_ns[point], Clock::now());
-  }
-  return computeOne(plan, trajectory.stamps_ns[point]);
+  if (trajectory.isOpen(point)) return Outcome::kOpenLoop;
+  return computeOne(plan, trajectory.stamps_ns[point], Clock::now());
 }
 
 SampleComputation::Outcome SampleComputation::computeNext(ActivePlan& plan,
                                                           const TrajectoryMotion& trajectory,
-                                                          std::size_t point) {
-  if (loops_ != nullptr) return compute(plan, trajectory, point);
-  ChainPlan& chain = *plan.chain;
-  const std::size_t place = point % chain.points.capacity();
+                                                          std::size_t point, bool as_sample) {
+  const std::size_t place = point % plan.points.capacity();
   if (place == 0) computeBlock(plan, trajectory, point);
   takePoint(trajectory, point);
-  chain.points.read(place, chain.results);
+  if (trajectory.isOpen(point)) return Outcome::kOpenLoop;
   if (!motion_.finite()) return Outcome::kNotFinite;
-  return fillMessages(plan, trajectory.stamps_ns[point]);
+  return finish(plan, trajectory.stamps_ns[point], plan.points.read(place),
+                as_sample ? Of::kBoth : Of::kTrajectory);
 }
 
 void SampleComputation::takePoint(const TrajectoryMotion& trajectory, std::size_t point) {
-  const MotionTable& table = trajectory.table;
-  const auto row = static_cast<Eigen::Index>(point);
-  motion_.q = table.positions.row(row);
-  motion_.qd = table.velocities.row(row);
-  motion_.qdd = table.accelerations.row(row);
+  takeRow(trajectory.table, point, motion_);
   if (static_motion_) motion_.qd.setZero();
-  counters_.points.add();
+  records_.counters.points.add();
 }
 
 void SampleComputation::computeBlock(ActivePlan& plan, const TrajectoryMotion& trajectory,
                                      std::size_t first) {
-  SampleBlock& points = plan.chain->points;
-  const std::size_t count = std::min(points.capacity(), trajectory.stamps_ns.size() - first);
+  const std::size_t count = std::min(plan.points.capacity(), trajectory.stamps_ns.size() - first);
   const auto start = Clock::now();
-  points.compute(trajectory.table, first, count);
+  plan.points.compute(trajectory.table, first, count);
   const std::chrono::nanoseconds share = (Clock::now() - start) / count;
-  for (std::size_t i = 0; i < count; ++i) counters_.run_times.record(share.count());
+  for (std::size_t i = 0; i < count; ++i) records_.counters.run_times.record(share.count());
 }
 
-SampleComputation::Outcome SampleComputation::computeOne(ActivePlan& plan, std::int64_t stamp_ns) {
+SampleComputation::Outcome SampleComputation::computeOne(ActivePlan& plan, std::int64_t stamp_ns,
+                                                         Clock::time_point start) {
   if (!motion_.finite()) return Outcome::kNotFinite;
-  const auto start = Clock::now();
-  plan.chain->dynamics.compute(motion_, plan.chain->results);
-  const auto end = Clock::now();
-  counters_.run_times.record(
-      std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count());
-  return fillMessages(plan, stamp_ns);
+  plan.dynamics.compute(motion_, plan.workspace);
+  const std::chrono::nanoseconds time = Clock::now() - start;
+  records_.counters.run_times.record(time.count());
+  return finish(plan, stamp_ns, plan.workspace.results(), Of::kSample);
 }
 
-SampleComputation::Outcome SampleComputation::computeLoops(ActivePlan& plan, std::int64_t stamp_ns,
-                                                           Clock::time_point start) {
-  if (!motion_.finite()) return Outcome::kNotFinite;
-  LoopPlan& loops = *plan.loops;
-  loops.compute(motion_);
-  const auto end = Clock::now();
-  counters_.run_times.record(
-      std::chrono::duration_cast<std::chrono::nanoseconds>(end - start).count());
-  if (!loops.results().finite()) return Outcome::kNotFinite;
-  plan.messages.fill(stamp_ns, motion_, loops);
-  loops_->record.record(loops, loops_->limits);
-  checkLoops(plan);
-  return Outcome::kDone;
-}
-
-SampleComputation::Outcome SampleComputation::fillMessages(ActivePlan& plan,
-                                                           std::int64_t stamp_ns) {
-  const Workspace& results = plan.chain->results;
+SampleComputation::Outcome SampleComputation::finish(ActivePlan& plan, std::int64_t stamp_ns,
+                                                     const Results& results, Of messages) {
   if (!results.finite()) return Outcome::kNotFinite;
-  plan.messages.fill(stamp_ns, motion_, results);
-  check(plan);
+  for (ActiveOutput& output : plan.outputs) {
+    if (messages == (output.of_trajectories ? Of::kSample : Of::kTrajectory)) continue;
+    output.message->fill({stamp_ns, motion_, results});
+  }
+  records_.loops.record(results, plan);
+  check(plan, results);
   return Outcome::kDone;
 }
 
-void SampleComputation::check(ActivePlan& plan) {
-  const Workspace& results = plan.chain->results;
-  if (plan.cross_check) {
-    plan.cross_check->offer(motion_, results.effort(), results.childAxes(), results.rootAxes());
-  }
-  if (plan.certifier) {
-    // Child axes of ground's reaction are the root link's.
-    const Wrench& ground = results.childAxes()[plan.ground];
-    certificates_.record(plan.certifier->check(motion_, results.effort(), ground));
-  }
-}
-
-// Singular positions need not bear the load.
-void SampleComputation::checkLoops(ActivePlan& plan) {
-  if (plan.loops->singular()) return;
-  const ClosedLoopDynamics& results = plan.loops->results();
-  if (plan.cross_check) {
-    plan.cross_check->offer(motion_, results.effort(), results.childAxes(), results.rootAxes(),
-                            results.treeWrenches());
-  }
+// Has a sample checked, unless its position is singular and so need not bear the load.
+void SampleComputation::check(ActivePlan& plan, const Results& results) {
+  if (results.singular()) return;
+  if (plan.cross_check) plan.cross_check->offer(motion_, results);
   if (!plan.certifier) return;
-  results.applyTo(*plan.certifier);
-  tree_effort_ = results.effort().head(tree_effort_.size());
-  const Wrench& ground = results.childAxes()[plan.ground];
-  certificates_.record(plan.certifier->check(motion_, tree_effort_, ground));
+  plan.dynamics.getTreeLoad(results, plan.tree_load);
+  tree_effort_ = results.effort.head(tree_effort_.size());
+  // The child axes of ground's reaction are those of the root link.
+  const Wrench& ground = results.child_axes[plan.ground];
+  records_.certificates.record(
+      plan.certifier->check(motion_, plan.tree_load, tree_effort_, ground));
 }
 
 }  // namespace virtual_work_dynamics

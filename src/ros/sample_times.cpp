@@ -18,7 +18,7 @@ std::int64_t SampleTimes::offset(std::int64_t k) const {
 }
 
 double SampleTimes::time(std::int64_t k) const {
-  // The rounding of the duration to nanoseconds must not lead out of the motion, where it is at
+  // The duration rounded to nanoseconds must not lead beyond the end of the motion, where it is at
   // rest.
   return std::min(static_cast<double>(offset(k)) / 1e9, duration_);
 }

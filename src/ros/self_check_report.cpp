@@ -14,7 +14,7 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
 
-// "0.013 of its magnitude"
+// Writes, for example, "0.013 of its magnitude".
 std::string share(double residual, const char* whole) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2g", residual);

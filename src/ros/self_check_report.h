@@ -11,15 +11,16 @@
 
 namespace virtual_work_dynamics {
 
-/// What checks of the node's results have found, for /diagnostics. One thread.
+/// Reports on /diagnostics what checks of the node's results have found. Serves one thread.
 class SelfCheckReport {
  public:
-  /// @param cross_check null: off. @param certificates of all samples, if settings have them on.
+  /// @param cross_check null when off
+  /// @param certificates of all samples, if settings turn them on
   SelfCheckReport(const SelfCheckSettings& settings, CrossCheck* cross_check,
                   CertificateRecord& certificates);
 
   /// Adds the findings since the call before, and to the summary what is wrong with them. Findings
-  /// hold until there are others.
+  /// stay until there are new ones.
   void add(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:

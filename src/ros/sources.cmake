@@ -10,13 +10,11 @@ foreach(file
     inverse_dynamics_parameters.cpp
     joint_state_conversion.cpp
     joint_watch.cpp
-    loop_completer.cpp
-    loop_plan.cpp
     loop_record.cpp
     loop_report.cpp
-    loop_samples.cpp
-    output_messages.cpp
+    motion_completer.cpp
     output_topics.cpp
+    outputs.cpp
     plan_switch.cpp
     private_parameters.cpp
     robot_task.cpp

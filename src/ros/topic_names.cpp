@@ -7,7 +7,7 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Not isalnum(): that depends on the locale.
+// Compares by hand, as isalnum() depends on the locale.
 bool isDigit(char c) {
   return c >= '0' && c <= '9';
 }

@@ -86,7 +86,8 @@ std::optional<Rejection> readTimes(const JointTrajectory& message, std::int64_t 
   return std::nullopt;
 }
 
-// Columns of the message into the table's columns of the same coordinates; the others stay zero.
+// Copies columns of the message into the table's columns of the same coordinates; the others stay
+// zero.
 std::optional<Rejection> gather(const JointTrajectory& message, Values values, const char* what,
                                 const TrajectoryMotion& motion, Eigen::MatrixXd& table) {
   for (std::size_t i = 0; i < rows(message); ++i) {
@@ -203,7 +204,7 @@ std::optional<Rejection> TrajectoryConversion::complete(const JointTrajectory& m
   knots.accelerations.resize(0, 0);
   if (!velocities) knots.velocities.resize(0, 0);
   try {
-    // Where an end has no velocities, its row is still zero.
+    // The row of an end that has no velocities is zero.
     motion.table = Spline(std::move(knots), motion.table.velocities.row(0).transpose(),
                           motion.table.velocities.bottomRows(1).transpose())
                        .knots();

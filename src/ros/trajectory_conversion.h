@@ -2,6 +2,7 @@
 
 #include <trajectory_msgs/JointTrajectory.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -18,37 +19,39 @@ namespace virtual_work_dynamics {
 /// A trajectory message as a complete motion of all generalized coordinates.
 struct TrajectoryMotion {
   MotionTable table;                    ///< a row for each point, times from the first point on
-  std::vector<std::int64_t> stamps_ns;  ///< of the points
-  std::vector<int> columns;             ///< of the message that are generalized coordinates
-  std::vector<int> coordinates;         ///< in the order of `columns`
+  std::vector<std::int64_t> stamps_ns;  ///< stamps of the points
+  std::vector<int> columns;             ///< columns of the message that are coordinates
+  std::vector<int> coordinates;         ///< coordinates in the order of `columns`
   std::string completion;               ///< what had to be filled in, and how; empty: nothing
-  bool has_velocities = false;          ///< the message, at every point
-  std::vector<bool> open;               ///< points whose loops cannot be closed; none: all can
-  std::string problem;                  ///< of the first of these
+  bool has_velocities = false;          ///< whether the message has them at every point
+  std::vector<bool> open;               ///< points whose loops cannot be closed; empty: no point
+  std::string problem;                  ///< why the first such point cannot be closed
+
+  bool isOpen(std::size_t point) const { return point < open.size() && open[point]; }
 };
 
-/// Trajectories by joint name to motions by generalized coordinate.
+/// Converts trajectories by joint name into motions by generalized coordinate.
 class TrajectoryConversion {
  public:
-  /// @param static_motion velocities and accelerations have no part in the scene: none are
-  /// completed.
-  /// @param passive by coordinate: may be left out all the same, as closed loops complete them;
-  /// empty: none.
+  /// @param static_motion true: the scene ignores velocities and accelerations, and none are
+  ///   completed.
+  /// @param passive by coordinate, true where a message may leave it out although no joint state
+  ///   has shown it, because closed loops complete it; empty: nowhere.
   TrajectoryConversion(const Mechanism& mechanism, bool static_motion, std::vector<bool> passive);
 
-  /// Checks and converts. Joints that the robot does not have and mimic joints are ignored;
-  /// coordinates that the message leaves out rest where the joint states saw them last, passive
-  /// ones at zero. Velocities and accelerations that the message lacks are still zero: complete()
-  /// has them.
-  /// @param start_ns instant that `time_from_start` counts from, ns.
+  /// Checks and converts a message. Joints that the robot does not have and mimic joints are
+  /// ignored; coordinates that the message leaves out rest where the joint states showed them last,
+  /// passive ones at zero. Velocities and accelerations that the message lacks are zero until
+  /// complete().
+  /// @param start_ns instant from which `time_from_start` counts, ns.
   /// @returns why the message is to be dropped, or nothing.
   std::optional<Rejection> convert(const trajectory_msgs::JointTrajectory& message,
                                    std::int64_t start_ns, const MotionEstimator& joint_states,
                                    TrajectoryMotion& motion) const;
 
-  /// Where not every point has velocities and accelerations, a Spline through the points gives
-  /// them.
-  /// @param motion as convert() made it of the message.
+  /// Fills in velocities and accelerations by a Spline through the points where not every point of
+  /// the message has them.
+  /// @param motion the motion that convert() made of the message.
   /// @returns why the message is to be dropped, or nothing.
   std::optional<Rejection> complete(const trajectory_msgs::JointTrajectory& message,
                                     TrajectoryMotion& motion) const;
@@ -65,9 +68,9 @@ class TrajectoryConversion {
   std::unordered_map<std::string, int> coordinate_of_;
 };
 
-/// The message with an effort at every point: its columns of generalized coordinates, in its order.
-/// @param efforts a row for each point, a column for each generalized coordinate. A point with one
-/// that is not finite, as it does not exist, has no efforts.
+/// Returns the message with efforts: its columns that are generalized coordinates, in its order.
+/// @param efforts a row for each point, a column for each generalized coordinate. A point gets no
+///   efforts when one of them is not finite because it does not exist.
 trajectory_msgs::JointTrajectory withEfforts(const trajectory_msgs::JointTrajectory& message,
                                              const TrajectoryMotion& motion,
                                              const Eigen::MatrixXd& efforts);

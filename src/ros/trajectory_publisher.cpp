@@ -16,13 +16,13 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::nanoseconds;
 
-// Nothing is lost to a subscriber that stalls for this many messages.
+// Number of messages for which a subscriber may stall without losing any.
 constexpr std::uint32_t kStateQueue = 10000;
 constexpr std::uint32_t kTrajectoryQueue = 100;
 constexpr std::chrono::milliseconds kShutdownCheck{50};
 constexpr std::chrono::milliseconds kSubscriberCheck{5};
 
-/// @returns false when ROS shuts down before.
+/// Sleeps until the deadline. @returns false when ROS shuts down before it.
 bool sleepUntil(Clock::time_point deadline) {
   for (auto now = Clock::now(); ros::ok() && now < deadline; now = Clock::now()) {
     std::this_thread::sleep_until(std::min(deadline, now + kShutdownCheck));
@@ -102,7 +102,7 @@ std::int64_t TrajectoryPublisher::playStates() {
   std::int64_t count = 0;
   const ros::Time start = ros::Time::now();
   const Clock::time_point steady_start = Clock::now();
-  // Later rounds begin with their second sample: the first is the end of the round before.
+  // Later rounds begin with their second sample, as the first is the end of the round before.
   for (std::int64_t round = 0, k = 0; round == 0 || settings_.loop; ++round, k = 1) {
     for (; k <= samples_.last(); ++k) {
       const std::int64_t offset = round * samples_.durationNs() + samples_.offset(k);

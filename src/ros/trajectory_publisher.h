@@ -12,16 +12,16 @@
 namespace virtual_work_dynamics {
 
 /// Plays a motion as sensor_msgs/JointState on `joint_states`, or as
-/// trajectory_msgs/JointTrajectory on `joint_trajectory`. Paced by the steady clock with absolute
-/// deadlines; when late it catches up and leaves no sample out. Stamps are the start plus whole
-/// nanoseconds, whatever the pace.
+/// trajectory_msgs/JointTrajectory on `joint_trajectory`. The steady clock sets the pace with
+/// absolute deadlines; a publisher that is late catches up and leaves no sample out. Stamps are the
+/// start plus whole nanoseconds, whatever the pace.
 class TrajectoryPublisher {
  public:
   /// Advertises the topic in the namespace of `node`.
   TrajectoryPublisher(ros::NodeHandle node, TrajectorySettings settings);
 
-  /// Waits for subscribers, plays, and stays alive until the last message is delivered; with `loop`
-  /// until ROS shuts down, which ends everything early.
+  /// Waits for subscribers, plays the motion, and returns after the last message was delivered, or
+  /// earlier when ROS shuts down. With `loop` it plays until then.
   void run();
 
  private:

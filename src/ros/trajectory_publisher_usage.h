@@ -13,7 +13,7 @@ publishes one of
   joint_trajectory  trajectory_msgs/JointTrajectory  exact positions, velocities, accelerations
 
 parameters (in brackets: the defaults, which play the paper's pendulum)
-  ~joints                names ([joint_1, joint_2]); [] with the law table: all of the file
+  ~joints                names ([joint_1, joint_2]); with the law table, [] means all of the file
   ~law                   cosine | sine_sweep | minimum_jerk | table (cosine)
   ~amplitudes            rad or m, one for each joint ([pi/12, pi/6])
   ~period                of the cosine, s (12)
@@ -25,11 +25,11 @@ parameters (in brackets: the defaults, which play the paper's pendulum)
                          acceleration.<joint> ("")
   ~message               joint_state | joint_trajectory (joint_state)
   ~rate                  samples per second, Hz (1000)
-  ~velocities            joint states carry velocities (true)
+  ~velocities            whether joint states carry velocities (true)
   ~stamp                 of a trajectory: now | zero (now)
-  ~loop                  again and again, stamps going on (false)
-  ~wait_for_subscribers  how many to wait for before the start (1)
-  ~start_delay           from there to the first message, s (0.5)
+  ~loop                  repeat the motion, with stamps that go on (false)
+  ~wait_for_subscribers  number of subscribers to wait for before the start (1)
+  ~start_delay           time from their arrival to the first message, s (0.5)
   ~linger                time to stay alive after the last message, s (1)
 )";
 

@@ -10,23 +10,25 @@
 
 namespace virtual_work_dynamics {
 
-/// Trajectories that wait for their points to be played in order, at a rate. One thread.
+/// Trajectories that wait for their points to be played in order at a rate. To be used by one
+/// thread.
 class TrajectoryQueue {
  public:
   using Clock = std::chrono::steady_clock;
-  /// How often to ask for what is due at most, and the most points that are due at one time: a
-  /// caller that was held up does not make a burst of what it has missed.
-  static constexpr double kTick = 0.001;  // s
+  /// Shortest time between two calls of playDue(), s.
+  static constexpr double kTick = 0.001;
+  /// Largest number of points that are played at one time: a caller that was held up does not play
+  /// everything that it has missed in a burst.
   static constexpr int kMostAtOnce = 20;
-  /// What ticks and points at once can keep up with, points/s.
+  /// Largest rate with kMostAtOnce points in each kTick, points/s.
   static constexpr double kFastest = kMostAtOnce / kTick;
 
-  /// @param rate points/s, positive, up to kFastest; anything if nothing is ever added.
+  /// @param rate points/s, above 0 and up to kFastest; it may be 0 when nothing is ever added.
   explicit TrajectoryQueue(double rate)
       : spacing_(rate > 0 ? static_cast<Clock::rep>(1e9 / rate) : 0) {}
 
   bool empty() const { return trajectories_.empty(); }
-  /// Points that have not been played.
+  /// Number of points that have not been played.
   std::size_t waiting() const { return waiting_; }
 
   void add(TrajectoryMotion&& trajectory, Clock::time_point now) {
@@ -35,7 +37,7 @@ class TrajectoryQueue {
     trajectories_.push_back(std::move(trajectory));
   }
 
-  /// Calls play(trajectory, point) for every point that is due. A point whose call throws has been
+  /// Calls play(trajectory, point) for every point that is due. A point whose call throws counts as
   /// played.
   template <typename Play>
   void playDue(Clock::time_point now, Play play) {
@@ -58,7 +60,7 @@ class TrajectoryQueue {
  private:
   const std::chrono::nanoseconds spacing_;
   std::deque<TrajectoryMotion> trajectories_;
-  std::size_t point_ = 0;  // of the first trajectory
+  std::size_t point_ = 0;  // next point of the first trajectory
   std::size_t waiting_ = 0;
   Clock::time_point next_;
 };

@@ -15,14 +15,14 @@ using Eigen::Index;
 using XmlRpc::XmlRpcValue;
 
 constexpr double kPi = 3.14159265358979323846;
-// Whole nanoseconds resolve a step up to this rate well, and stamps reach this far.
+// Limits within which whole nanoseconds resolve a step well and stamps do not overflow: Hz and s.
 constexpr double kMaxRate = 1e6;
 constexpr double kMinDuration = 1e-6;
 constexpr double kMaxDuration = 1e9;
-// roscpp drops connections on which a longer message arrives.
+// Length of the longest messages for which roscpp does not drop the connection.
 constexpr double kMaxMessageBytes = 1e9;
 
-/// The parameters that make up the law; those that the chosen one does not use are only read.
+/// The parameters of all laws; those that the chosen law does not use are read, but not used.
 struct LawParameters {
   std::string law;
   std::vector<double> amplitudes;
@@ -86,7 +86,9 @@ MotionTable viaPoints(const XmlRpcValue& points, const std::vector<std::string>&
   return table;
 }
 
-/// @param joints the `joints` parameter; for a table without, those of the file on return.
+/// Makes the motion law that the parameters describe.
+/// @param joints the parameter `joints`; when it is empty and the law is `table`, it receives the
+///   joints of the file.
 std::shared_ptr<const MotionLaw> makeLaw(const LawParameters& parameters,
                                          std::vector<std::string>& joints) {
   if (parameters.law == "table") {
@@ -119,7 +121,7 @@ std::shared_ptr<const MotionLaw> makeLaw(const LawParameters& parameters,
                       parameters.duration);
 }
 
-/// True for `yes`, false for `no`.
+/// Reads a parameter that is one of two words, `no` by default. @returns whether it is `yes`.
 bool choice(PrivateParameters& parameters, const std::string& name, const std::string& no,
             const std::string& yes) {
   const std::string text = parameters.text(name, no);
@@ -177,7 +179,7 @@ TrajectorySettings readTrajectorySettings(PrivateParameters& parameters) {
   settings.linger = atLeastZero(parameters, "linger", 1);
   parameters.refuseUnknown();
   if (settings.wait_for_subscribers < 0) {
-    throw parameterError("wait_for_subscribers", "expected no number below zero, got " +
+    throw parameterError("wait_for_subscribers", "expected a number from 0 on, got " +
                                                      std::to_string(settings.wait_for_subscribers));
   }
   settings.law = makeLaw(law, settings.joints);

@@ -9,24 +9,24 @@
 
 namespace virtual_work_dynamics {
 
-/// What a trajectory publisher plays, and how (config/trajectory_publisher.yaml).
+/// What a trajectory publisher plays and how it does so (config/trajectory_publisher.yaml).
 struct TrajectorySettings {
   std::vector<std::string> joints;
   std::shared_ptr<const MotionLaw> law;
   double rate = 0;             ///< samples per second, Hz
   bool as_trajectory = false;  ///< one JointTrajectory rather than a stream of JointStates
-  bool velocities = true;      ///< in JointStates
-  bool zero_stamp = false;     ///< of the JointTrajectory
+  bool velocities = true;      ///< whether JointStates carry velocities
+  bool zero_stamp = false;     ///< whether the stamp of the JointTrajectory is zero
   bool loop = false;
   int wait_for_subscribers = 0;
   double start_delay = 0;  ///< s
   double linger = 0;       ///< s
 };
 
-/// Reads the settings; what is not set has the values of config/trajectory_publisher.yaml.
-/// @throws ParameterError naming a parameter that is unknown, or has the wrong type, length or
-/// value;
-///   MotionError, FileError as the motion law and the CSV reader.
+/// Reads the settings; parameters that are not set have the values of
+/// config/trajectory_publisher.yaml.
+/// @throws ParameterError naming a parameter that is unknown or has a wrong type, length or value;
+///   MotionError as the motion laws and for durations out of range; FileError as readMotionCsv().
 TrajectorySettings readTrajectorySettings(PrivateParameters& parameters);
 
 }  // namespace virtual_work_dynamics

@@ -82,7 +82,7 @@ PointSpring readSpring(const YAML::Node& node, const std::string& where) {
   return spring;
 }
 
-// {name: , <quantity>: }
+// Reads an entry {name: ..., <quantity>: ...}.
 NamedNumber readNamedNumber(const YAML::Node& node, const std::string& where,
                             const std::string& quantity) {
   NamedNumber number;
@@ -108,7 +108,7 @@ std::vector<NamedNumber> readNamedNumbers(const YAML::Node& node, const std::str
   });
 }
 
-// What belongs to one policy would be without effect under another.
+// Refuses what belongs to another policy and would have no effect.
 void checkPolicy(const Redundancy& redundancy, bool has_zero_at, bool has_stiffness) {
   const bool zero_at = redundancy.policy == RedundancyPolicy::kZeroAt;
   const bool stiffness = redundancy.policy == RedundancyPolicy::kStiffness;

@@ -10,8 +10,8 @@ using Kind = ClosureDemand::Kind;
 using Type = ClosureType;
 
 constexpr ClosureDemand kX{Kind::kAlong, 0, 0}, kY{Kind::kAlong, 1, 0}, kZ{Kind::kAlong, 2, 0};
-// Axes of P and C: what keeps both z alike, what then keeps the frames from turning about z, and
-// what a universal joint's cross does.
+// Normal axes of P and C: kXz and kYz keep both z axes parallel, kXy then keeps the frames from
+// turning about z, and kZx is the cross of a universal joint.
 constexpr ClosureDemand kXz{Kind::kNormal, 0, 2}, kYz{Kind::kNormal, 1, 2};
 constexpr ClosureDemand kXy{Kind::kNormal, 0, 1};
 constexpr ClosureDemand kZx{Kind::kNormal, 2, 0};

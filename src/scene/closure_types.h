@@ -12,7 +12,7 @@ namespace virtual_work_dynamics {
 /// What a closure demands of its parent frame P and its child frame C.
 struct ClosureDemand {
   enum class Kind {
-    kAlong,    ///< the origins do not part along axis a of P
+    kAlong,    ///< the origins coincide along axis a of P
     kNormal,   ///< axis a of P stays normal to axis b of C
     kDistance  ///< the origins keep their distance
   };
@@ -20,14 +20,14 @@ struct ClosureDemand {
   int a = 0, b = 0;
 };
 
-/// A type of closure.
+/// What distinguishes a type of closure.
 struct ClosureTypeTraits {
   ClosureType type;
   const char* name;  ///< as in a scene
-  /// What the motion along or about its one free axis measures, z of P; not given: it has none, or
+  /// Unit of the motion along or about its one free axis, z of P; empty when it has no free axis or
   /// more than one.
   std::optional<Unit> free_axis;
-  int conditions;  ///< how many of the following it has
+  int conditions;  ///< how many of `demands` it has
   std::array<ClosureDemand, 6> demands;
 
   int count(ClosureDemand::Kind kind) const;
@@ -35,8 +35,9 @@ struct ClosureTypeTraits {
   bool canTurn() const { return count(ClosureDemand::Kind::kNormal) < 3; }
 };
 
-/// All types.
+/// All types of closures.
 const std::vector<ClosureTypeTraits>& closureTypes();
+/// The entry of closureTypes() for a type.
 const ClosureTypeTraits& traitsOf(ClosureType type);
 
 }  // namespace virtual_work_dynamics

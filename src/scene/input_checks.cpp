@@ -23,6 +23,12 @@ void requireLengths(const Motion& motion, Eigen::Index coordinates) {
   requireLength("qdd", motion.qdd.size(), coordinates);
 }
 
+void requireLoad(const Load& load, std::size_t applied) {
+  if (load.wrenches.size() == applied) return;
+  throw SceneError("load: it has " + std::to_string(load.wrenches.size()) +
+                   " wrenches, the scene has " + std::to_string(applied) + " applied wrenches");
+}
+
 const Scene& openChain(const Scene& scene) {
   if (!scene.closures.empty()) {
     throw SceneError("closures: '" + scene.closures[0].name + "': an open chain has no closures");

@@ -12,7 +12,7 @@ namespace {
 void requireAtLeastZero(const std::string& where, const char* key, double value) {
   if (value >= 0 && std::isfinite(value)) return;
   throw SceneError(where + ": " + key + " = " + numberText(value) +
-                   " is not a number that is at least zero");
+                   " is neither zero nor a positive number");
 }
 
 void check(const JointTerms& terms) {
@@ -28,7 +28,7 @@ void check(const JointTerms& terms) {
   }
 }
 
-// Index of the terms of each joint in Scene::joints; -1: none.
+// The index in Scene::joints of the terms of each joint; -1 where a joint has none.
 std::vector<int> termsOfJoints(const Mechanism& mechanism, const Scene& scene) {
   std::vector<int> given(mechanism.joints().size(), -1);
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {

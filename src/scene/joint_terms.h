@@ -7,7 +7,8 @@
 
 namespace virtual_work_dynamics {
 
-/// The terms of a joint, with what the description says where the scene wants it.
+/// The terms of a joint, with damping and friction of the description where the scene asks for
+/// them. Units are those of JointTerms.
 struct ResolvedJointTerms {
   int joint = 0;  ///< index into Mechanism::joints()
   double stiffness = 0;
@@ -18,9 +19,10 @@ struct ResolvedJointTerms {
   double rotor_inertia = 0;
 };
 
-/// Terms of all joints that have any, in the mechanism's order; joints whose terms are all zero are
-/// left out.
-/// @throws SceneError naming the joint: unknown, fixed, given twice, or with a value out of range.
+/// The terms of all joints that have any, in the mechanism's order; joints whose terms are all zero
+/// are left out.
+/// @throws SceneError naming a joint that is unknown, fixed or given twice, or has a value out of
+///   range.
 std::vector<ResolvedJointTerms> resolveJointTerms(const Mechanism& mechanism, const Scene& scene);
 
 }  // namespace virtual_work_dynamics

@@ -56,7 +56,7 @@ class Resolver {
       if (closure.name.empty()) throw SceneError("closures: a closure has no name");
       if (closure.name == kGround) throw SceneError(what + ": that name is reserved");
       if (mechanism_.jointIndex(closure.name) >= 0) {
-        throw SceneError(what + ": a joint has that name, too");
+        throw SceneError(what + ": a joint has the same name");
       }
       requireOnce("closures", seen, closure.name);
       for (const LinkFrame* frame : {&closure.parent, &closure.child}) {
@@ -65,13 +65,13 @@ class Resolver {
         }
       }
       if (closure.length && !traitsOf(closure.type).hasLength()) {
-        throw SceneError(what + ": length is of the type distance only");
+        throw SceneError(what + ": only a closure of type distance has a length");
       }
       if (closure.length) requirePositive(what + ": length", *closure.length);
     }
   }
 
-  // Coordinate of a joint that moves on its own account.
+  // Finds the coordinate of a joint that neither is fixed nor mimics another one.
   int coordinateOf(const std::string& list, const std::string& name) const {
     const int k = mechanism_.jointIndex(name);
     if (k < 0) throw SceneError(list + ": the robot has no joint '" + name + "'");
@@ -95,8 +95,7 @@ class Resolver {
         continue;
       }
       if (!traitsOf(scene_.closures[static_cast<std::size_t>(c)].type).free_axis) {
-        throw SceneError("actuated: closure '" + name +
-                         "' is neither revolute nor prismatic: it has no axis of its own");
+        throw SceneError("actuated: closure '" + name + "' is neither revolute nor prismatic");
       }
       closures[static_cast<std::size_t>(c)] = true;
     }

@@ -10,7 +10,7 @@
 
 namespace virtual_work_dynamics {
 
-/// What a scene says of loops, with its names resolved.
+/// What a scene says about loops, with its names resolved.
 struct LoopScene {
   std::vector<bool> actuated;                  ///< by coordinate
   std::vector<std::size_t> actuated_closures;  ///< in the scene's order
@@ -22,9 +22,10 @@ struct LoopScene {
   RedundancyPolicy policy = RedundancyPolicy::kMinimumNorm;
   double rank_tolerance = 0;
   std::optional<double> length;
-  Eigen::VectorXd start;  ///< where the assembly starts
+  Eigen::VectorXd start;  ///< where the assembly starts, by coordinate
 };
 
+/// Resolves the names of a scene.
 /// @throws SceneError naming what is unknown, given twice, out of range or of the wrong kind.
 LoopScene resolveLoopScene(const Mechanism& mechanism, const Scene& scene);
 

@@ -95,7 +95,7 @@ Scene readSceneFile(const std::string& path) {
     if (documents.size() > 1) throw SceneError(path + ": holds more than one YAML document");
     if (!documents.empty()) node = documents.front();
   } catch (const YAML::Exception& error) {
-    throw FileError(path + ": is no YAML: " + error.what());
+    throw FileError(path + ": is not valid YAML: " + error.what());
   }
   try {
     return readScene(node);

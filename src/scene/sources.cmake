@@ -3,6 +3,7 @@ vwd_core(
   closure_types.cpp
   input_checks.cpp
   joint_terms.cpp
+  load.cpp
   resolved_loops.cpp
   scene.cpp
   scene_reader.cpp

@@ -9,7 +9,7 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// "a, b or c", or with another word before the last.
+// Lists words as "a, b or c", or with another separator before the last.
 std::string listed(const Names& words, const std::string& last = " or ") {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -62,7 +62,7 @@ std::size_t readWord(const YAML::Node& node, const std::string& key, const Names
   const auto found = std::find(words.begin(), words.end(), text);
   if (found == words.end()) {
     failAt(key, words.size() == 2 ? "'" + text + "' is neither " + listed(words, " nor ")
-                                  : "'" + text + "' is none of " + listed(words, ", "));
+                                  : "'" + text + "' is not one of " + listed(words, ", "));
   }
   return static_cast<std::size_t>(found - words.begin());
 }

@@ -13,35 +13,36 @@ using Names = std::vector<std::string>;
 
 bool contains(const Names& names, const std::string& name);
 
-/// @throws SceneError always: the key of the scene, and what is wrong with it.
+/// Reports what is wrong with a key of the scene. @throws SceneError always.
 [[noreturn]] void failAt(const std::string& key, const std::string& what);
 
-// Each throws SceneError naming the key when the node is something else.
+// The following functions throw SceneError naming the key when the node has another type or value.
 
-/// A scalar as it stands; `expected` is for the message.
+/// Reads a scalar as it is written; `expected` describes it in the message.
 std::string scalarText(const YAML::Node& node, const std::string& key, const std::string& expected);
-/// A finite number; numbers in quotes count, too.
+/// Reads a finite number, which may be in quotes.
 double readNumber(const YAML::Node& node, const std::string& key);
+/// Reads a list of three finite numbers.
 Eigen::Vector3d readVector3(const YAML::Node& node, const std::string& key);
 bool readBool(const YAML::Node& node, const std::string& key);
-/// One of several words: its index.
+/// Reads one of several words. @returns its index in `words`.
 std::size_t readWord(const YAML::Node& node, const std::string& key, const Names& words);
-/// A list of words; `what` they are is for the message.
+/// Reads a list of words; `what` says in the message what they are.
 Names readNames(const YAML::Node& node, const std::string& key, const std::string& what);
 
 using ReadEntry = std::function<void(const std::string& key, const YAML::Node& value)>;
 
-/// Calls read(key, value) for every entry of a map, each key once; yaml-cpp itself would let a
-/// doubled key pass. `prefix` stands before the key in messages.
+/// Calls read(key, value) for every entry of a map and refuses keys that are given twice, which
+/// yaml-cpp accepts. `prefix` stands before the key in messages.
 void forEachEntry(const YAML::Node& map, const std::string& prefix, const ReadEntry& read);
 
-/// The same for a map that knows these keys and no others: `read` gets the whole path of the key
-/// behind it.
+/// Calls read(key, value, path) for every entry of a map that may have these keys and no others,
+/// each once; `path` is `where` with the key.
 void readMap(const YAML::Node& node, const std::string& where, const Names& keys,
              const std::function<void(const std::string& key, const YAML::Node& value,
                                       const std::string& path)>& read);
 
-/// A list, entry by entry: `read(node, where)` makes an element.
+/// Reads a list of which read(node, where) makes each element.
 template <typename Read>
 auto readList(const YAML::Node& node, const std::string& key, Read read) {
   if (!node.IsSequence()) failAt(key, "expected a list");

@@ -1,6 +1,6 @@
 #include "tree/applied_values.h"
 
-#include "virtual_work_dynamics/error.h"
+#include "scene/input_checks.h"
 
 namespace virtual_work_dynamics {
 
@@ -31,14 +31,14 @@ AppliedValues<R>::AppliedValues(const Plan<R>& plan) {
 }
 
 template <typename R>
-void AppliedValues<R>::set(const Plan<R>& plan, std::size_t index, const Eigen::Vector3d& force,
-                           const Eigen::Vector3d& torque) {
-  if (index >= values_.size()) {
-    throw SceneError("the scene has no applied wrench " + std::to_string(index));
+void AppliedValues<R>::set(const Plan<R>& plan, const Load& load) {
+  requireLoad(load, values_.size());
+  for (std::size_t i = 0; i < values_.size(); ++i) {
+    const Eigen::Vector3d &force = load.wrenches[i].force, &torque = load.wrenches[i].torque;
+    values_[i] =
+        valueAt(plan.applied[i], PlainWrench<R>{{R(force.x()), R(force.y()), R(force.z())},
+                                                {R(torque.x()), R(torque.y()), R(torque.z())}});
   }
-  values_[index] =
-      valueAt(plan.applied[index], PlainWrench<R>{{R(force.x()), R(force.y()), R(force.z())},
-                                                  {R(torque.x()), R(torque.y()), R(torque.z())}});
 }
 
 template class AppliedValues<float>;

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "tree/plan.h"
+#include "virtual_work_dynamics/load.h"
 
 namespace virtual_work_dynamics {
 
@@ -15,9 +15,9 @@ class AppliedValues {
 
   const PlainWrench<R>* data() const { return values_.data(); }
 
-  /// See Workspace::setAppliedWrench(). @throws SceneError when there is no such wrench.
-  void set(const Plan<R>& plan, std::size_t index, const Eigen::Vector3d& force,
-           const Eigen::Vector3d& torque);
+  /// Takes the values of a load. Does not allocate.
+  /// @throws SceneError when it has not one wrench for each applied one.
+  void set(const Plan<R>& plan, const Load& load);
 
  private:
   std::vector<PlainWrench<R>> values_;

@@ -22,6 +22,7 @@ template <typename Real>
 struct BlockArrays {
   std::size_t samples;
   BlockLayout layout;
+  const PlainWrench<Real>* applied;
   const Real* inputs[kInputs];
   Real* outputs[kArrays - kInputs];
 };
@@ -44,7 +45,8 @@ struct BlockInverseDynamics<Real>::Impl {
         instruction_set(set),
         kernel(kernelFor<Real>(set)),
         width(static_cast<std::size_t>(kernel.width)),
-        applied(plan),
+        own(plan),
+        given(plan),
         workers(checkedThreads(thread_count)) {
     const std::size_t coordinates = static_cast<std::size_t>(plan.coordinates);
     const std::size_t in_root_axes = plan.root_axes.size();
@@ -85,7 +87,28 @@ struct BlockInverseDynamics<Real>::Impl {
     }
   }
 
-  // The samples of one thread, whole packs for all but the last.
+  void compute(BlockLayout layout, const MotionBlock<Real>& motion,
+               const AppliedValues<Real>& applied, const ResultBlock<Real>& results) {
+    const BlockArrays<Real> arrays = {
+        motion.samples,
+        layout,
+        applied.data(),
+        {motion.q, motion.qd, motion.qdd},
+        {results.effort, results.child_axes, results.root_axes, results.poses, results.twists}};
+    check(arrays);
+    struct Job {
+      const Impl* impl;
+      const BlockArrays<Real>* arrays;
+    } job = {this, &arrays};
+    workers.run(
+        [](void* context, int index) {
+          const Job& all = *static_cast<Job*>(context);
+          all.impl->computeShare(*all.arrays, index);
+        },
+        &job);
+  }
+
+  // Computes the samples of one thread, which are whole packs for all threads except the last.
   void computeShare(const BlockArrays<Real>& arrays, int index) const {
     const std::size_t packs = (arrays.samples + width - 1) / width;
     const std::size_t threads = tiles.size(), thread = static_cast<std::size_t>(index);
@@ -105,7 +128,7 @@ struct BlockInverseDynamics<Real>::Impl {
     const auto at = [first](auto* array) { return array ? array + first : nullptr; };
     kernel.pack(view,
                 {at(arrays.inputs[0]), at(arrays.inputs[1]), at(arrays.inputs[2]), arrays.samples,
-                 applied.data()},
+                 arrays.applied},
                 {at(arrays.outputs[0]), at(arrays.outputs[1]), at(arrays.outputs[2]),
                  at(arrays.outputs[3]), at(arrays.outputs[4]), arrays.samples},
                 scratch[thread].get());
@@ -134,7 +157,7 @@ struct BlockInverseDynamics<Real>::Impl {
       }
     }
     const auto wanted = [&](int i) { return arrays.outputs[i] ? tile[kInputs + i] : nullptr; };
-    kernel.pack(view, {tile[0], tile[1], tile[2], width, applied.data()},
+    kernel.pack(view, {tile[0], tile[1], tile[2], width, arrays.applied},
                 {wanted(0), wanted(1), wanted(2), wanted(3), wanted(4), width},
                 scratch[thread].get());
     for (int i = kInputs; i < kArrays; ++i) {
@@ -164,10 +187,11 @@ struct BlockInverseDynamics<Real>::Impl {
   InstructionSet instruction_set;
   const Kernel<Real>& kernel;
   std::size_t width;
-  std::size_t columns[kArrays];       // numbers a sample of each array
-  bool requested[kArrays - kInputs];  // of the outputs
-  AppliedValues<Real> applied;
-  std::vector<AlignedMemory> scratch, tiles;  // of each thread
+  std::size_t columns[kArrays];               // numbers a sample of each array
+  bool requested[kArrays - kInputs];          // whether each output is
+  AppliedValues<Real> own;                    // values of the scene's applied wrenches
+  AppliedValues<Real> given;                  // values of a Load's wrenches
+  std::vector<AlignedMemory> scratch, tiles;  // by thread
   WorkerThreads workers;
 };
 
@@ -207,28 +231,14 @@ InstructionSet BlockInverseDynamics<Real>::instructionSet() const {
 template <typename Real>
 void BlockInverseDynamics<Real>::compute(BlockLayout layout, const MotionBlock<Real>& motion,
                                          const ResultBlock<Real>& results) {
-  const BlockArrays<Real> arrays = {
-      motion.samples,
-      layout,
-      {motion.q, motion.qd, motion.qdd},
-      {results.effort, results.child_axes, results.root_axes, results.poses, results.twists}};
-  impl_->check(arrays);
-  struct Job {
-    const Impl* impl;
-    const BlockArrays<Real>* arrays;
-  } job = {impl_.get(), &arrays};
-  impl_->workers.run(
-      [](void* context, int index) {
-        const Job& all = *static_cast<Job*>(context);
-        all.impl->computeShare(*all.arrays, index);
-      },
-      &job);
+  impl_->compute(layout, motion, impl_->own, results);
 }
 
 template <typename Real>
-void BlockInverseDynamics<Real>::setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                                                  const Eigen::Vector3d& torque) {
-  impl_->applied.set(impl_->plan, index, force, torque);
+void BlockInverseDynamics<Real>::compute(BlockLayout layout, const MotionBlock<Real>& motion,
+                                         const Load& load, const ResultBlock<Real>& results) {
+  impl_->given.set(impl_->plan, load);
+  impl_->compute(layout, motion, impl_->given, results);
 }
 
 template class BlockInverseDynamics<float>;

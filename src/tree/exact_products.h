@@ -10,7 +10,7 @@ namespace virtual_work_dynamics {
 // again to a shorter type: sums of products in twice the precision of long double (Ogita, Rump and
 // Oishi, Accurate sum and dot product, 2005).
 
-/// first + a . b.
+/// Returns first + a . b.
 template <typename A, typename B>
 long double exactDot(long double first, const A& a, const B& b) {
   long double sum = first, rest = 0;
@@ -25,13 +25,13 @@ long double exactDot(long double first, const A& a, const B& b) {
   return sum + rest;
 }
 
-/// first + A v.
+/// Returns first + A v.
 inline Vector3l exactProduct(const Vector3l& first, const Matrix3l& A, const Vector3l& v) {
   return {exactDot(first[0], A.row(0), v), exactDot(first[1], A.row(1), v),
           exactDot(first[2], A.row(2), v)};
 }
 
-/// A B.
+/// Returns A B.
 inline Matrix3l exactProduct(const Matrix3l& A, const Matrix3l& B) {
   Matrix3l product;
   for (int j = 0; j < 3; ++j) {
@@ -40,8 +40,8 @@ inline Matrix3l exactProduct(const Matrix3l& A, const Matrix3l& B) {
   return product;
 }
 
-/// A rotation next to R, which is one but for rounding errors. Its z axis keeps its direction, and
-/// so its zeros.
+/// Returns a rotation next to R, which is one except for rounding errors. Its z axis keeps its
+/// direction, and so its zeros.
 inline Matrix3l orthonormalized(const Matrix3l& R) {
   // 1 - R^T R, to be taken back in first order.
   const auto defect = [&](int i, int j) { return -exactDot(i == j ? -1 : 0, R.col(i), R.col(j)); };

@@ -20,14 +20,16 @@ constexpr std::size_t kPoseNumbers = 12;
 struct Workspace::Scratch {
   explicit Scratch(const InverseDynamics::Impl& impl)
       : plan(&impl),
-        applied(impl.plan),
+        own(impl.plan),
+        given(impl.plan),
         memory(impl.kernel->scratchSize(impl.view)),
         poses(impl.request.poses ? kPoseNumbers * impl.plan.root_axes.size() : 0) {
     impl.kernel->prepare(impl.view, memory.get());
   }
 
-  const InverseDynamics::Impl* plan;  // only compared, and asked where applied wrenches act
-  AppliedValues<double> applied;
+  const InverseDynamics::Impl* plan;  // is compared, never read
+  AppliedValues<double> own;          // values of the scene's applied wrenches
+  AppliedValues<double> given;        // values of a Load's wrenches
   AlignedMemory memory;
   std::vector<double> poses;
 };
@@ -47,17 +49,10 @@ Pose poseOf(const double* numbers) {
   return {Eigen::Map<const Eigen::Vector3d>(numbers), Eigen::Quaterniond(R_0K).normalized()};
 }
 
-// Null when there is nothing to write.
+// Where numbers are written; null when there are none.
 template <typename Item>
 double* numbersOf(std::vector<Item>& items) {
   return items.empty() ? nullptr : reinterpret_cast<double*>(items.data());
-}
-
-bool allFinite(const std::vector<Wrench>& wrenches) {
-  for (const Wrench& wrench : wrenches) {
-    if (!wrench.force.allFinite() || !wrench.torque.allFinite()) return false;
-  }
-  return true;
 }
 
 }  // namespace
@@ -94,31 +89,43 @@ Workspace InverseDynamics::makeWorkspace() const {
 }
 
 void InverseDynamics::compute(const Motion& motion, Workspace& workspace) const {
+  computeWith(nullptr, motion, workspace);
+}
+
+void InverseDynamics::compute(const Motion& motion, const Load& load, Workspace& workspace) const {
+  computeWith(&load, motion, workspace);
+}
+
+void InverseDynamics::computeWith(const Load* load, const Motion& motion,
+                                  Workspace& workspace) const {
   const Plan<double>& plan = impl_->plan;
   requireLengths(motion, plan.coordinates);
   workspace.requirePlan(impl_.get());
   Workspace::Scratch& scratch = *workspace.scratch_;
+  Results& results = workspace.results_;
+  if (load) scratch.given.set(plan, *load);
+  const AppliedValues<double>& applied = load ? scratch.given : scratch.own;
   const KernelInputs<double> in = {motion.q.data(), motion.qd.data(), motion.qdd.data(), 1,
-                                   scratch.applied.data()};
-  const KernelOutputs<double> out = {plan.efforts ? workspace.effort_.data() : nullptr,
-                                     numbersOf(workspace.child_axes_),
-                                     numbersOf(workspace.root_axes_),
+                                   applied.data()};
+  const KernelOutputs<double> out = {plan.efforts ? results.effort.data() : nullptr,
+                                     numbersOf(results.child_axes),
+                                     numbersOf(results.root_axes),
                                      numbersOf(scratch.poses),
-                                     numbersOf(workspace.twists_),
+                                     numbersOf(results.twists),
                                      1};
   impl_->kernel->one(impl_->view, in, out, scratch.memory.get());
-  for (std::size_t i = 0; i < workspace.poses_.size(); ++i) {
-    workspace.poses_[i] = poseOf(scratch.poses.data() + kPoseNumbers * i);
+  for (std::size_t i = 0; i < results.poses.size(); ++i) {
+    results.poses[i] = poseOf(scratch.poses.data() + kPoseNumbers * i);
   }
 }
 
-Workspace::Workspace(const InverseDynamics::Impl& impl)
-    : effort_(Eigen::VectorXd::Zero(impl.request.efforts ? impl.plan.coordinates : 0)),
-      child_axes_(impl.plan.child_axes.size()),
-      root_axes_(impl.plan.root_axes.size()),
-      poses_(impl.request.poses ? impl.plan.root_axes.size() : 0),
-      twists_(impl.request.twists ? impl.plan.root_axes.size() : 0),
-      scratch_(new Scratch(impl)) {}
+Workspace::Workspace(const InverseDynamics::Impl& impl) : scratch_(new Scratch(impl)) {
+  results_.effort.setZero(impl.request.efforts ? impl.plan.coordinates : 0);
+  results_.child_axes.resize(impl.plan.child_axes.size());
+  results_.root_axes.resize(impl.plan.root_axes.size());
+  results_.poses.resize(impl.request.poses ? impl.plan.root_axes.size() : 0);
+  results_.twists.resize(impl.request.twists ? impl.plan.root_axes.size() : 0);
+}
 
 void Workspace::requirePlan(const InverseDynamics::Impl* plan) const {
   if (scratch_->plan != plan) throw MotionError("the workspace belongs to another InverseDynamics");
@@ -126,30 +133,18 @@ void Workspace::requirePlan(const InverseDynamics::Impl* plan) const {
 
 void Workspace::assign(const double* effort, const double* child_axes, const double* root_axes,
                        const double* poses, const double* twists) {
-  std::copy(effort, effort + effort_.size(), effort_.data());
-  std::copy(child_axes, child_axes + 6 * child_axes_.size(), numbersOf(child_axes_));
-  std::copy(root_axes, root_axes + 6 * root_axes_.size(), numbersOf(root_axes_));
-  std::copy(twists, twists + 6 * twists_.size(), numbersOf(twists_));
-  for (std::size_t i = 0; i < poses_.size(); ++i) poses_[i] = poseOf(poses + kPoseNumbers * i);
+  Results& to = results_;
+  std::copy(effort, effort + to.effort.size(), to.effort.data());
+  std::copy(child_axes, child_axes + 6 * to.child_axes.size(), numbersOf(to.child_axes));
+  std::copy(root_axes, root_axes + 6 * to.root_axes.size(), numbersOf(to.root_axes));
+  std::copy(twists, twists + 6 * to.twists.size(), numbersOf(to.twists));
+  for (std::size_t i = 0; i < to.poses.size(); ++i) {
+    to.poses[i] = poseOf(poses + kPoseNumbers * i);
+  }
 }
 
 Workspace::~Workspace() = default;
 Workspace::Workspace(Workspace&&) noexcept = default;
 Workspace& Workspace::operator=(Workspace&&) noexcept = default;
-
-bool Workspace::finite() const {
-  for (const Pose& pose : poses_) {
-    if (!pose.position.allFinite() || !pose.orientation.coeffs().allFinite()) return false;
-  }
-  for (const Twist& twist : twists_) {
-    if (!twist.linear.allFinite() || !twist.angular.allFinite()) return false;
-  }
-  return effort_.allFinite() && allFinite(child_axes_) && allFinite(root_axes_);
-}
-
-void Workspace::setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                                 const Eigen::Vector3d& torque) {
-  scratch_->applied.set(scratch_->plan->plan, index, force, torque);
-}
 
 }  // namespace virtual_work_dynamics

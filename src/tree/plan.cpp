@@ -71,9 +71,9 @@ AxisDirection canonicalRotation(const Vector3l& axis, Matrix3l& Q) {
   return AxisDirection::kOblique;
 }
 
-// Second moment of mass tr(I) / 2 - I. Of the two moments of inertia that are added on the diagonal
-// the larger comes first: for a thin rod along an axis it cancels, and leaves all digits of the
-// smaller one.
+// Second moment of mass tr(I) / 2 - I, which stands for the inertia of (3.5). Of the two moments of
+// inertia that are added on the diagonal the larger comes first: for a thin rod along an axis it
+// cancels, and leaves all digits of the smaller one.
 Matrix3l secondMoment(const Matrix3l& I) {
   Matrix3l G = -I;
   for (int i = 0; i < 3; ++i) {
@@ -83,7 +83,7 @@ Matrix3l secondMoment(const Matrix3l& I) {
   return G;
 }
 
-// Where a link of the description ended up.
+// The body that a link of the description is part of, and the link's frame in it.
 struct Placement {
   int body = 0;
   Matrix3l R_ZL = Matrix3l::Identity();
@@ -109,6 +109,7 @@ class Compiler {
     addOutputs();
     addApplied();
     addActuators();
+    // Departs from (3.6): gravity, a vector, becomes an acceleration of the root link.
     reducePlan(plan_, names_, plain(Vector3l(-scene_.gravity.cast<Real>())));
     return std::move(plan_);
   }
@@ -199,7 +200,7 @@ class Compiler {
       const Matrix3l G_Cm = secondMoment(link.inertia_Cm_K);
       const Matrix3l G = place.R_ZL * G_Cm * place.R_ZL.transpose() + link.mass * c * c.transpose();
       body.mass += link.mass;
-      body.h = {body.h.x + link.mass * c.x(), body.h.y + link.mass * c.y(),
+      body.h = {body.h.x + link.mass * c.x(), body.h.y + link.mass * c.y(),  // (3.5), m r_C
                 body.h.z + link.mass * c.z()};
       body.G = {body.G.xx + G(0, 0), body.G.xy + G(0, 1), body.G.xz + G(0, 2),
                 body.G.yy + G(1, 1), body.G.yz + G(1, 2), body.G.zz + G(2, 2)};
@@ -235,7 +236,7 @@ class Compiler {
       const Placement& place = places_[linkOf(mechanism_, wrench)];
       AppliedOutside<Real> applied;
       applied.body = place.body;
-      applied.in_root_axes = wrench.axes == Axes::kRoot;
+      applied.in_root_axes = wrench.axes == Axes::kRoot;  // (3.6), f* and m* other than weight
       applied.R_ZL = plain(place.R_ZL);
       applied.p_ZoA_Z = plain(Vector3l(place.p_ZoLo_Z + place.R_ZL * wrench.at.cast<Real>()));
       applied.given = {plain(Vector3l(wrench.force.cast<Real>())),
@@ -259,10 +260,10 @@ class Compiler {
   const Mechanism& mechanism_;
   const Scene& scene_;
   const Request& request_;
-  std::vector<int> child_axes_links_, root_axes_links_;  // of the requested reactions
-  std::vector<bool> reported_;                           // by child link; ground: the root link
+  std::vector<int> child_axes_links_, root_axes_links_;  // child links of requested reactions
+  std::vector<bool> reported_;  // by child link, ground by the root link: whether it is requested
   std::vector<Placement> places_;
-  std::vector<std::string> names_;  // joint of each body
+  std::vector<std::string> names_;  // the joint that each body hangs on
   Plan<Real> plan_;
 };
 

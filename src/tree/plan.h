@@ -9,28 +9,28 @@
 
 namespace virtual_work_dynamics {
 
-/// What was left out of a plan; names of joints.
+/// What was left out of a plan, by names of joints.
 struct LeftOut {
   std::vector<std::string> merged;    ///< fixed joints, welded into their parents
-  std::vector<std::string> unneeded;  ///< bodies that reach no requested result
-  std::vector<std::string> massless;  ///< whose wrench is zero
-  std::vector<std::string> idle;      ///< whose position matters to no requested result
-  std::vector<std::string> at_rest;   ///< whose parent neither turns nor accelerates
+  std::vector<std::string> unneeded;  ///< joints whose bodies reach no requested result
+  std::vector<std::string> massless;  ///< joints whose wrench is zero
+  std::vector<std::string> idle;      ///< joints whose position matters to no requested result
+  std::vector<std::string> at_rest;   ///< joints whose parent neither turns nor accelerates
   bool velocity_terms = false;
   bool gravity = false;
 };
 
-/// The part of a plan that is not of its number type.
+/// The part of a plan that does not depend on its number type.
 struct PlanUse {
   int coordinates = 0;
   int slots = 0;  ///< motions that are kept for later children
   bool efforts = true;
   bool static_motion = false;
-  bool poses = false;   ///< reported with the reactions in root axes
-  bool twists = false;  ///<
+  bool poses = false;   ///< whether poses are reported with the reactions in root axes
+  bool twists = false;  ///< whether twists are reported with the reactions in root axes
   bool any_pose = false;
   bool geared_angles = false;  ///< some joint that turns is not moved one to one
-  int wrenches = 0;            ///< of the bodies, and partial sums behind them
+  int wrenches = 0;  ///< number of the bodies' wrenches and of the partial sums behind them
   std::vector<Carry> carries;
   std::vector<int> zero_efforts;  ///< coordinates that no wrench reaches
   LeftOut left_out;
@@ -57,7 +57,7 @@ Plan<long double> compilePlan(const Mechanism& mechanism, const Scene& scene,
 template <typename T>
 PlanView<T> viewOf(const Plan<T>& plan);
 
-/// The same plan with every constant rounded once. T: float or double.
+/// A copy of a plan with every constant rounded once. T: float or double.
 template <typename T>
 Plan<T> roundPlan(const Plan<long double>& plan);
 

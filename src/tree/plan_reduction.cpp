@@ -27,7 +27,7 @@ bool inertialess(const Body<Real>& body) {
          G.yz == 0 && G.zz == 0;
 }
 
-// Fewer children than this are summed in sequence: the errors are as small.
+// Fewer children of a hub than this are summed in sequence: the errors are as small.
 constexpr std::size_t kPairwiseFrom = 8;
 
 class Reduction {
@@ -160,14 +160,14 @@ class Reduction {
     std::vector<Vec3<Real>> gamma(bodies_.size(), gamma_root_);
     rests[0] = true;
     const Body<Real>& root = bodies_[0];
-    plan_.root_wrench.force = {root.mass * gamma_root_.x, root.mass * gamma_root_.y,
+    plan_.root_wrench.force = {root.mass * gamma_root_.x, root.mass * gamma_root_.y,  // (3.5)
                                root.mass * gamma_root_.z};
     plan_.root_wrench.torque = cross(root.h, gamma_root_);
     for (std::size_t k = 1; k < bodies_.size(); ++k) {
       Body<Real>& body = bodies_[k];
       body.parent_rests = rests[body.parent];
       if (!body.parent_rests) continue;
-      gamma[k] = body.gamma_rest = transposeTimes(body.R_PZ, gamma[body.parent]);
+      gamma[k] = body.gamma_rest = transposeTimes(body.R_PZ, gamma[body.parent]);  // (2.7) at rest
       body.rest_along_z = body.gamma_rest.x == 0 && body.gamma_rest.y == 0;
       body.weightless = isZero(body.gamma_rest) && body.mobility != Mobility::kPrismatic;
       rests[k] = body.mobility == Mobility::kFixed;
@@ -246,11 +246,12 @@ class Reduction {
     }
   }
 
-  // The children of a hub go two by two into partial sums of 1, 2, 4... children, as a binary
-  // counter counts; what is left in the end goes into the hub's own wrench.
+  // Departs from (3.8): a sum over children. Those of a hub go two by two into partial sums of 1,
+  // 2, 4... children, as a binary counter counts; what is left in the end goes into the hub's own
+  // wrench.
   void sumHubsPairwise() {
     plan_.wrenches = static_cast<int>(bodies_.size());
-    std::vector<std::vector<int>> children(bodies_.size());  // in the order of the sweep
+    std::vector<std::vector<int>> children(bodies_.size());  // of each hub, in the sweep's order
     for (int k = static_cast<int>(bodies_.size()); k-- > 1;) {
       if (bodies_[k].adds_to_parent) children[bodies_[k].parent].push_back(k);
     }
@@ -265,7 +266,7 @@ class Reduction {
     }
   }
 
-  // `n` children came before; the partial sums there are, are the bits of n.
+  // Adds a child after `n` others; the bits of n say which partial sums there are.
   void addChild(Body<Real>& child, std::size_t n, bool last) {
     const auto bit = [](std::size_t number, int i) { return (number >> i & 1) != 0; };
     child.sums_into = plan_.wrenches;

@@ -10,7 +10,7 @@ namespace virtual_work_dynamics {
 /// How a body moves on its parent.
 enum class Mobility : unsigned char { kRevolute, kPrismatic, kFixed };
 
-/// Where the z axis of a frame points in the axes of another. For all but kOblique the rotation
+/// Where the z axis of a frame points in the axes of another. For all except kOblique the rotation
 /// between them is Q of canonicalRotation(): a signed permutation, or one with four entries.
 enum class AxisDirection : unsigned char {
   kOblique,
@@ -36,7 +36,7 @@ struct BodyUse {
 
   int parent = -1;
   Mobility mobility = Mobility::kFixed;
-  AxisDirection axis = AxisDirection::kOblique;  ///< of this body's z axis in its parent's Z frame
+  AxisDirection axis = AxisDirection::kOblique;  ///< of the body's z axis, in its parent's Z frame
 
   bool motion_needed = false;
   bool wrench_needed = false;
@@ -45,28 +45,28 @@ struct BodyUse {
   bool has_inertia = false;
 
   // Constants that are zero, so that their products are left out.
-  bool centred = false;   ///< h
-  bool diagonal = false;  ///< the entries of G off its diagonal
-  bool offset_x = true;   ///< not: the components of p_PoZo_P
+  bool centred = false;   ///< h is zero
+  bool diagonal = false;  ///< the entries of G off its diagonal are zero
+  bool offset_x = true;   ///< whether components of r_{k,k-1} can be other than zero
   bool offset_y = true;
   bool offset_z = true;
 
-  bool parent_rests = false;     ///< the parent neither turns nor accelerates, but for -g
-  bool rest_along_z = false;     ///< and gamma is along the joint axis, or zero
-  bool weightless = false;       ///< and gamma of this body is zero
+  bool parent_rests = false;  ///< the parent neither turns nor accelerates, except for -g
+  bool rest_along_z = false;  ///< the parent rests, and its gamma is along the joint axis or zero
+  bool weightless = false;    ///< the parent rests, and gamma of this body is zero
   bool takes_from_next = false;  ///< a child's wrench arrives in registers
   bool hands_on = false;         ///< its wrench goes to the parent in registers
   bool adds_to_parent = false;   ///< its wrench goes to the parent in memory
-  bool starts_sum = false;       ///< and is the first there
+  bool starts_sum = false;       ///< its wrench is the first of a sum in memory
   bool drives = false;           ///< its active component is part of a requested effort
-  bool summed = false;           ///< and not the first part of it in the sweep
+  bool summed = false;           ///< other bodies have added to that effort before
   bool geared = false;           ///< the multiplier is not 1
 
   int parent_slot = -1;  ///< where the parent's motion is kept; -1: it was the last
   int own_slot = -1;     ///< where its motion is kept for children that come later
   int angle = -1;        ///< index into Plan::angles
   int slide = -1;        ///< index into Plan::slides
-  int coordinate = -1;   ///< that moves it; -1: fixed
+  int coordinate = -1;   ///< the coordinate that moves it; -1: fixed
   int child_axes = -1;   ///< index into Plan::child_axes
 
   int sums_into = -1;     ///< index of the wrench it is added to: the parent's, or a partial sum
@@ -95,8 +95,8 @@ struct Body : BodyUse {
   Vec3<T> gamma_rest{};  ///< R_PZ^T gamma of a parent at rest, m/s^2
 };
 
-/// Position of a joint: multiplier * q[coordinate] + offset, and for those that turn a constant
-/// rotation about z behind it.
+/// Position of a joint: multiplier * q[coordinate] + offset; a joint that turns has a constant
+/// rotation about z, the phase, behind it.
 template <typename T>
 struct JointPosition {
   int coordinate = 0;
@@ -131,7 +131,7 @@ struct ReactionOutput {
   /// `row[i]` with `sign[i]`.
   Mat3<T> R_KZ{};
   bool permutes = false;
-  bool flips = false;  ///< and a sign is -1
+  bool flips = false;  ///< whether an entry of that permutation is -1
   int row[3] = {0, 1, 2};
   T sign[3] = {T(1), T(1), T(1)};
   bool drop_active = false;  ///< the component along the joint axis is reported as zero

@@ -38,10 +38,10 @@ struct SampleBlock::Impl {
   }
 
   BlockInverseDynamics<double> block;
-  const InverseDynamics::Impl* plan;  // only compared
+  const InverseDynamics::Impl* plan;  // is compared, never read
   std::size_t computed = 0;           // samples of the last block
   std::size_t capacity;
-  std::size_t efforts, child_axes, root_axes, poses, twists;  // numbers a sample
+  std::size_t efforts, child_axes, root_axes, poses, twists;  // numbers of each in a sample
   std::vector<double> inputs, outputs;                        // arrays one after the other
   ResultBlock<double> results;                                // their places in `outputs`
 };

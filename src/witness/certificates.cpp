@@ -18,7 +18,7 @@ namespace virtual_work_dynamics {
 namespace {
 
 // Magnitudes below this have lost digits to underflow: differences count as parts of it. It also
-// makes nothing of nothing zero.
+// turns 0/0 into 0.
 constexpr double kLeastScale =
     std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 
@@ -57,8 +57,8 @@ struct Drive {
         offset(joint.offset) {}
 };
 
-// cos and sin of multiplier * q + offset, whose own rounding would turn what it carries by as much
-// as the last digit of a large angle.
+// Cosine and sine of multiplier * q + offset, whose own rounding would turn what the joint carries
+// by as much as the last digit of a large angle.
 void cosineAndSine(const Drive& drive, double q, double& cosine, double& sine) {
   if (!drive.geared) {
     cosine = std::cos(q);
@@ -78,7 +78,7 @@ void cosineAndSine(const Drive& drive, double q, double& cosine, double& sine) {
   sine = s + (rest_sine * c - versine * s);
 }
 
-// to = from Rz, columns.
+// Sets to = from Rz, matrices by columns.
 void turn(const double* from, double cosine, double sine, double* to) {
   for (int i = 0; i < 3; ++i) {
     to[i] = cosine * from[i] + sine * from[i + 3];
@@ -109,7 +109,8 @@ struct Certifier::Impl {
         welded(mechanism),
         joints(welded.bodies.size()),
         momentum(chosenMomentum()),
-        memory(momentum.state_size * welded.bodies.size()) {
+        memory(momentum.state_size * welded.bodies.size()),
+        own_load(scene) {
     for (std::size_t b = 1; b < welded.bodies.size(); ++b) {
       drives.emplace_back(mechanism.joints()[welded.joints[b]]);
       const double* const R_PZ = welded.bodies[b].R_PZ;
@@ -139,7 +140,6 @@ struct Certifier::Impl {
     wrenches.push_back(wrench);
     wrench_axes.push_back(place.R_ZL);
     wrench_arms.push_back(static_cast<double>(place.distance + at.norm()));
-    setWrench(wrenches.size() - 1, applied.force, applied.torque);
   }
 
   void setWrench(std::size_t index, const Eigen::Vector3d& force, const Eigen::Vector3d& torque) {
@@ -173,7 +173,7 @@ struct Certifier::Impl {
     }
   }
 
-  // Power of joint terms, W.
+  // Adds the power of joint terms, W, and of the magnitudes of their terms.
   void addTerms(const Motion& motion, double& power, double& scale) const {
     for (std::size_t i = 0; i < terms.size(); ++i) {
       const ResolvedJointTerms& term = terms[i];
@@ -192,7 +192,7 @@ struct Certifier::Impl {
     }
   }
 
-  // Efforts at rest have no power, unless they are no numbers.
+  // Power of the efforts, W. Efforts at rest have none, unless they are not numbers.
   double powerOf(const Eigen::VectorXd& effort, const Motion& motion) const {
     double power = 0;
     for (Eigen::Index i = 0; i < coordinates; ++i) power += effort[i] * (rests ? 0 : motion.qd[i]);
@@ -204,7 +204,7 @@ struct Certifier::Impl {
   std::vector<ResolvedJointTerms> terms;
   std::vector<Drive> term_drives;
   WeldedBodies welded;
-  std::vector<Drive> drives;  // of all bodies but the root
+  std::vector<Drive> drives;  // of all bodies except the root
   std::vector<MomentumJoint> joints;
   std::vector<MomentumWrench> wrenches;
   std::vector<Matrix3l> wrench_axes;  // R_ZL
@@ -212,6 +212,7 @@ struct Certifier::Impl {
   const Momentum& momentum;
   AlignedMemory memory;
   MomentumInputs inputs;
+  Load own_load;  // the values in the scene
 };
 
 Certifier::Certifier(const Mechanism& mechanism, const Scene& scene)
@@ -239,12 +240,21 @@ std::size_t Certifier::groundIndex(const Request& extended) {
 
 Certificates Certifier::check(const Motion& motion, const Eigen::VectorXd& effort,
                               const Wrench& ground) {
+  return check(motion, impl_->own_load, effort, ground);
+}
+
+Certificates Certifier::check(const Motion& motion, const Load& load, const Eigen::VectorXd& effort,
+                              const Wrench& ground) {
   Impl& impl = *impl_;
   requireLengths(motion, impl.coordinates);
+  requireLoad(load, impl.wrenches.size());
   if (effort.size() != impl.coordinates) {
     throw MotionError("certificates: effort has " + std::to_string(effort.size()) +
                       " entries, the mechanism has " + std::to_string(impl.coordinates) +
                       " coordinates");
+  }
+  for (std::size_t i = 0; i < load.wrenches.size(); ++i) {
+    impl.setWrench(i, load.wrenches[i].force, load.wrenches[i].torque);
   }
   impl.takeMotion(motion);
   MomentumSums sums;
@@ -253,14 +263,6 @@ Certificates Certifier::check(const Motion& motion, const Eigen::VectorXd& effor
   return {relative(impl.powerOf(effort, motion) - sums.power, sums.power_scale),
           relative(ground.force, sums.force, sums.force_scale),
           relative(ground.torque, sums.moment, sums.moment_scale)};
-}
-
-void Certifier::setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                                 const Eigen::Vector3d& torque) {
-  if (index >= impl_->wrenches.size()) {
-    throw SceneError("the scene has no applied wrench " + std::to_string(index));
-  }
-  impl_->setWrench(index, force, torque);
 }
 
 }  // namespace virtual_work_dynamics

@@ -12,7 +12,7 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// Norms of what is constant of a joint, rounded once.
+// Norms of a joint's constants, rounded once.
 struct JointNorms {
   int parent_link = 0;
   int coordinate = -1;
@@ -22,15 +22,15 @@ struct JointNorms {
   double distance = 0;  // |p_PoKo|
 };
 
-// Norms of what is constant of a link.
+// Norms of a link's constants.
 struct LinkNorms {
   double mass = 0;
   double first = 0;   // m |r_C|
-  double second = 0;  // of the inertia about the link's origin
+  double second = 0;  // norm of the inertia about the link's origin
   WrenchMagnitude applied;
 };
 
-// Norms of an applied wrench.
+// Norms of an applied wrench, whose values a load replaces.
 struct AppliedNorms {
   std::size_t link = 0;
   long double arm = 0;
@@ -43,13 +43,13 @@ struct AppliedNorms {
   }
 };
 
-// What a link's motion adds up to.
+// Sums of the norms of all terms of a link's angular velocity and accelerations.
 struct MotionSums {
   double w = 0;
   double alpha = 0;
   double gamma = 0;
 
-  double gradient() const { return w * w + alpha; }  // of U = w~ w~ + alpha~
+  double gradient() const { return w * w + alpha; }  // bounds U = w~ w~ + alpha~
 };
 
 JointNorms normsOf(const Joint& joint) {
@@ -81,6 +81,7 @@ int ceilLog2(int count) {
 struct ErrorBound::Impl {
   Impl(const Mechanism& mechanism, const Scene& scene)
       : rests(scene.static_motion),
+        own_load(scene),
         terms(resolveJointTerms(mechanism, scene)),
         motions(mechanism.links().size()),
         slides(mechanism.joints().size()),
@@ -94,7 +95,6 @@ struct ErrorBound::Impl {
       AppliedNorms norms;
       norms.link = static_cast<std::size_t>(linkOf(mechanism, applied));
       norms.arm = applied.at.cast<long double>().norm();
-      norms.set(applied.force, applied.torque);
       applied_wrenches.push_back(norms);
     }
     motions[0].gamma = static_cast<double>(scene.gravity.cast<long double>().norm());
@@ -134,21 +134,21 @@ struct ErrorBound::Impl {
 
   double gradient(const MotionSums& motion) const { return counted(motion.gradient()); }
 
-  // (2.5), (2.7)
+  // Norms of (2.5) and (2.7).
   void move(std::size_t k, const Motion& motion) {
     const JointNorms& joint = joints[k];
     const MotionSums& parent = motions[joint.parent_link];
     MotionSums& link = motions[k + 1];
     slides[k] = joint.slides ? position(joint, motion) : 0;
     link = parent;
-    link.gamma += gradient(parent) * counted(joint.distance + slides[k]);
+    link.gamma += gradient(parent) * counted(joint.distance + slides[k]);  // (2.7), |U_p| |r|
     if (joint.coordinate < 0) return;
     const double qd = rate(joint, motion), qdd = acceleration(joint, motion);
     if (joint.slides) {
-      link.gamma += qdd + 2 * qd * parent.w;
+      link.gamma += qdd + 2 * qd * parent.w;  // (2.7)
     } else {
-      link.w += qd;
-      link.alpha += qdd + qd * parent.w;
+      link.w += qd;                       // (2.5)
+      link.alpha += qdd + qd * parent.w;  // (2.7)
     }
   }
 
@@ -161,23 +161,23 @@ struct ErrorBound::Impl {
     }
   }
 
-  // (3.5), (3.6)
+  // Norms of (3.5) and (3.6); those of the weight are in gamma.
   void load(std::size_t i) {
     const LinkNorms& link = links[i];
     const double gamma = counted(motions[i].gamma), U = gradient(motions[i]);
     const double mass = counted(link.mass), first = counted(link.first);
     const double second = counted(link.second);
-    wrenches[i] = {counted(mass * gamma + first * U + link.applied.force),
+    wrenches[i] = {counted(mass * gamma + first * U + link.applied.force),  // (3.5), + |f*|
                    counted(first * gamma + second * U + link.applied.moment)};
   }
 
-  // (3.7), (3.8)
+  // Norms of (3.7) and (3.8).
   void addToParent(std::size_t k) {
     const JointNorms& joint = joints[k];
     const WrenchMagnitude& wrench = wrenches[k + 1];
     WrenchMagnitude& parent = wrenches[joint.parent_link];
     parent.force += wrench.force;
-    parent.moment += wrench.moment + counted(joint.distance + slides[k]) * wrench.force;
+    parent.moment += wrench.moment + counted(joint.distance + slides[k]) * wrench.force;  // (3.8)
     if (joint.coordinate < 0) return;
     efforts[joint.coordinate] += joint.multiplier * (joint.slides ? wrench.force : wrench.moment);
   }
@@ -193,12 +193,13 @@ struct ErrorBound::Impl {
 
   bool rests;
   double least = 0;
+  Load own_load;  // the values in the scene
   std::vector<JointNorms> joints;
   std::vector<LinkNorms> links;
   std::vector<AppliedNorms> applied_wrenches;
   std::vector<ResolvedJointTerms> terms;
-  std::vector<MotionSums> motions;  // of links
-  std::vector<double> slides;       // of joints
+  std::vector<MotionSums> motions;  // by link
+  std::vector<double> slides;       // by joint: norms of their displacements
   std::vector<WrenchMagnitude> wrenches;
   std::vector<int> depths;
   std::vector<double> efforts;
@@ -212,17 +213,17 @@ ErrorBound::~ErrorBound() = default;
 ErrorBound::ErrorBound(ErrorBound&&) noexcept = default;
 ErrorBound& ErrorBound::operator=(ErrorBound&&) noexcept = default;
 
-void ErrorBound::setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                                  const Eigen::Vector3d& torque) {
-  if (index >= impl_->applied_wrenches.size()) {
-    throw SceneError("the scene has no applied wrench " + std::to_string(index));
-  }
-  impl_->applied_wrenches[index].set(force, torque);
+void ErrorBound::compute(const Motion& motion, double least) {
+  compute(motion, impl_->own_load, least);
 }
 
-void ErrorBound::compute(const Motion& motion, double least) {
+void ErrorBound::compute(const Motion& motion, const Load& load, double least) {
   Impl& impl = *impl_;
   impl.least = least;
+  requireLoad(load, impl.applied_wrenches.size());
+  for (std::size_t i = 0; i < load.wrenches.size(); ++i) {
+    impl.applied_wrenches[i].set(load.wrenches[i].force, load.wrenches[i].torque);
+  }
   requireLengths(motion, static_cast<Eigen::Index>(impl.efforts.size()));
   std::fill(impl.efforts.begin(), impl.efforts.end(), 0.0);
   for (std::size_t k = 0; k < impl.joints.size(); ++k) impl.move(k, motion);

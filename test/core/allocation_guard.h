@@ -4,8 +4,9 @@
 
 namespace virtual_work_dynamics {
 
-/// Counts heap allocations of the calling process, whichever library makes them, while it lives:
-/// malloc and its kin are replaced in this executable and so for every shared library it loads.
+/// Counts heap allocations of the process while the object lives, whichever library makes them:
+/// malloc and its relatives are replaced in this executable and so for every shared library that it
+/// loads.
 class AllocationGuard {
  public:
   AllocationGuard();

@@ -15,7 +15,8 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Of the largest of the kind in the motion: about ten roundings of chains of four joints.
+// Relative to the largest result of the kind in the motion: about ten roundings in chains of four
+// joints.
 constexpr double kRounding = 1e-15;
 // Efforts are components of moments, which may be larger.
 constexpr double kEffort = 2e-15;
@@ -65,7 +66,7 @@ class Comparison {
     long double error = 0, largest = 0;
 
     void take(long double difference, long double size) {
-      // Not std::max, which loses what is no number.
+      // std::max would lose NaN.
       if (!(std::abs(difference) <= error)) error = std::abs(difference);
       largest = std::max(largest, std::abs(size));
     }
@@ -201,7 +202,7 @@ TEST_P(AxisOfAJoint, MayPointAnywhere) {
   }
 }
 
-// On the root, where motion starts; and with another body on the root, so that it is a branch.
+// The joint is on the root, where motion starts, alone or as a branch beside another body.
 TEST_P(AxisOfAJoint, MayPointAnywhereOnTheRoot) {
   unsigned seed = 1000;
   for (const Vector3l& axis : directions()) {
@@ -221,7 +222,7 @@ INSTANTIATE_TEST_SUITE_P(Axes, AxisOfAJoint,
                          ::testing::Values(JointType::kRevolute, JointType::kPrismatic,
                                            JointType::kFixed));
 
-// What the tests above are to cover is covered: each direction has products of its own.
+// The tests above cover every kind: each direction has products of its own.
 TEST_P(AxisOfAJoint, HasAKind) {
   using Kind = AxisDirection;
   const std::vector<Kind> expected = {

@@ -161,25 +161,26 @@ void expectReplacedWrenches() {
         AppliedWrench& wrench = other.applied_wrenches[i];
         wrench.force << -7, static_cast<double>(i), 4;
         wrench.torque << 1, 8, -static_cast<double>(i);
-        replaced.setAppliedWrench(i, wrench.force, wrench.torque);
       }
       const InverseDynamics after(chain.mechanism, other, request);
       const auto expected = blockResults<Real>(after, motions, kLayouts[0], threads, set);
       const auto old = blockResults<Real>(before, motions, kLayouts[0], threads, set);
-      const auto results = blockResults(replaced, motions, kLayouts[0]);
+      Load load(other);
+      const auto results = blockResults(replaced, motions, kLayouts[0], load);
+      const auto own = blockResults(replaced, motions, kLayouts[0]);
       for (std::size_t n = 0; n < motions.size(); ++n) {
         EXPECT_EQ(differences(results[n], expected[n]), "");
         EXPECT_NE(differences(results[n], old[n]), "");
+        EXPECT_EQ(differences(own[n], old[n]), "");
       }
-      EXPECT_EQ(messageOf([&] {
-                  replaced.setAppliedWrench(3, {0, 0, 0}, {0, 0, 0});
-                }),
-                "SceneError: the scene has no applied wrench 3");
+      load.wrenches.resize(4);
+      EXPECT_EQ(messageOf([&] { blockResults(replaced, motions, kLayouts[0], load); }),
+                "SceneError: load: it has 4 wrenches, the scene has 3 applied wrenches");
     }
   }
 }
 
-TEST(BlockUse, AppliedWrenchesAreReplacedFromTheNextBlockOn) {
+TEST(BlockUse, ALoadReplacesTheAppliedWrenchesOfOneBlock) {
   expectReplacedWrenches<double>();
   expectReplacedWrenches<float>();
 }

@@ -11,11 +11,11 @@
 
 namespace virtual_work_dynamics {
 
-/// A random tree closed by joints whose frames meet at a random position, the assembly: any type of
-/// closure fits. As many joints are actuated as the closures leave degrees of freedom.
+/// A random tree closed by joints whose frames meet at a random position, the assembly, so that any
+/// type of closure fits. As many joints are actuated as the closures leave degrees of freedom.
 class ClosedChain {
  public:
-  /// A chain with branches of `joints` joints, some of which slide.
+  /// Makes a tree of `joints` joints, some of which slide.
   ClosedChain(unsigned seed, int joints) : builder_(seed), joints_(joints) {
     for (int i = 0; i < joints; ++i) {
       const bool slides = i % 4 == 2;
@@ -34,8 +34,8 @@ class ClosedChain {
     }
   }
 
-  /// Adds a closure between link 0 and the given one; the joint `passive - 1` and others before
-  /// become passive, as many as there are conditions.
+  /// Adds a closure between two links. As many of the last actuated joints become passive as it has
+  /// conditions.
   void close(ClosureType type, int parent, int child) {
     Request request;
     request.root_axes = {name(child - 1)};

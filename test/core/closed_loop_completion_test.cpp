@@ -19,7 +19,7 @@ TEST(LoopCompletion, FourBarFollowsItsCrank) {
   const FourBar four_bar;
   for (const char pivot : {'B', 'C', 'D'}) {
     const FourBar::Cut cut = four_bar.cut(pivot);
-    ClosedLoopDynamics dynamics(cut.mechanism, cut.scene, Request());
+    ClosedLoops dynamics(cut.mechanism, cut.scene);
     Motion motion(3);
     motion.q = dynamics.assembly();
     for (double angle = 0.8; angle < 13; angle += 0.05) {
@@ -43,7 +43,7 @@ TEST(LoopCompletion, FourBarFollowsItsCrank) {
 TEST(LoopCompletion, OtherCoordinatesCanBeGiven) {
   const FourBar four_bar;
   const FourBar::Cut cut = four_bar.cut('A');
-  ClosedLoopDynamics dynamics(cut.mechanism, cut.scene, Request());
+  ClosedLoops dynamics(cut.mechanism, cut.scene);
   const Motion expected = cut.motion(four_bar.turnings(0.9, 3.1, -4.2));
   Motion motion = expected;
   motion.q = dynamics.assembly();
@@ -59,7 +59,7 @@ TEST(LoopCompletion, OtherCoordinatesCanBeGiven) {
 TEST(LoopCompletion, SliderCrankEqualsItsClosedForm) {
   const SliderCrank slider_crank;
   Scene scene = slider_crank.scene("joint_1");
-  ClosedLoopDynamics dynamics(slider_crank.mechanism(), scene, Request());
+  ClosedLoops dynamics(slider_crank.mechanism(), scene);
   Motion motion(3);
   motion.q = dynamics.assembly();
   for (double angle = 0.5; angle < 7; angle += 0.1) {
@@ -95,7 +95,7 @@ TEST(LoopCompletion, ClosesAsWellNearDeadCentre) {
   constexpr double kRounding = 1e-14;
   const SliderCrank slider_crank;
   const Scene scene = slider_crank.scene("joint_3");
-  ClosedLoopDynamics dynamics(slider_crank.mechanism(), scene, Request());
+  ClosedLoops dynamics(slider_crank.mechanism(), scene);
   RobotBuilder random(1);
   int completed = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -111,7 +111,7 @@ TEST(LoopCompletion, ClosesAsWellNearDeadCentre) {
 
 TEST(LoopCompletion, SaysWhenTheLoopCannotBeClosed) {
   const SliderCrank slider_crank;
-  ClosedLoopDynamics dynamics(slider_crank.mechanism(), slider_crank.scene("joint_3"), Request());
+  ClosedLoops dynamics(slider_crank.mechanism(), slider_crank.scene("joint_3"));
   Motion motion(3);
   motion.q = dynamics.assembly();
   EXPECT_TRUE(dynamics.complete(motion));
@@ -125,7 +125,7 @@ TEST(LoopCompletion, SaysWhenTheLoopCannotBeClosed) {
 // At dead centre no motion of the crank follows from the slider's.
 TEST(LoopCompletion, SaysWhenTheMotionIsNotDetermined) {
   const SliderCrank slider_crank;
-  ClosedLoopDynamics dynamics(slider_crank.mechanism(), slider_crank.scene("joint_3"), Request());
+  ClosedLoops dynamics(slider_crank.mechanism(), slider_crank.scene("joint_3"));
   Motion motion = slider_crank.motion(0, 0, 0);
   EXPECT_FALSE(dynamics.complete(motion));
 }
@@ -134,7 +134,7 @@ TEST(LoopCompletion, SaysWhenTheMotionIsNotDetermined) {
 TEST(LoopCompletion, SaysWhenTheMotionIsImpossible) {
   const FourBar four_bar;
   const FourBar::Cut cut = four_bar.cut('D');
-  ClosedLoopDynamics dynamics(cut.mechanism, cut.scene, Request());
+  ClosedLoops dynamics(cut.mechanism, cut.scene);
   Motion motion = cut.motion(four_bar.turnings(1.1, 3, -2));
   const std::vector<bool> two{true, true, false};
   EXPECT_TRUE(dynamics.complete(motion, two));
@@ -149,7 +149,7 @@ TEST(LoopCompletion, SaysWhenACoordinateIsInNoLoop) {
   const SliderCrank slider_crank(0, true);
   Scene scene = slider_crank.scene("joint_1");
   scene.actuated->push_back("joint_4");
-  ClosedLoopDynamics dynamics(slider_crank.mechanism(), scene, Request());
+  ClosedLoops dynamics(slider_crank.mechanism(), scene);
   Motion motion = slider_crank.motion(0.7, 2, 0, 4);
   EXPECT_TRUE(dynamics.complete(motion));
   EXPECT_FALSE(dynamics.complete(motion, {true, false, false, false}));
@@ -157,7 +157,7 @@ TEST(LoopCompletion, SaysWhenACoordinateIsInNoLoop) {
 
 TEST(LoopCompletion, ResidualsAreThoseOfTheMotion) {
   const SliderCrank slider_crank;
-  ClosedLoopDynamics dynamics(slider_crank.mechanism(), slider_crank.scene("joint_1"), Request());
+  ClosedLoops dynamics(slider_crank.mechanism(), slider_crank.scene("joint_1"));
   const Motion closed = slider_crank.motion(0.6, 2, 0);
   const auto residualOf = [&](const Motion& motion) {
     dynamics.compute(motion);

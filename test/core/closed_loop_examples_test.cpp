@@ -7,14 +7,14 @@
 
 #include "lagrange_multipliers_oracle.h"
 #include "loop_examples.h"
-#include "loop_results.h"
 #include "maximal_coordinates_oracle.h"
+#include "named_loop_results.h"
 
 namespace virtual_work_dynamics {
 namespace {
 
-// What two independent routes through a mechanism of some twenty bodies may differ by, relative to
-// the largest force or moment of the sample.
+// Largest difference between two independent routes through a mechanism of some twenty bodies,
+// relative to the largest force or moment of the sample.
 constexpr double kTwoRoutes = 1e-11;
 
 struct Example {
@@ -34,7 +34,7 @@ class ClosedLoopExamples : public testing::TestWithParam<Example> {
 
   Motion motion(double t) const { return motionAt(example_.mechanism, GetParam().positions, t); }
 
-  LoopResults results(const Motion& motion) const {
+  NamedLoopResults results(const Motion& motion) const {
     return {example_.mechanism, example_.scene, motion};
   }
 
@@ -43,7 +43,7 @@ class ClosedLoopExamples : public testing::TestWithParam<Example> {
   LoopExample example_;
 };
 
-double largest(const LoopResults& results) {
+double largest(const NamedLoopResults& results) {
   double largest = 0;
   for (const std::string& name : results.names()) {
     for (int i = 0; i < 6; ++i) {
@@ -67,7 +67,7 @@ void expectSame(const MaximalCoordinatesOracle::Reaction& expected, const Wrench
 TEST_P(ClosedLoopExamples, AgreesWithMaximalCoordinates) {
   for (const double t : times()) {
     const Motion state = motion(t);
-    const LoopResults results = this->results(state);
+    const NamedLoopResults results = this->results(state);
     const MaximalCoordinatesOracle oracle(example_.mechanism, example_.scene, state);
     const double tolerance = kTwoRoutes * largest(results);
     for (const std::string& name : results.names()) {
@@ -83,7 +83,7 @@ TEST_P(ClosedLoopExamples, AgreesWithMaximalCoordinates) {
       EXPECT_EQ(results.effortDetermined(name), effort.determined) << name;
     }
     EXPECT_EQ(results.dynamics().determinacy().redundancy, oracle.redundancy());
-    // What is not determined is a solution nevertheless.
+    // Results that are not determined are a solution nevertheless.
     EXPECT_LE(oracle.violationBy([&](const std::string& name) { return results.rootAxes(name); }),
               kTwoRoutes);
   }
@@ -92,7 +92,7 @@ TEST_P(ClosedLoopExamples, AgreesWithMaximalCoordinates) {
 TEST_P(ClosedLoopExamples, AgreesWithLagrangesEquationsWithMultipliers) {
   for (const double t : times()) {
     const Motion state = motion(t);
-    const LoopResults results = this->results(state);
+    const NamedLoopResults results = this->results(state);
     const LagrangeMultipliersOracle oracle(example_.mechanism, example_.scene, state);
     const double tolerance = kTwoRoutes * largest(results);
     for (const std::string& name : results.names()) {
@@ -111,7 +111,7 @@ TEST_P(ClosedLoopExamples, AgreesWithLagrangesEquationsWithMultipliers) {
 
 TEST_P(ClosedLoopExamples, CountsRedundantConstraints) {
   for (const double t : times()) {
-    const LoopResults results = this->results(motion(t));
+    const NamedLoopResults results = this->results(motion(t));
     const Determinacy& found = results.dynamics().determinacy();
     EXPECT_EQ(found.redundant_constraints, GetParam().redundant_constraints);
     EXPECT_EQ(found.redundancy, GetParam().redundancy);
@@ -126,8 +126,8 @@ TEST_P(ClosedLoopExamples, CountsRedundantConstraints) {
 constexpr double kCompletion = 1e-11;
 
 TEST_P(ClosedLoopExamples, CompletesTheMotionOfTheActuatedJoints) {
-  LoopResults results = this->results(motion(0.1));
-  ClosedLoopDynamics dynamics(example_.mechanism, example_.scene, {});
+  NamedLoopResults results = this->results(motion(0.1));
+  ClosedLoops dynamics(example_.mechanism, example_.scene);
   for (const double t : times()) {
     const Motion expected = motion(t);
     Motion completed = motion(t - 0.01);  // the passive ones as of the sample before
@@ -151,7 +151,7 @@ TEST_P(ClosedLoopExamples, CompletesTheMotionOfTheActuatedJoints) {
 TEST_P(ClosedLoopExamples, MeasuresHowFarAMotionViolatesTheLoops) {
   const Motion exact = motion(0.55);
   const double scale = std::max(1.0, exact.qdd.cwiseAbs().maxCoeff());
-  const LoopResults closed = results(exact);
+  const NamedLoopResults closed = results(exact);
   for (const ClosureResidual& residual : closed.dynamics().residuals()) {
     EXPECT_LE(residual.position, kCompletion);
     EXPECT_LE(residual.velocity, kCompletion * scale);

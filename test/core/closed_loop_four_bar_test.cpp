@@ -10,7 +10,7 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Of the largest force or moment; a handful of roundings in a well-conditioned system.
+// Relative to the largest force or moment: a handful of roundings in a well-conditioned system.
 constexpr double kPlanarTolerance = 1e-12;
 
 // In-plane force on the child of a joint in the child's axes, from the free bodies.
@@ -23,7 +23,7 @@ FourBar::Vector2 expected(const FourBar::Forces& forces, const FourBar::Turnings
   return {force.dot(FourBar::along(angle)), force.dot(FourBar::normal(angle))};
 }
 
-// What is determined of a linkage equals what its free bodies say.
+// Determined results of a linkage equal those of its free bodies.
 void expectFreeBodies(const FourBar& four_bar, const FourBar::Cut& cut,
                       const FourBar::Turnings& turnings, double unit = 1) {
   const ClosedLoopResults results(cut.mechanism, cut.scene, cut.motion(turnings));

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "loop_examples.h"
-#include "loop_results.h"
+#include "named_loop_results.h"
 #include "planar_free_bodies.h"
 
 namespace virtual_work_dynamics {
@@ -19,7 +19,7 @@ constexpr double kParallel = 1e-11;
 const std::vector<double> kTimes{0.1, 0.55, 0.9, 1.7};
 
 // Determined, and of that value relative to the largest expected or 1.
-void expectDetermined(const LoopResults& results, const std::string& joint, int i,
+void expectDetermined(const NamedLoopResults& results, const std::string& joint, int i,
                       long double value, double tolerance) {
   const std::string label = joint + ", component " + std::to_string(i);
   EXPECT_TRUE(results.rootAxesDetermined(joint)[static_cast<std::size_t>(i)]) << label;
@@ -29,7 +29,7 @@ void expectDetermined(const LoopResults& results, const std::string& joint, int 
       << label;
 }
 
-void expectPin(const LoopResults& results, const std::string& joint,
+void expectPin(const NamedLoopResults& results, const std::string& joint,
                const PlanarFreeBodies::Vector& x, int pin, double tolerance) {
   expectDetermined(results, joint, 0, x[pin], tolerance);
   expectDetermined(results, joint, 1, x[pin + 1], tolerance);
@@ -39,7 +39,7 @@ void expectPin(const LoopResults& results, const std::string& joint,
   }
 }
 
-void expectEffort(const LoopResults& results, const std::string& joint, long double value,
+void expectEffort(const NamedLoopResults& results, const std::string& joint, long double value,
                   double tolerance) {
   EXPECT_TRUE(results.effortDetermined(joint)) << joint;
   const double expected = static_cast<double>(value);
@@ -73,8 +73,8 @@ TEST(FourBar, InPlaneForcesMatchFreeBodies) {
     const int at_o = bodies.pin(base, first, o), at_a = bodies.pin(first, second, a);
     const int at_c = bodies.pin(base, third, c), at_pin = bodies.pin(second, third, pin);
     const auto x = bodies.solve();
-    const LoopResults results(example.mechanism, example.scene,
-                              motionAt(example.mechanism, fourBarAt, t));
+    const NamedLoopResults results(example.mechanism, example.scene,
+                                   motionAt(example.mechanism, fourBarAt, t));
     expectPin(results, "crank_joint", x, at_o, kClosedForm);
     expectPin(results, "coupler_joint", x, at_a, kClosedForm);
     expectPin(results, "rocker_joint", x, at_c, kClosedForm);
@@ -116,8 +116,8 @@ TEST(SliderCrank, MatchesItsClosedForm) {
     const Vector2l c = crank_load + p;
     const long double torque =
         0.0012L * crank.acceleration.z() + cross(0.03L * e, crank_load) + cross(0.10L * e, p);
-    const LoopResults results(example.mechanism, example.scene,
-                              motionAt(example.mechanism, sliderCrankAt, t));
+    const NamedLoopResults results(example.mechanism, example.scene,
+                                   motionAt(example.mechanism, sliderCrankAt, t));
     const PlanarFreeBodies::Vector x = (PlanarFreeBodies::Vector(6) << w_x, w_y, p, c).finished();
     expectPin(results, "wrist_pin", x, 0, kClosedForm);
     expectPin(results, "rod_joint", x, 2, kClosedForm);
@@ -164,8 +164,8 @@ TEST(Planar3Rrr, InPlaneForcesMatchFreeBodies) {
                       bodies.pin(arm, forearm, elbow), bodies.pin(forearm, platform, vertex)});
     }
     const auto x = bodies.solve();
-    const LoopResults results(example.mechanism, example.scene,
-                              motionAt(example.mechanism, planar3rrrAt, t));
+    const NamedLoopResults results(example.mechanism, example.scene,
+                                   motionAt(example.mechanism, planar3rrrAt, t));
     for (int i = 0; i < 3; ++i) {
       const std::string n = std::to_string(i + 1);
       expectEffort(results, "motor_" + n, x[legs[i].motor], kParallel);
@@ -213,7 +213,8 @@ TEST(StewartGough, MasslessLegsCarryThePlatformByForcesAlongThem) {
       directions.col(i) << leg, arm.cross(leg);
     }
     const Eigen::Matrix<long double, 6, 1> forces = directions.fullPivLu().solve(load);
-    const LoopResults results(mechanism, example.scene, motionAt(mechanism, stewartGoughAt, t));
+    const NamedLoopResults results(mechanism, example.scene,
+                                   motionAt(mechanism, stewartGoughAt, t));
     for (int i = 0; i < 6; ++i) {
       const std::string leg = "leg_" + std::to_string(i + 1);
       expectEffort(results, leg, forces[i], kParallel);
@@ -236,8 +237,8 @@ TEST(StewartGough, MasslessLegsCarryThePlatformByForcesAlongThem) {
 TEST(SpatialParallelogram, OneRedundantConstraintIsSharedByTwoArms) {
   const LoopExample example("spatial_parallelogram");
   for (const double t : kTimes) {
-    const LoopResults results(example.mechanism, example.scene,
-                              motionAt(example.mechanism, parallelogramAt, t));
+    const NamedLoopResults results(example.mechanism, example.scene,
+                                   motionAt(example.mechanism, parallelogramAt, t));
     const Determinacy& determinacy = results.dynamics().determinacy();
     EXPECT_EQ(determinacy.redundant_constraints, 1);
     EXPECT_EQ(determinacy.redundancy, 1);
@@ -267,17 +268,17 @@ TEST(SpatialParallelogram, OneRedundantConstraintIsSharedByTwoArms) {
 TEST(SpatialParallelogram, PolicyDecidesTheForceThatIsNotDetermined) {
   LoopExample example("spatial_parallelogram");
   const Motion motion = motionAt(example.mechanism, parallelogramAt, 0.9);
-  const auto along_y = [](const LoopResults& results, const std::string& name) {
+  const auto along_y = [](const NamedLoopResults& results, const std::string& name) {
     return results.rootAxes(name).force.y();
   };
-  const LoopResults least(example.mechanism, example.scene, motion);
+  const NamedLoopResults least(example.mechanism, example.scene, motion);
   const double shared = -along_y(least, "ball_3_z");
   ASSERT_GE(std::abs(shared), 0.1);
   EXPECT_NEAR(along_y(least, "ball_1"), shared / 2, kClosedForm);
   EXPECT_NEAR(along_y(least, "ball_2"), shared / 2, kClosedForm);
   example.scene.redundancy.policy = RedundancyPolicy::kZeroAt;
   example.scene.redundancy.zero_at = {"ball_1"};
-  const LoopResults zero(example.mechanism, example.scene, motion);
+  const NamedLoopResults zero(example.mechanism, example.scene, motion);
   EXPECT_NEAR(along_y(zero, "ball_1"), 0, kClosedForm);
   EXPECT_NEAR(along_y(zero, "ball_2"), shared, kClosedForm);
   for (const std::string& name : least.names()) {

@@ -10,7 +10,7 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Of the largest effort or force, times the condition of the loops: two routes in double.
+// Relative to the largest effort or force, times the condition of the loops: two routes in double.
 constexpr double kTolerance = 1e-11;
 constexpr double kWellConditioned = 300;
 
@@ -66,7 +66,7 @@ void expectLagrangeAgrees(ClosedChain& chain, int samples, int& compared) {
   const Mechanism& mechanism = chain.mechanism();
   const Scene& scene = chain.scene();
   ClosedLoopResults results(mechanism, scene);
-  ClosedLoopDynamics& dynamics = results.dynamics;
+  ClosedLoops& dynamics = results.dynamics;
   Motion motion(mechanism.coordinates().size());
   for (int n = 0; n < samples; ++n) {
     const Motion random = chain.builder().motion();

@@ -7,7 +7,9 @@
 #include "closed_loop_results.h"
 #include "four_bar.h"
 #include "loops/groups.h"
+#include "result_differences.h"
 #include "slider_crank.h"
+#include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -22,7 +24,7 @@ TEST(ClosedLoopDynamics, PosesAndTwistsOfClosuresAreTheirChildFrames) {
   Request request;
   request.root_axes = {"pin", "joint_1", "joint_3"};
   request.poses = request.twists = true;
-  ClosedLoopDynamics dynamics(slider_crank.mechanism(), scene, request);
+  ClosedLoops dynamics(slider_crank.mechanism(), scene, request);
   const Motion motion = slider_crank.motion(0.7, 2, 1);
   dynamics.compute(motion);
   EXPECT_NEAR(dynamics.poses()[0].position.x(), motion.q[2], kTolerance);
@@ -37,7 +39,7 @@ TEST(ClosedLoopDynamics, PosesAndTwistsOfClosuresAreTheirChildFrames) {
   EXPECT_NEAR(dynamics.poses()[2].position.x(), motion.q[2], kTolerance);
 }
 
-// Without them, what is reported along an axis is zero; what is computed is the same.
+// Without them, the component reported along an axis is zero; everything computed stays the same.
 TEST(ClosedLoopDynamics, ActiveComponentsCanBeLeftOut) {
   const FourBar four_bar;
   for (const char pivot : {'A', 'C'}) {
@@ -70,7 +72,7 @@ TEST(ClosedLoopDynamics, StaticScenesIgnoreVelocitiesAndAccelerations) {
   EXPECT_EQ(still.dynamics.residuals()[0].acceleration, 0);
 }
 
-TEST(ClosedLoopDynamics, AppliedWrenchesCanBeReplaced) {
+TEST(ClosedLoopDynamics, ALoadReplacesTheAppliedWrenchesOfOneSample) {
   const FourBar four_bar;
   FourBar::Cut cut = four_bar.cut('D');
   AppliedWrench push;
@@ -78,21 +80,32 @@ TEST(ClosedLoopDynamics, AppliedWrenchesCanBeReplaced) {
   push.at << 0.2, 0.1, 0;
   cut.scene.applied_wrenches = {push};
   const Motion motion = cut.motion(four_bar.turnings(1.1, 3, -2));
+  PointSpring spring;
+  spring.link_a = "base";
+  spring.link_b = "coupler";
+  spring.stiffness = 3;
+  cut.scene.springs = {spring};
+  const ClosedLoopResults own(cut.mechanism, cut.scene, motion);
   ClosedLoopResults replaced(cut.mechanism, cut.scene);
   cut.scene.applied_wrenches[0].force << 10, -20, 5;
   cut.scene.applied_wrenches[0].torque << 1, 2, 3;
   const ClosedLoopResults given(cut.mechanism, cut.scene, motion);
-  replaced.dynamics.setAppliedWrench(0, {10, -20, 5}, {1, 2, 3});
-  replaced.dynamics.compute(motion);
-  EXPECT_EQ(replaced.dynamics.effort(), given.dynamics.effort());
-  for (const char* name : {"A", "D"}) {
-    EXPECT_EQ(replaced.child(name).force, given.child(name).force);
-    EXPECT_EQ(replaced.child(name).torque, given.child(name).torque);
+  Load load;
+  load.wrenches = {{{10, -20, 5}, {1, 2, 3}}};
+  for (int i = 0; i < 2; ++i) {
+    replaced.dynamics.compute(motion, load);
+    EXPECT_EQ(differences(replaced.dynamics.results(), given.dynamics.results()), "");
+    EXPECT_NE(differences(replaced.dynamics.results(), own.dynamics.results()), "");
+    replaced.dynamics.compute(motion);
+    EXPECT_EQ(differences(replaced.dynamics.results(), own.dynamics.results()), "");
   }
+  load.wrenches.resize(2);
+  EXPECT_THROW(replaced.dynamics.compute(motion, load), SceneError);
+  EXPECT_THROW(replaced.dynamics.compute(motion, Load()), SceneError);
 }
 
-// Two loops that share no joint, but the weld that both stand on: each is solved by itself, and
-// what each leaves open of the weld's reaction counts.
+// Two loops share only the weld on which both stand: each is solved by itself, and what each leaves
+// open of the weld's reaction counts.
 TEST(ClosedLoopDynamics, LoopsOnOneWeldAreSolvedByThemselves) {
   RobotBuilder builder(1);
   const Matrix3l R = Matrix3l::Identity();

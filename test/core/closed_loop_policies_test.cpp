@@ -73,7 +73,7 @@ TEST(Redundancy, ZeroAtRelievesTheClosuresNamed) {
   EXPECT_LE((load.shares() - Eigen::Vector3d::Constant(1 / 3.0)).norm(), kTolerance);
 }
 
-// As springs side by side do.
+// Parallel rods share a load like parallel springs.
 TEST(Redundancy, ParallelRodsShareAsTheirStiffness) {
   HangingLoad load;
   load.scene.redundancy.policy = RedundancyPolicy::kStiffness;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "loop_examples.h"
-#include "loop_results.h"
+#include "named_loop_results.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -30,7 +30,7 @@ class AndrewsSqueezer : public testing::Test {
 
   bool missing() const { return !reference_.IsDefined() || reference_.IsNull(); }
 
-  LoopResults results(const YAML::Node& state) const {
+  NamedLoopResults results(const YAML::Node& state) const {
     Motion motion(static_cast<Eigen::Index>(example_.mechanism.coordinates().size()));
     for (Eigen::Index i = 0; i < motion.q.size(); ++i) {
       const std::string& name = example_.mechanism.coordinateNames()[static_cast<std::size_t>(i)];
@@ -45,7 +45,7 @@ class AndrewsSqueezer : public testing::Test {
     const std::vector<double> lambda = state["lambda_N"].as<std::vector<double>>();
     double largest = 0;
     for (const double value : lambda) largest = std::max(largest, std::abs(value));
-    const LoopResults results = this->results(state);
+    const NamedLoopResults results = this->results(state);
     std::size_t i = 0;
     for (const char* closure : {"E_BDE", "E_EG", "E_HE"}) {
       const Wrench& reaction = results.rootAxes(closure);
@@ -75,7 +75,7 @@ TEST_F(AndrewsSqueezer, MultipliersAndMotorTorqueInMotion) {
 TEST_F(AndrewsSqueezer, ForcesAtTheJointThatFourBodiesShare) {
   if (missing()) GTEST_SKIP() << "no reference results in " VWD_SHARED_DATA;
   const YAML::Node printed = reference_["forces_at_shared_joint_E_at_t_0.03_N"];
-  const LoopResults results = this->results(reference_["states"][1]);
+  const NamedLoopResults results = this->results(reference_["states"][1]);
   const auto expect = [&](const char* key, const Eigen::Vector3d& force) {
     EXPECT_NEAR(force.x(), printed[key][0].as<double>(), kPrintedForces) << key;
     EXPECT_NEAR(force.y(), printed[key][1].as<double>(), kPrintedForces) << key;

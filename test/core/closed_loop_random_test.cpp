@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "loop_results.h"
 #include "maximal_coordinates_oracle.h"
+#include "named_loop_results.h"
 #include "random_loops.h"
 
 namespace virtual_work_dynamics {
@@ -16,7 +16,7 @@ namespace {
 // errors by their condition number, which the results report; a hundred eps for each.
 constexpr double kPerCondition = 100 * 2.2e-16;
 
-double scaleOf(const LoopResults& results) {
+double scaleOf(const NamedLoopResults& results) {
   double scale = 1;
   for (const std::string& name : results.names()) {
     for (int i = 0; i < 6; ++i) {
@@ -29,8 +29,8 @@ double scaleOf(const LoopResults& results) {
 class RandomLoopsTest : public testing::Test {
  protected:
   void check(const Case& loops, const MaximalCoordinatesOracle& oracle) {
-    const LoopResults results(loops.mechanism, loops.scene, loops.motion);
-    const ClosedLoopDynamics& dynamics = results.dynamics();
+    const NamedLoopResults results(loops.mechanism, loops.scene, loops.motion);
+    const ClosedLoops& dynamics = results.dynamics();
     const double tolerance =
         kPerCondition * std::max(1.0, dynamics.determinacy().condition) * scaleOf(results);
     EXPECT_EQ(dynamics.determinacy().redundancy, oracle.redundancy());
@@ -65,7 +65,7 @@ class RandomLoopsTest : public testing::Test {
   }
 
   static void expectSame(const MaximalCoordinatesOracle::Effort& expected, Eigen::Index i,
-                         const ClosedLoopDynamics& dynamics, double tolerance) {
+                         const ClosedLoops& dynamics, double tolerance) {
     EXPECT_EQ(dynamics.effortDetermined()[static_cast<std::size_t>(i)], expected.determined)
         << "effort " << i;
     if (!expected.determined) return;
@@ -85,7 +85,7 @@ TEST_F(RandomLoopsTest, AgreeWithMaximalCoordinates) {
     const MaximalCoordinatesOracle oracle(loops.mechanism, loops.scene, loops.motion);
     if (oracle.freeMotions() > 0) {
       ++too_few;
-      EXPECT_THROW(LoopResults(loops.mechanism, loops.scene, loops.motion), SceneError);
+      EXPECT_THROW(NamedLoopResults(loops.mechanism, loops.scene, loops.motion), SceneError);
       continue;
     }
     ++solved;

@@ -12,6 +12,7 @@
 #include "virtual_work_dynamics/certificates.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/error_bound.h"
+#include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/lagrange_dynamics.h"
 
 namespace virtual_work_dynamics {
@@ -32,7 +33,7 @@ void expectError(Throws&& throws, const std::string& text) {
   }
 }
 
-// A slider-crank with a fixed and a mimic joint beside it, all right but for `change`.
+// A slider-crank with a fixed and a mimic joint beside it, valid except for `change`.
 void expectRefusal(const Change& change, const std::string& text) {
   RobotBuilder builder(1);
   const SliderCrank slider_crank;
@@ -67,14 +68,14 @@ TEST(ClosedLoopRefusals, Closures) {
       },
       "closures: 'pin': no joint moves 'link_5' relative to 'link_0'");
   expectRefusal([](Scene& scene) { pinOf(scene).name = "joint_2"; },
-                "closures: 'joint_2': a joint has that name, too");
+                "closures: 'joint_2': a joint has the same name");
   expectRefusal([](Scene& scene) { pinOf(scene).name = "ground"; },
                 "closures: 'ground': that name is reserved");
   expectRefusal([](Scene& scene) { pinOf(scene).name = ""; }, "closures: a closure has no name");
   expectRefusal([](Scene& scene) { scene.closures.push_back(pinOf(scene)); },
                 "closures: 'pin' is given twice");
   expectRefusal([](Scene& scene) { pinOf(scene).length = 1; },
-                "closures: 'pin': length is of the type distance only");
+                "closures: 'pin': only a closure of type distance has a length");
   expectRefusal(
       [](Scene& scene) {
         pinOf(scene).type = ClosureType::kDistance;
@@ -108,7 +109,7 @@ TEST(ClosedLoopRefusals, Springs) {
   refused([](PointSpring& s) { s.stiffness = 0; },
           "springs: 's': stiffness = 0 is not a positive number");
   refused([](PointSpring& s) { s.rest_length = -1; },
-          "springs: 's': rest_length = -1 is not a number that is at least zero");
+          "springs: 's': rest_length = -1 is neither zero nor a positive number");
   expectRefusal(
       [&](Scene& scene) {
         scene.springs = {spring, spring};
@@ -230,7 +231,7 @@ TEST(ClosedLoopRefusals, Requests) {
   const Scene scene = slider_crank.scene("joint_1");
   Request request;
   request.child_axes = {"pin", "pin"};
-  const auto make = [&]() { ClosedLoopDynamics(slider_crank.mechanism(), scene, request); };
+  const auto make = [&]() { ClosedLoops(slider_crank.mechanism(), scene, request); };
   expectError(make, "reactions: 'pin' is requested twice");
   request.child_axes = {"joint_9"};
   expectError(make, "reactions: there is no joint or closure 'joint_9'");
@@ -238,17 +239,33 @@ TEST(ClosedLoopRefusals, Requests) {
 
 TEST(ClosedLoopRefusals, MotionOfAnotherMechanism) {
   const SliderCrank slider_crank;
-  ClosedLoopDynamics dynamics(slider_crank.mechanism(), slider_crank.scene("joint_1"), Request());
+  ClosedLoops dynamics(slider_crank.mechanism(), slider_crank.scene("joint_1"));
   Motion motion(2);
   EXPECT_THROW(dynamics.compute(motion), MotionError);
   EXPECT_THROW(dynamics.complete(motion), MotionError);
   motion = Motion(3);
   EXPECT_THROW(dynamics.complete(motion, {true}), MotionError);
-  EXPECT_THROW(dynamics.setAppliedWrench(0, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()),
-               SceneError);
+  Load load;
+  load.wrenches.resize(1);
+  EXPECT_THROW(dynamics.compute(motion, load), SceneError);
 }
 
-// Without the closures their numbers would be wrong.
+TEST(ClosedLoopRefusals, WorkspaceOfAnother) {
+  const SliderCrank slider_crank;
+  const Mechanism mechanism = slider_crank.mechanism();
+  const Scene scene = slider_crank.scene("joint_1");
+  const ClosedLoopDynamics one(mechanism, scene, Request()), other(mechanism, scene, Request());
+  ClosedLoopDynamics::Workspace of_one = one.makeWorkspace();
+  Motion motion = SliderCrank::motion(0.7, 2, 1);
+  EXPECT_THROW(other.compute(motion, of_one), MotionError);
+  EXPECT_THROW(other.compute(motion, Load(), of_one), MotionError);
+  EXPECT_THROW(other.complete(motion, of_one), MotionError);
+  EXPECT_THROW(other.completeFromCloseBy(motion, of_one), MotionError);
+  EXPECT_THROW(other.complete(motion, {true, false, false}, of_one), MotionError);
+  EXPECT_NO_THROW(one.compute(motion, of_one));
+}
+
+// Computations for open chains refuse closures, as their results would be wrong without them.
 TEST(ClosedLoopRefusals, WhatComputesOpenChains) {
   const SliderCrank slider_crank;
   const Mechanism mechanism = slider_crank.mechanism();

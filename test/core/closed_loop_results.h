@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "virtual_work_dynamics/closed_loop_dynamics.h"
+#include "closed_loops.h"
 
 namespace virtual_work_dynamics {
 
-/// Everything that a scene asks for, by name.
+/// The results of ClosedLoopDynamics that a scene asks for, by name.
 class ClosedLoopResults {
  public:
   ClosedLoopResults(const Mechanism& mechanism, const Scene& scene)
@@ -27,7 +27,7 @@ class ClosedLoopResults {
     return dynamics.rootAxesDetermined()[indexOf(name)];
   }
 
-  ClosedLoopDynamics dynamics;
+  ClosedLoops dynamics;
 
  private:
   static Request everythingOf(const Mechanism& mechanism, const Scene& scene) {

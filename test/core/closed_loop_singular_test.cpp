@@ -10,7 +10,7 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Of the largest force at an ordinary position.
+// Relative to the largest force at an ordinary position.
 constexpr double kTolerance = 1e-12;
 
 bool allDetermined(const Determined& determined) {
@@ -28,7 +28,7 @@ TEST(ClosedLoopDynamics, SliderThroughDeadCentre) {
   Scene scene = slider_crank.scene("joint_3");
   scene.actuated->push_back("joint_4");
   ClosedLoopResults results(mechanism, scene);
-  ClosedLoopDynamics& dynamics = results.dynamics;
+  ClosedLoops& dynamics = results.dynamics;
   const double rate = 3, largest = SliderCrank::kSlider * SliderCrank::kCrank * rate * rate;
   for (const double angle : {-0.1, -1e-3, 0.0, 1e-3, 0.1}) {
     Motion motion = slider_crank.motion(angle, rate, 0, 4);
@@ -50,7 +50,7 @@ TEST(ClosedLoopDynamics, SliderThroughDeadCentre) {
       EXPECT_NEAR(dynamics.effort()[2], alone, kTolerance * largest / std::abs(angle));
       EXPECT_GE(dynamics.determinacy().condition, 0.3 / std::abs(angle));
     }
-    // What is not determined is no larger than the load.
+    // A result that is not determined is of the order of the load at most.
     EXPECT_LE(std::abs(dynamics.effort()[2]), 2 * largest);
     EXPECT_LE(results.root("pin").force.norm(), 2 * largest);
   }
@@ -64,7 +64,7 @@ TEST(ClosedLoopDynamics, LoadThatDeadCentreCannotBearFlagsWhatItReaches) {
   scene.actuated->push_back("joint_4");
   scene.gravity << 0, -9.81, 0;
   ClosedLoopResults results(slider_crank.mechanism(), scene);
-  ClosedLoopDynamics& dynamics = results.dynamics;
+  ClosedLoops& dynamics = results.dynamics;
   dynamics.compute(slider_crank.motion(1e-3, 0, 0, 4));
   EXPECT_TRUE(dynamics.effortDetermined()[2]);
   const double near = dynamics.effort()[2];
@@ -144,7 +144,7 @@ TEST(ClosedLoopDynamics, FlagsStayUntilTheRankDrops) {
   FourBar::Cut cut = four_bar.cut('D');
   cut.scene.assembly = {{"A", 1.0}, {"B", -1.0}, {"C", 1.0}};
   ClosedLoopResults results(cut.mechanism, cut.scene);
-  const ClosedLoopDynamics& dynamics = results.dynamics;
+  const ClosedLoops& dynamics = results.dynamics;
   results.dynamics.compute(cut.motion(parallel(0.2L, 2)));
   const auto child_axes = dynamics.childAxesDetermined();
   const auto root_axes = dynamics.rootAxesDetermined();

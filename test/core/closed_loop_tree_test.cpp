@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "loop_results.h"
+#include "named_loop_results.h"
 #include "random_loops.h"
 #include "virtual_work_dynamics/certificates.h"
 #include "virtual_work_dynamics/lagrange_dynamics.h"
@@ -15,8 +15,8 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Of what the loops' equations leave after they are solved: rounding of their solution, whose
-// entries grow with the condition number; relative to the largest result.
+// Residual of the loops' equations after solution, relative to the largest result: rounding of the
+// solution, whose entries grow with the condition number.
 constexpr double kPerCondition = 100 * 2.2e-16;
 // Relative to magnitudes of all terms, the closures' wrenches among them. The residual of the
 // loops' equations is rounding of these.
@@ -37,7 +37,7 @@ class ClosedLoopTree : public testing::Test {
     names = {kGround};
     for (const Joint& joint : loops.mechanism.joints()) names.push_back(joint.name);
     try {
-      results = std::make_unique<LoopResults>(loops.mechanism, loops.scene, loops.motion);
+      results = std::make_unique<NamedLoopResults>(loops.mechanism, loops.scene, loops.motion);
     } catch (const SceneError&) {
       return false;
     }
@@ -56,7 +56,7 @@ class ClosedLoopTree : public testing::Test {
   RandomLoops random{71};
   Case loops = random.next();
   std::vector<std::string> names;  // of joints, and of ground
-  std::unique_ptr<LoopResults> results;
+  std::unique_ptr<NamedLoopResults> results;
 };
 
 // Passive joints are not told that they are: their efforts come out as zero.
@@ -65,12 +65,11 @@ TEST_F(ClosedLoopTree, LagrangesEquationsFindTheSame) {
   for (int i = 0; i < kCases; ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
     if (!next()) continue;
-    const ClosedLoopDynamics& dynamics = results->dynamics();
+    const ClosedLoops& dynamics = results->dynamics();
     Request request;
     request.child_axes = request.root_axes = names;
     LagrangeDynamics<long double> lagrange(loops.mechanism, dynamics.tree(), request);
-    dynamics.applyTo(lagrange);
-    lagrange.compute(loops.motion);
+    lagrange.compute(loops.motion, dynamics.treeLoad());
     const double tolerance =
         kPerCondition * std::max(1.0, dynamics.determinacy().condition) * scale();
     for (Eigen::Index c = 0; c < dynamics.coordinates(); ++c) {
@@ -95,16 +94,16 @@ TEST_F(ClosedLoopTree, CertificatesHold) {
   for (int i = 0; i < kCases; ++i) {
     SCOPED_TRACE("case " + std::to_string(i));
     if (!next()) continue;
-    const ClosedLoopDynamics& dynamics = results->dynamics();
+    const ClosedLoops& dynamics = results->dynamics();
     Certifier certifier(loops.mechanism, dynamics.tree());
-    dynamics.applyTo(certifier);
+    const Load load = dynamics.treeLoad();
     const Eigen::VectorXd effort = dynamics.effort().head(dynamics.coordinates());
     const Wrench& ground = results->childAxes(kGround);
-    const Certificates found = certifier.check(loops.motion, effort, ground);
+    const Certificates found = certifier.check(loops.motion, load, effort, ground);
     EXPECT_LE(found.largest(), kRounding);
     ++certified;
     if (effort.isZero(0) || dynamics.tree().static_motion) continue;
-    const Certificates wrong = certifier.check(loops.motion, 1.001 * effort, scaled(ground));
+    const Certificates wrong = certifier.check(loops.motion, load, 1.001 * effort, scaled(ground));
     powers += wrong.power > 1e-6;
     EXPECT_GT(wrong.largest(), kRounding);
   }
@@ -114,14 +113,18 @@ TEST_F(ClosedLoopTree, CertificatesHold) {
 
 TEST_F(ClosedLoopTree, OwnWrenchesComeFirst) {
   while (!next() || loops.scene.applied_wrenches.empty() || loops.scene.springs.empty()) continue;
-  const ClosedLoopDynamics& dynamics = results->dynamics();
+  const ClosedLoops& dynamics = results->dynamics();
   const std::size_t own = loops.scene.applied_wrenches.size();
-  EXPECT_EQ(dynamics.treeWrenches().size(),
-            2 * (loops.scene.springs.size() + loops.scene.closures.size()));
-  ASSERT_EQ(dynamics.tree().applied_wrenches.size(), own + dynamics.treeWrenches().size());
+  const std::size_t others = 2 * (loops.scene.springs.size() + loops.scene.closures.size());
+  const Load load = dynamics.treeLoad();
+  ASSERT_EQ(dynamics.tree().applied_wrenches.size(), own + others);
+  ASSERT_EQ(load.wrenches.size(), own + others);
   for (std::size_t i = 0; i < own; ++i) {
-    EXPECT_EQ(dynamics.tree().applied_wrenches[i].link, loops.scene.applied_wrenches[i].link);
-    EXPECT_EQ(dynamics.tree().applied_wrenches[i].force, loops.scene.applied_wrenches[i].force);
+    const AppliedWrench& given = loops.scene.applied_wrenches[i];
+    EXPECT_EQ(dynamics.tree().applied_wrenches[i].link, given.link);
+    EXPECT_EQ(dynamics.tree().applied_wrenches[i].force, given.force);
+    EXPECT_EQ(load.wrenches[i].force, given.force);
+    EXPECT_EQ(load.wrenches[i].torque, given.torque);
   }
   EXPECT_FALSE(needsClosedLoops(dynamics.tree()));
 }

@@ -30,7 +30,7 @@ inline void expectNear(const Eigen::VectorXd& expected, const Eigen::VectorXd& f
   }
 }
 
-/// What ClosedLoopDynamics makes of a scene, with conditions that a scene cannot have.
+/// Dynamics like ClosedLoopDynamics, with conditions that a scene cannot have.
 struct ConditionedLoops {
   ConditionedLoops(const Mechanism& robot, const Scene& scene, const ConditionSets& more)
       : mechanism(robot),
@@ -53,7 +53,7 @@ struct ConditionedLoops {
     return completion.complete(kinematics, motion, resolved.actuated);
   }
 
-  /// Of actuated coordinates; zero elsewhere.
+  /// Efforts of actuated coordinates; zero elsewhere.
   Eigen::VectorXd efforts(const Motion& motion) {
     Eigen::VectorXd efforts = treeEfforts(motion);
     kinematics.setPosition(motion.q);

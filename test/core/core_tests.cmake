@@ -32,14 +32,16 @@ set(core_test_files
   test/core/closed_loop_refusals_test.cpp
   test/core/closed_loop_singular_test.cpp
   test/core/closed_loop_tree_test.cpp
+  test/core/dynamics_test.cpp
+  test/core/dynamics_use_test.cpp
   test/core/error_bound_test.cpp
+  test/core/existence_test.cpp
   test/core/instruction_set_test.cpp
   test/core/inverse_dynamics_test.cpp
   test/core/joint_terms_test.cpp
   test/core/kernel_accuracy_test.cpp
   test/core/lagrange_dynamics_test.cpp
   test/core/loop_conditions_test.cpp
-  test/core/loop_follower_test.cpp
   test/core/loop_kinematics_test.cpp
   test/core/loop_oracles_test.cpp
   test/core/loop_residuals_test.cpp
@@ -58,6 +60,7 @@ set(core_test_files
   test/core/offline_loops_threads_test.cpp
   test/core/offline_plan_test.cpp
   test/core/offline_test.cpp
+  test/core/passive_joints_test.cpp
   test/core/plan_merging_test.cpp
   test/core/plan_reduction_test.cpp
   test/core/plan_summary_test.cpp
@@ -70,9 +73,11 @@ set(core_test_files
   test/core/property_rerooting_test.cpp
   test/core/property_superposition_test.cpp
   test/core/rank_factorization_test.cpp
+  test/core/reference_recursion_test.cpp
   test/core/reference_test.cpp
   test/core/run_time_histogram_test.cpp
   test/core/sample_block_test.cpp
+  test/core/sample_rows_test.cpp
   test/core/scene_reader_loops_test.cpp
   test/core/scene_reader_test.cpp
   test/core/sine_cosine_test.cpp
@@ -98,7 +103,6 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   list(APPEND checks_of_containers -Wno-restrict)
 endif()
 
-# CMake 3.10 links nothing to a library of objects.
 add_library(core_test_objects OBJECT EXCLUDE_FROM_ALL ${core_test_files})
 target_compile_definitions(core_test_objects PRIVATE
   VWD_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}"

@@ -9,8 +9,9 @@
 
 namespace virtual_work_dynamics {
 
-/// A tree of links for tests that change it: in any order, `parent_joint` of links without meaning,
-/// and the `coordinate` of a mimic joint the index of its master in `joints`.
+/// A tree of links for tests that change it. Links and joints have any order, the `parent_joint` of
+/// links has no meaning, and the `coordinate` of a mimic joint is the index of its master in
+/// `joints`.
 struct Description {
   std::vector<Link> links;
   std::vector<Joint> joints;
@@ -23,14 +24,14 @@ struct Description {
     }
   }
 
-  /// The joint that carries a link; nullptr: it is the root.
+  /// The joint that carries a link; nullptr for the root.
   Joint* carrierOf(int link) {
     const auto found = std::find_if(joints.begin(), joints.end(),
                                     [&](const Joint& joint) { return joint.child_link == link; });
     return found == joints.end() ? nullptr : &*found;
   }
 
-  /// In the order of a Mechanism: depth first, children by joint name.
+  /// Makes the Mechanism, in its order: depth first, children by joint name.
   Mechanism arranged() const {
     std::vector<Link> ordered_links;
     std::vector<Joint> ordered_joints;
@@ -94,9 +95,9 @@ struct Description {
   }
 };
 
-/// Takes the link's frame elsewhere: to the pose (p, R) in its present frame. Its centre of mass,
-/// its inertia, the joints that hang on it and the wrenches that act on it stay where they are in
-/// space; the joint that carries it is the caller's.
+/// Moves a link's frame to the pose (p, R) in its present frame. The link's centre of mass and
+/// inertia, the joints that hang on it and the wrenches that act on it stay where they are in
+/// space; the caller adapts the joint that carries it.
 inline void moveFrame(Description& description, Scene& scene, int link, const Vector3l& p,
                       const Matrix3l& R) {
   Link& body = description.links[link];
@@ -116,7 +117,8 @@ inline void moveFrame(Description& description, Scene& scene, int link, const Ve
   }
 }
 
-/// Expresses what a scene gives in root axes in others: R turns the old components into the new.
+/// Expresses the vectors that a scene gives in root axes in other axes: R turns the old components
+/// into the new ones.
 inline void turnRootAxes(Scene& scene, const Matrix3l& R) {
   const auto turn = [&](Eigen::Vector3d& v) { v = (R * v.cast<long double>()).cast<double>(); };
   turn(scene.gravity);

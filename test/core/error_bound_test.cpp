@@ -106,7 +106,7 @@ TEST(ErrorBound, StaticMotionLeavesWeights) {
   expectNear(bound.efforts()[1], 40);
 }
 
-// Of a single link at rest nothing cancels where the weight has its full lever.
+// Nothing cancels in a single link at rest whose weight has its full lever.
 TEST(ErrorBound, EqualsTheWrenchOfASingleLinkAtRest) {
   RobotBuilder builder(2);
   builder.add(JointType::kRevolute, 0, Vector3l::UnitY(), Matrix3l::Identity(), {0, 0, 0});
@@ -145,7 +145,16 @@ TEST(ErrorBound, CountsAppliedWrenches) {
   expectNear(bound.wrenches()[1].moment, 2 * (7 + 2 * 5) + 0.4 * 2 * 5);
 }
 
-TEST(ErrorBound, CountsAppliedWrenchesAsTheyAreSet) {
+void expectEqual(const ErrorBound& a, const ErrorBound& b) {
+  ASSERT_EQ(a.wrenches().size(), b.wrenches().size());
+  for (std::size_t i = 0; i < a.wrenches().size(); ++i) {
+    EXPECT_EQ(a.wrenches()[i].force, b.wrenches()[i].force);
+    EXPECT_EQ(a.wrenches()[i].moment, b.wrenches()[i].moment);
+  }
+  EXPECT_EQ(a.efforts(), b.efforts());
+}
+
+TEST(ErrorBound, CountsTheWrenchesOfALoad) {
   const Mechanism mechanism = turningSlide().build();
   Scene scene;
   scene.applied_wrenches.resize(2);
@@ -153,29 +162,31 @@ TEST(ErrorBound, CountsAppliedWrenchesAsTheyAreSet) {
   scene.applied_wrenches[0].force << 9, 9, 9;
   scene.applied_wrenches[1].link = "link_2";
   scene.applied_wrenches[1].at << 0, 0, 2;
-  ErrorBound set(mechanism, scene);
-  set.setAppliedWrench(0, {0, 0, 1}, {0, 8, 0});
-  set.setAppliedWrench(1, {3, 0, 4}, {-7, 0, 0});
+  ErrorBound given(mechanism, scene), own(mechanism, scene);
+  own.compute(someMotion());
+  Load load;
+  load.wrenches = {{{0, 0, 1}, {0, 8, 0}}, {{3, 0, 4}, {-7, 0, 0}}};
   scene.applied_wrenches[0].force << 0, 0, 1;
   scene.applied_wrenches[0].torque << 0, 8, 0;
   scene.applied_wrenches[1].force << 3, 0, 4;
   scene.applied_wrenches[1].torque << -7, 0, 0;
   ErrorBound compiled(mechanism, scene);
-  for (ErrorBound* bound : {&set, &compiled}) {
-    bound->compute(someMotion());
-    bound->compute(someMotion());  // is not added twice
+  for (int i = 0; i < 2; ++i) {  // is not added twice
+    given.compute(someMotion());
+    expectEqual(given, own);
+    compiled.compute(someMotion());
+    given.compute(someMotion(), load);
+    expectEqual(given, compiled);
   }
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(set.wrenches()[i].force, compiled.wrenches()[i].force);
-    EXPECT_EQ(set.wrenches()[i].moment, compiled.wrenches()[i].moment);
-  }
-  EXPECT_EQ(set.efforts(), compiled.efforts());
   scene.applied_wrenches.clear();
   ErrorBound without(mechanism, scene);
   without.compute(someMotion());
-  expectNear(set.wrenches()[2].force, without.wrenches()[2].force + 5);
-  expectNear(set.wrenches()[2].moment, without.wrenches()[2].moment + 7 + 2 * 5);
-  EXPECT_THROW(set.setAppliedWrench(2, {0, 0, 0}, {0, 0, 0}), SceneError);
+  expectNear(given.wrenches()[2].force, without.wrenches()[2].force + 5);
+  expectNear(given.wrenches()[2].moment, without.wrenches()[2].moment + 7 + 2 * 5);
+  load.wrenches.resize(3);
+  EXPECT_THROW(given.compute(someMotion(), load), SceneError);
+  load.wrenches.resize(1);
+  EXPECT_THROW(given.compute(someMotion(), load), SceneError);
 }
 
 TEST(ErrorBound, CountsJointTermsAndGears) {
@@ -270,7 +281,7 @@ TEST(ErrorBound, DepthOfAnEffortIsThatOfItsDeepestJoint) {
 
 #ifdef VWD_HAS_REAL113
 
-// A sum of norms may equal the norm of the sum, but for its own rounding.
+// A sum of norms may equal the norm of the sum, except for its own rounding.
 constexpr double kOwnRounding = 1e-13;
 
 // Every magnitude is at least that of what is summed.

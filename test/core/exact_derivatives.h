@@ -4,9 +4,9 @@
 
 namespace virtual_work_dynamics {
 
-/// Value, rate and acceleration of f, a function of time in long double that returns a matrix:
-/// central differences of eighth order. For motions of some radians a second both errors of the
-/// accelerations, of rounding (1e-19 / h^2) and of the order (h^8), are some 1e-14.
+/// Computes value, rate and acceleration of f, a function of time in long double that returns a
+/// matrix, by central differences of eighth order. For motions of some radians per second both
+/// errors of the accelerations, of rounding (1e-19 / h^2) and of the order (h^8), are about 1e-14.
 template <typename F>
 auto withDerivatives(const F& f, long double t) {
   constexpr long double h = 0.004L;

@@ -9,9 +9,9 @@
 
 namespace virtual_work_dynamics {
 
-/// Numbers next to a page that nobody may touch: whoever reads or writes past that edge of the
-/// array crashes. On its other side, up to the page there, are bytes that are watched. All bytes
-/// are the same to begin with.
+/// An array next to a page that must not be touched: a read or write past that edge crashes. The
+/// bytes on its other side, up to the page there, are watched. All bytes are the same to begin
+/// with.
 template <typename Real>
 class FencedArray {
  public:
@@ -37,7 +37,7 @@ class FencedArray {
 
   Real* data() { return reinterpret_cast<Real*>(data_); }
 
-  /// Whether nothing was written on the side without a fence.
+  /// Whether nothing was written on the side that does not crash.
   bool surroundingsUntouched() const {
     for (const unsigned char* byte = begin_; byte != begin_ + inside_; ++byte) {
       if ((byte < data_ || byte >= data_ + size_) && *byte != kUntouched) return false;
@@ -50,7 +50,7 @@ class FencedArray {
 
   std::size_t size_, inside_, mapped_;
   unsigned char* all_;
-  unsigned char* begin_;  // of what may be touched
+  unsigned char* begin_;  // of the bytes that may be touched
   unsigned char* data_;
 };
 

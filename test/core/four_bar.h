@@ -16,8 +16,8 @@
 namespace virtual_work_dynamics {
 
 /// A planar four-bar linkage A-B-C-D with revolute joints in space: crank AB and rocker DC turn on
-/// ground, the coupler BC between them. Its plane lies obliquely in the root link. Any of the four
-/// joints can be the one that is cut; the linkage is always driven at A.
+/// ground, and the coupler BC joins them. Its plane lies obliquely in the root link. Any of the
+/// four joints can be the one that is cut; the linkage is always driven at A.
 class FourBar {
  public:
   using Real = long double;
@@ -29,7 +29,7 @@ class FourBar {
   };
   using Turnings = std::array<Turning, 3>;
 
-  /// `unit` scales all lengths, as a change of the unit of length does.
+  /// Makes the linkage; `unit` scales all lengths, as a change of the unit of length does.
   explicit FourBar(Real unit = 1) {
     for (Real& length : lengths) length *= unit;
     const Real u2 = unit * unit;
@@ -39,16 +39,16 @@ class FourBar {
     gravity = unit * Eigen::Vector3d(1.7, -9.2, 2.9);
   }
 
-  /// Crank, coupler, rocker, and ground from A to D.
+  /// Lengths of crank, coupler, rocker, and ground from A to D.
   std::array<Real, 4> lengths = {0.25L, 0.7L, 0.55L, 0.8L};
   struct Inertia {
     Real mass;
-    Vector3l centre;  ///< from the body's first pivot, its axes
-    Real moment;      ///< about the centre, normal to the plane
+    Vector3l centre;  ///< centre of mass from the body's first pivot, in its axes
+    Real moment;      ///< moment of inertia about the centre, normal to the plane
   };
   std::array<Inertia, 3> bodies;
-  Eigen::Vector3d gravity;                          ///< axes of the plane
-  const Eigen::Vector3d plane_rpy{0.4, -0.9, 1.3};  ///< of the plane's axes in the root link
+  Eigen::Vector3d gravity;                          ///< gravity in axes of the plane
+  const Eigen::Vector3d plane_rpy{0.4, -0.9, 1.3};  ///< orientation of the plane in the root link
 
   Matrix3l planeAxes() const {
     using Turn = Eigen::AngleAxis<Real>;
@@ -57,8 +57,8 @@ class FourBar {
         .toRotationMatrix();
   }
 
-  /// What a crank motion makes of the other bodies: the intersection of two circles, elbow up, and
-  /// its derivatives.
+  /// Computes the turnings of all bodies from that of the crank: the intersection of two circles,
+  /// elbow up, and its derivatives.
   Turnings turnings(Real angle, Real rate, Real acceleration) const {
     const Vector2 B = lengths[0] * along(angle), D{lengths[3], 0};
     const Vector2 r = D - B;
@@ -68,7 +68,7 @@ class FourBar {
     const Vector2 C = B + a * r + h * Vector2(-r.y(), r.x());
     const Real coupler = std::atan2(C.y() - B.y(), C.x() - B.x());
     const Real rocker = std::atan2(C.y() - D.y(), C.x() - D.x());
-    // l e(coupler) - s e(rocker) = D - B, differentiated once and twice.
+    // The equation l e(coupler) - s e(rocker) = D - B is differentiated once and twice.
     Eigen::Matrix<Real, 2, 2> J;
     J << l * normal(coupler), -s * normal(rocker);
     const Vector2 rates = J.inverse() * (-lengths[0] * rate * normal(angle));
@@ -81,7 +81,7 @@ class FourBar {
              {rocker, rates[1], accelerations[1]}}};
   }
 
-  /// The linkage cut at a pivot, 'A' to 'D': a tree with joints of the other pivots' names and a
+  /// The linkage cut at a pivot, 'A' to 'D': a tree with joints named after the other pivots and a
   /// closure named after this one, and how the bodies hang.
   struct Cut {
     Mechanism mechanism;
@@ -92,7 +92,7 @@ class FourBar {
     };
     std::vector<Hanging> joints;  ///< in the mechanism's order
     Hanging closure;
-    /// Motion of the tree's joints.
+    /// The motion of the tree's joints.
     Motion motion(const Turnings& turnings) const {
       Motion motion(3);
       for (Eigen::Index i = 0; i < 3; ++i) {
@@ -119,16 +119,17 @@ class FourBar {
     return cut(Hangings{A, down_B, down_C}, {'D', kRocker, -1});
   }
 
-  /// In the plane, by the free bodies: forces at the pivots and the torque of ground on the crank.
+  /// Forces at the pivots and torque of ground on the crank, in the plane, by free-body diagrams.
   struct Forces {
-    std::map<char, Vector2> on_body;  ///< A: crank, B: coupler, C and D: rocker; plane axes
+    std::map<char, Vector2> on_body;  ///< A: on crank, B: on coupler, C, D: on rocker; plane axes
     Real torque;
   };
   Forces freeBodies(const Turnings& turnings) const {
     using System = Eigen::Matrix<Real, 9, 9>;
     System equations = System::Zero();
     Eigen::Matrix<Real, 9, 1> right;
-    // Unknowns: A B C D, each x y, and the torque. Signs of B and C on their other bodies.
+    // The unknowns are A B C D, each x y, and the torque. B and C have other signs on their other
+    // bodies.
     const int first[3] = {0, 1, 3}, second[3] = {1, 2, 2};
     const Real sign_second[3] = {-1, -1, 1};
     for (std::size_t b = 0; b < 3; ++b) {
@@ -169,14 +170,14 @@ class FourBar {
     equations(row, 2 * pivot) = -sign * at.y();
     equations(row, 2 * pivot + 1) = sign * at.x();
   }
-  // Of the body's first pivot.
+  // The acceleration of the body's first pivot.
   Vector2 pivotAcceleration(int body, const Turnings& turnings) const {
     if (body != kCoupler) return Vector2::Zero();
     const Turning& crank = turnings[kCrank];
     return lengths[0] * (crank.acceleration * normal(crank.angle) -
                          crank.rate * crank.rate * along(crank.angle));
   }
-  // Of a pivot, from the body's first one.
+  // The place of a pivot, from the body's first one.
   Vector3l place(int body, char pivot) const {
     if (body < 0) return pivot == 'D' ? Vector3l(lengths[3], 0, 0) : Vector3l::Zero();
     const bool second = pivot == 'C' || (pivot == 'B' && body == kCrank);
@@ -190,7 +191,7 @@ class FourBar {
     links[0].name = "base";
     std::vector<Joint> built;
     std::map<int, int> link_of{{-1, 0}};
-    std::map<int, Vector3l> origin_of{{-1, Vector3l::Zero()}};  // of the link, on the body
+    std::map<int, Vector3l> origin_of{{-1, Vector3l::Zero()}};  // origin of the link on the body
     for (const Cut::Hanging& hanging : joints) {
       const int k = static_cast<int>(built.size());
       Joint joint;

@@ -102,7 +102,7 @@ TEST_F(InstructionSets, OtherValuesAreRefused) {
   for (const std::string value : {"avx", "AVX2", " baseline", "avx512f", "sse2"}) {
     set(value);
     EXPECT_EQ(refusal(), std::string(kInstructionSetVariable) + ": '" + value +
-                             "' is none of baseline, avx2, avx512");
+                             "' is not one of baseline, avx2, avx512");
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "newton_euler_oracle.h"
 #include "pendulum_closed_form.h"
+#include "result_differences.h"
 #include "sample_robots.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/urdf_reader.h"
@@ -141,27 +142,34 @@ TEST(InverseDynamics, AppliedWrenchesMatchNewtonEuler) {
   }
 }
 
-TEST(InverseDynamics, AppliedWrenchIsReplacedPerSample) {
+TEST(InverseDynamics, ALoadReplacesTheAppliedWrenchesOfOneSample) {
   RandomRobot robot(101, 10);
   const Mechanism mechanism = readUrdf(robot.urdf());
   Scene scene = sceneWithAppliedWrenches(robot, 10);
   const Motion motion = robot.motion(mechanism);
-  const InverseDynamics before(mechanism, scene);
-  Workspace replaced = before.makeWorkspace();
-  for (std::size_t i = 0; i < scene.applied_wrenches.size(); ++i) {
-    scene.applied_wrenches[i].force *= -3;
-    scene.applied_wrenches[i].torque *= 0.5;
-    replaced.setAppliedWrench(i, scene.applied_wrenches[i].force, scene.applied_wrenches[i].torque);
+  const InverseDynamics dynamics(mechanism, scene);
+  Workspace own = dynamics.makeWorkspace(), workspace = dynamics.makeWorkspace();
+  dynamics.compute(motion, own);
+  for (AppliedWrench& applied : scene.applied_wrenches) {
+    applied.force *= -3;
+    applied.torque *= 0.5;
   }
-  before.compute(motion, replaced);
-  const InverseDynamics after(mechanism, scene);
-  Workspace fresh = after.makeWorkspace();
-  after.compute(motion, fresh);
-  for (std::size_t i = 0; i < fresh.rootAxes().size(); ++i) {
-    EXPECT_EQ(replaced.rootAxes()[i].force, fresh.rootAxes()[i].force);
-    EXPECT_EQ(replaced.rootAxes()[i].torque, fresh.rootAxes()[i].torque);
+  const InverseDynamics compiled(mechanism, scene);
+  Workspace expected = compiled.makeWorkspace();
+  compiled.compute(motion, expected);
+  Load load(scene);
+  for (int i = 0; i < 2; ++i) {
+    dynamics.compute(motion, load, workspace);
+    EXPECT_EQ(differences(workspace.results(), expected.results()), "");
+    EXPECT_NE(differences(workspace.results(), own.results()), "");
+    dynamics.compute(motion, workspace);
+    EXPECT_EQ(differences(workspace.results(), own.results()), "");
   }
-  EXPECT_THROW(replaced.setAppliedWrench(6, {}, {}), SceneError);
+  load.wrenches.pop_back();
+  EXPECT_THROW(dynamics.compute(motion, load, workspace), SceneError);
+  EXPECT_THROW(dynamics.compute(motion, Load(), workspace), SceneError);
+  load.wrenches.resize(scene.applied_wrenches.size() + 1);
+  EXPECT_THROW(dynamics.compute(motion, load, workspace), SceneError);
 }
 
 TEST(InverseDynamics, PosesAndTwistsMatchNewtonEuler) {

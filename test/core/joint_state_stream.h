@@ -13,7 +13,7 @@ namespace estimator_test {
 using Verdict = MotionEstimator::Verdict;
 
 constexpr std::int64_t kMillisecond = 1000000;
-constexpr std::int64_t kWallClock = 1700000000123456789;  // where a double resolves 2.4e-7 s
+constexpr std::int64_t kWallClock = 1700000000123456789;  // ns; here a double resolves 2.4e-7 s
 
 inline Mechanism mechanismOf(const std::vector<JointType>& types) {
   std::vector<Link> links(types.size() + 1);
@@ -33,7 +33,7 @@ inline Mechanism mechanismOf(const std::vector<JointType>& types) {
 constexpr JointType kR = JointType::kRevolute;
 constexpr JointType kC = JointType::kContinuous;
 
-/// Position, velocity and acceleration of a coordinate at a time since kWallClock.
+/// Position, velocity and acceleration of a coordinate at a time after kWallClock.
 struct State {
   long double q;
   long double qd;
@@ -58,7 +58,7 @@ struct Stream {
     return push(time, {coordinate}, {static_cast<double>(state.q)},
                 {static_cast<double>(state.qd)});
   }
-  /// Evaluates; the instant is in ns after kWallClock.
+  /// Evaluates the motion. @returns the instant, ns after kWallClock.
   std::int64_t evaluate() { return estimator.evaluate(motion) - kWallClock; }
 
   MotionEstimator estimator;

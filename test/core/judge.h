@@ -9,13 +9,14 @@
 
 namespace virtual_work_dynamics {
 
-/// Holds results of one mechanism and scene against 113 bits and ErrorBound.
+/// Compares results of one mechanism and scene with those in 113 bits and with ErrorBound.
 class Judge {
  public:
   Judge(const Mechanism& mechanism, const Scene& scene)
       : mechanism_(mechanism), scene_(scene), bound_(mechanism, scene) {}
 
-  /// @param results of requestEveryJoint()
+  /// The errors of results over their bounds.
+  /// @param results the results of requestEveryJoint().
   Errors errorsOf(const PlainResults<double>& results, const Motion& motion) {
     using Limits = std::numeric_limits<double>;
     bound_.compute(motion, Limits::min());

@@ -19,12 +19,12 @@ TEST(KernelAccuracy, IsMeasuredIn113Bits) {
 
 #else
 
-// What the package promises, of the largest result of the kind in the motion. In a single sample
-// all efforts may be small differences of large moments, so that errors are no measure of the
-// recursion.
+// Accuracy that the package promises, relative to the largest result of the kind in the motion. In
+// a single sample all efforts may be small differences of large moments, so that errors do not
+// measure the recursion.
 constexpr double kUpTo50Joints = 2e-15;
 constexpr double kChain1000 = 2e-14;
-// The same recursion with 29 bits less; 1.1e-6.
+// Accuracy of the recursion with 29 bits less: 1.1e-6.
 constexpr double kFloat = kUpTo50Joints * (1 << 29);
 
 struct Robot {
@@ -39,7 +39,7 @@ struct Robot {
   }
 };
 
-// Samples that are no multiple of a pack.
+// A number of samples that is not a multiple of a pack.
 constexpr std::size_t kSamples = 19;
 
 Robot chain(int joints, std::size_t samples = kSamples) {

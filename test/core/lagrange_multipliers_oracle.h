@@ -11,9 +11,9 @@
 namespace virtual_work_dynamics {
 
 /// The paper's other route through loops: Lagrange's equations with multipliers (3.1). The loops
-/// are cut, LagrangeDynamics gives tau_tree, the columns of A^T are the generalized forces of the
-/// constraint wrenches, likewise by LagrangeDynamics, and every reaction follows by (4.2) with the
-/// wrenches of the closures applied. Where many solutions exist, one of least norm.
+/// are cut. LagrangeDynamics gives tau_tree and the columns of A^T, which are the generalized
+/// forces of the constraint wrenches. Every reaction follows by (4.2) with the wrenches of the
+/// closures applied. Where many solutions exist, the solution is one of least norm.
 class LagrangeMultipliersOracle {
  public:
   using VectorXl = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
@@ -49,7 +49,7 @@ class LagrangeMultipliersOracle {
     solveReactions();
   }
 
-  /// Of a generalized coordinate; zero for passive ones.
+  /// The effort of a generalized coordinate; zero for passive ones.
   double effort(Eigen::Index coordinate) const {
     for (std::size_t i = 0; i < actuated_.size(); ++i) {
       if (actuated_[i] == coordinate) return static_cast<double>(x_[static_cast<Eigen::Index>(i)]);
@@ -57,7 +57,7 @@ class LagrangeMultipliersOracle {
     return 0;
   }
 
-  /// Of a joint, a closure or "ground".
+  /// The reaction of a joint, a closure or "ground" in root axes.
   Wrench rootAxes(const std::string& name) const {
     for (std::size_t i = 0; i < names_.size(); ++i) {
       if (names_[i] == name) return reactions_[i];
@@ -66,7 +66,7 @@ class LagrangeMultipliersOracle {
   }
 
  private:
-  // Force, and moment about the closure's child origin, root axes.
+  // A force, and a moment about the origin of the closure's child frame, in root axes.
   struct Direction {
     Vector3l force = Vector3l::Zero(), moment = Vector3l::Zero();
   };
@@ -124,7 +124,7 @@ class LagrangeMultipliersOracle {
     return lagrange.effort();
   }
 
-  // Virtual work of the wrench: minus the efforts that hold it, nothing else acting.
+  // The generalized force of a wrench: minus the efforts that hold it when nothing else acts.
   Eigen::VectorXd generalizedForce(std::size_t closure, const Direction& wrench) const {
     Scene scene;
     scene.gravity.setZero();
@@ -133,7 +133,7 @@ class LagrangeMultipliersOracle {
     return -efforts(scene);
   }
 
-  // What a closure can exert.
+  // The wrenches that a closure can exert.
   std::vector<Direction> directions(const Closure& closure) const {
     using Type = ClosureType;
     const PlacedFrame parent(mechanism_, bodies_, closure.parent);

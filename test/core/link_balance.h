@@ -7,10 +7,10 @@
 
 namespace virtual_work_dynamics {
 
-/// What all joints together must exert on each link: the rates of change of its momentum and of its
-/// angular momentum about its centre of mass, less its weight and the wrenches applied to it. Root
-/// axes. Momenta are written from positions and velocities and differentiated automatically; no
-/// acceleration enters.
+/// The wrench, in root axes, that all joints together must exert on each link: the rates of change
+/// of its momentum and of its angular momentum about its centre of mass, less its weight and the
+/// wrenches applied to it. Momenta are written from positions and velocities and differentiated
+/// automatically; no acceleration enters.
 class LinkBalance {
  public:
   explicit LinkBalance(const Case& made) : made_(made) {
@@ -25,7 +25,7 @@ class LinkBalance {
   Vector3l origin(int link) const { return valueOf(moves_[link].o); }
   Vector3l centre(int link) const { return origin(link) + valueOf(arm(link)); }
 
-  /// Needed wrench about the centre of mass.
+  /// The wrench that a link needs, about its centre of mass.
   MeasuredWrench needed(int link) const {
     const LinkMotion<Rated>& move = moves_[link];
     const Link& body = made_.mechanism.links()[link];
@@ -42,8 +42,8 @@ class LinkBalance {
     return sum;
   }
 
-  /// What the joints exert by the published reactions: the wrench of the joint that carries the
-  /// link, less those of the joints that it carries.
+  /// The wrench that the joints exert on a link by the published reactions: that of the joint which
+  /// carries the link, less those of the joints that it carries.
   MeasuredWrench published(int link, const Outcome& outcome) const {
     const std::vector<Joint>& joints = made_.mechanism.joints();
     const std::string own = link == 0 ? std::string(kGround) : joints[link - 1].name;

@@ -35,7 +35,7 @@ M3<S> constant(const Matrix3l& A) {
   return result;
 }
 
-// Rodrigues' formula.
+// The rotation about a unit vector by Rodrigues' formula.
 template <typename S>
 M3<S> rotationAbout(const Vector3l& u, const S& angle) {
   using std::cos;
@@ -51,17 +51,17 @@ M3<S> rotationAbout(const Vector3l& u, const S& angle) {
   return R;
 }
 
-/// Motion of a link's frame in root axes.
+/// The motion of a link's frame in root axes.
 template <typename S>
 struct LinkMotion {
   M3<S> R = constant<S>(Matrix3l(Matrix3l::Identity()));  // link -> root axes
-  V3<S> o = constant<S>(Vector3l(Vector3l::Zero()));      // of the origin
+  V3<S> o = constant<S>(Vector3l(Vector3l::Zero()));      // place of the origin
   V3<S> v = o;
   V3<S> w = o;
 };
 
-/// Of all links, from positions and velocities alone. With numbers that carry their rates of change
-/// (Rated), accelerations come out without having been written down.
+/// The motions of all links, from positions and velocities alone. With numbers that carry their
+/// rates of change (Rated), they contain accelerations for which no formula was written.
 template <typename S>
 std::vector<LinkMotion<S>> linkMotions(const Mechanism& mechanism, const std::vector<S>& q,
                                        const std::vector<S>& qd) {
@@ -93,7 +93,8 @@ std::vector<LinkMotion<S>> linkMotions(const Mechanism& mechanism, const std::ve
   return links;
 }
 
-/// The same along a motion: q changes at qd, and qd at qdd.
+/// The motions of all links with their rates of change along a motion: q changes at qd, and qd at
+/// qdd.
 inline std::vector<LinkMotion<Rated>> linkMotions(const Mechanism& mechanism,
                                                   const Motion& motion) {
   std::vector<Rated> q, qd;

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "closed_loops.h"
 #include "condition_kinds.h"
 #include "conditioned_loops.h"
 #include "robot_builder.h"
-#include "virtual_work_dynamics/closed_loop_dynamics.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 
@@ -102,7 +102,7 @@ TEST(LoopConditions, GearInALoopEqualsAMimicJoint) {
   Scene start = scene;
   start.assembly = {{"joint_3", Geared::kConstant}};
   ConditionedLoops loops(robots.free, start, robots.gear());
-  ClosedLoopDynamics oracle(robots.mimic, scene, {true, {}, {"rod"}, false, false});
+  ClosedLoops oracle(robots.mimic, scene, {true, {}, {"rod"}, false, false});
   expectNear(oracle.assembly(), Geared::without(loops.assembly));
 
   Motion motion = fullMotion();

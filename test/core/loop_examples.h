@@ -20,7 +20,7 @@ using VectorXl = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
 constexpr long double kPi = 3.14159265358979323846L;
 
-/// One of the package's examples with closed loops: urdf/<name>.urdf, config/<name>_scene.yaml.
+/// An example of the package with closed loops: urdf/<name>.urdf with config/<name>_scene.yaml.
 struct LoopExample {
   Mechanism mechanism;
   Scene scene;
@@ -33,8 +33,8 @@ struct LoopExample {
 /// Positions of joints by name.
 using Positions = std::map<std::string, long double>;
 
-/// Positions, velocities and accelerations of all joints of a mechanism as `positions`, a function
-/// of time that closes the loops, has them.
+/// Positions, velocities and accelerations of all joints of a mechanism from `positions`, a
+/// function of time that closes the loops.
 template <typename F>
 Motion motionAt(const Mechanism& mechanism, const F& positions, long double t) {
   const auto in_order = [&](long double time) {
@@ -60,7 +60,8 @@ inline long double angleOf(const Vector2l& v) {
   return std::atan2(v.y(), v.x());
 }
 
-/// The corner of a triangle over a, b with sides to_a, to_b; on the left of a -> b for side 1.
+/// The third corner of a triangle over a, b with sides to_a, to_b; it is on the left of a -> b for
+/// side 1.
 inline Vector2l corner(const Vector2l& a, const Vector2l& b, long double to_a, long double to_b,
                        int side) {
   const Vector2l d = b - a;
@@ -69,7 +70,7 @@ inline Vector2l corner(const Vector2l& a, const Vector2l& b, long double to_a, l
   return a + (x * d + y * Vector2l(-d.y(), d.x())) / d.norm();
 }
 
-// Motions of the examples; lengths are those of the descriptions, in closed form.
+// Motions of the examples in closed form, with the lengths of the descriptions.
 
 inline long double crankAngle(long double t) {
   return 0.7L + 2 * t + 0.4L * std::sin(3 * t);
@@ -92,7 +93,7 @@ inline Positions sliderCrankAt(long double t) {
           {"slider_joint", 0.10L * std::cos(crank) + 0.30L * std::cos(rod)}};
 }
 
-/// Position and angle of the 3-RRR manipulator's platform, at its centre.
+/// Position of the centre and angle of the 3-RRR manipulator's platform.
 inline Vector3l planarPose(long double t) {
   return {0.05L * std::sin(2 * t), 0.04L * std::cos(3 * t), 0.3L * std::sin(2.5L * t)};
 }
@@ -106,7 +107,7 @@ inline Positions planar3rrrAt(long double t) {
     const Vector2l vertex = pose.head<2>() + 0.10L * along(place + pose.z());
     const Vector2l elbow = corner(motor, vertex, 0.20L, 0.20L, 1);
     const std::string n = std::to_string(i + 1);
-    // Turned into the motor's own direction, so that no angle jumps.
+    // The vector is turned into the motor's own direction, so that no angle jumps.
     const long double arm =
         place + kPi + angleOf(Eigen::Rotation2D<long double>(-place - kPi) * (elbow - motor));
     const long double bend = angleOf(Eigen::Rotation2D<long double>(-arm) * (vertex - elbow));
@@ -122,7 +123,7 @@ struct SpatialPose {
   Matrix3l R;
 };
 
-/// Of the Stewart-Gough platform.
+/// The pose of the Stewart-Gough platform.
 inline SpatialPose platformPose(long double t) {
   using Turn = Eigen::AngleAxis<long double>;
   const Vector3l p{0.08L * std::sin(2 * t), 0.06L * std::cos(1.5L * t),
@@ -134,8 +135,7 @@ inline SpatialPose platformPose(long double t) {
   return {p, R};
 }
 
-/// Points of the Stewart-Gough platform in the base and in the platform, as the description rounds
-/// them.
+/// A point of the Stewart-Gough platform in its base or platform, rounded as in the description.
 inline Vector3l circlePoint(long double radius, int degrees) {
   const Vector2l point = radius * along(degrees * kPi / 180);
   return {std::round(point.x() * 1e6L) / 1e6L, std::round(point.y() * 1e6L) / 1e6L, 0};
@@ -175,7 +175,8 @@ inline Positions parallelogramAt(long double t) {
           {"ball_3_x", 0},        {"ball_3_y", -angle},   {"ball_3_z", 0}};
 }
 
-/// The squeezing mechanism of the published parameters, its crank at crankAngle.
+/// Positions of the squeezing mechanism with the published parameters and its crank at
+/// crankAngle(t).
 inline Positions andrewsAt(long double t) {
   const long double beta = crankAngle(t);
   const Vector2l f = 0.007L * along(beta), a{-0.06934L, -0.00227L}, b{-0.03635L, 0.03273L};

@@ -7,7 +7,7 @@
 
 namespace virtual_work_dynamics {
 
-/// A frame on a link as it lies in the root link, root axes, long double.
+/// The pose of a frame on a link in the root link, in long double.
 struct PlacedFrame {
   Matrix3l R;
   Vector3l o;
@@ -24,7 +24,7 @@ struct PlacedFrame {
   }
 };
 
-/// Force that a spring exerts on its link_a, and the points where it acts, root axes.
+/// The force that a spring exerts on its link_a and the points where it acts, in root axes.
 struct SpringForce {
   Vector3l a, b, force_on_a;
 

@@ -241,7 +241,7 @@ TEST(LoopKinematics, JacobianIsTheDerivativeByEachCoordinate) {
   }
 }
 
-// Of a free axis: what turns or slides there does the work of a unit effort.
+// A unit effort does work on the motion along or about the free axis.
 TEST(LoopKinematics, UnitEffortDoesWorkOnTheFreeMotion) {
   RobotBuilder builder(3);
   builder.add(0);

@@ -65,7 +65,7 @@ TEST(LoopOracles, MaximalCoordinatesAgreeWithLagrangesMultipliers) {
   EXPECT_GE(undetermined, 1000);
 }
 
-// What is determined, by another criterion than the null space.
+// Finds what is determined by a criterion other than the null space.
 TEST(LoopOracles, DeterminedIsWhatTheRankNeeds) {
   struct Example {
     const char* name;

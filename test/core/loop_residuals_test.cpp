@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
+#include "closed_loops.h"
 #include "offline_linkage.h"
-#include "virtual_work_dynamics/closed_loop_dynamics.h"
 #include "virtual_work_dynamics/scene_reader.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
@@ -23,7 +23,7 @@ class LoopResiduals : public testing::Test {
 
   const Mechanism linkage_ = readUrdf(kLinkage);
   const Scene scene_ = readScene(YAML::Load(pinned("0.5") + "redundancy: {length: 0.2}\n"));
-  ClosedLoopDynamics dynamics_{linkage_, scene_, Request()};
+  ClosedLoops dynamics_{linkage_, scene_};
   Motion motion_{3};
 };
 
@@ -44,7 +44,7 @@ TEST_F(LoopResiduals, RatesAreRelativeToTheMotionsLargest) {
 }
 
 TEST_F(LoopResiduals, FastMotionsHaveLargeAccelerations) {
-  motion_.qd << 10, -10, 10;  // and the accelerations that go with it, but for 5 rad/s^2
+  motion_.qd << 10, -10, 10;  // with the matching accelerations, except for 5 rad/s^2
   motion_.qdd << 0, 0, 5;
   EXPECT_NEAR(relativeOf(motion_).acceleration, 0.3 * 5 / 0.2 / 100, kRounding);
 }

@@ -12,12 +12,13 @@
 
 namespace virtual_work_dynamics {
 
-/// Reactions of a mechanism with closures by cutting every joint: all six components of the wrench
-/// in each joint, in each closure and on the root link are unknown; the equations are the balances
-/// of force and moment of every link, and that a free direction of a closure or a passive
-/// coordinate carries nothing but its joints' springs and friction. One linear system in numbers of
-/// type Real by Gauss with full pivoting, its null space included; motion and loads of the links
-/// are in long double. No tree recursion, no Jacobian of conditions, no multipliers.
+/// Computes reactions of a mechanism with closures by cutting every joint. All six components of
+/// the wrench in each joint, in each closure and on the root link are unknown. The equations are
+/// the balances of force and moment of every link; and a free direction of a closure or a passive
+/// coordinate carries only its joints' springs and friction. They are one linear system in numbers
+/// of type Real, solved with its null space by Gauss with full pivoting; motion and loads of the
+/// links are in long double. There is no tree recursion, no Jacobian of conditions and no
+/// multiplier.
 template <typename Real>
 class MaximalCoordinates {
  public:
@@ -26,13 +27,14 @@ class MaximalCoordinates {
   using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
   using Matrix3 = Eigen::Matrix<Real, 3, 3>;
 
-  // Of pivots against the largest; those of dependent equations are rounding errors, 1e-18 in long
-  // double and 1e-15 in double.
+  // Least pivot that counts, relative to the largest; those of dependent equations are rounding
+  // errors, 1e-18 in long double and 1e-15 in double.
   static constexpr Real kPivot = sizeof(Real) > sizeof(double) ? Real(1e-13L) : Real(1e-11L);
   // A component is determined when no null vector, orthonormal in newtons, changes it by more.
   static constexpr Real kFree = Real(1e-8L);
 
-  /// @param pivot_tolerance Pivots above it, relative to the largest, count for the rank.
+  /// Solves the equations.
+  /// @param pivot_tolerance pivots above it, relative to the largest, count for the rank.
   MaximalCoordinates(const Mechanism& mechanism, const Scene& scene, const Motion& motion,
                      Real pivot_tolerance = kPivot)
       : mechanism_(mechanism),
@@ -59,29 +61,30 @@ class MaximalCoordinates {
 
   /// Unknowns less rank.
   Eigen::Index redundancy() const { return N_.cols(); }
-  /// Equations less rank: motions that nothing holds.
+  /// Equations less rank: the number of motions that nothing holds.
   Eigen::Index freeMotions() const { return G_.rows() - (G_.cols() - redundancy()); }
-  /// Pivots over the largest: the least that counts for the rank, the largest that does not.
+  /// The least pivot that counts for the rank, over the largest pivot of all.
   Real leastCounted() const { return least_counted_; }
+  /// The largest pivot that does not count for the rank, over the largest pivot of all.
   Real largestLeftOut() const { return largest_left_out_; }
-  /// Largest violation of an equation by the solution, relative to the largest load or 1 N.
+  /// The largest violation of an equation by the solution, relative to the largest load or 1 N.
   Real residual() const { return violation(x_); }
 
   struct Reaction {
-    Vector6 wrench;  ///< force, moment; one of many where it is not determined
+    Vector6 wrench;  ///< force, moment; one of many solutions where it is not determined
     std::array<bool, 6> determined;
     std::array<Real, 6> freedom;  ///< by how much null vectors change it, against kFree
   };
-  /// Of a joint, a closure or "ground".
+  /// The reaction of a joint, a closure or "ground" in root axes.
   Reaction rootAxes(const std::string& name) const { return reaction(name, Matrix3l::Identity()); }
-  /// In axes of the child link, of a closure's child frame.
+  /// The reaction in axes of the child link or of a closure's child frame.
   Reaction childAxes(const std::string& name) const {
     return reaction(name, cuts_[indexOf(name)].R.transpose());
   }
 
   /// Whether a component in root axes is determined by the criterion of M. Wojtyra, "Joint reaction
   /// forces in multibody systems with redundant constraints", Multibody System Dynamics 14 (2005):
-  /// it is when the rank drops without it.
+  /// it is determined when the rank drops without it.
   bool rankDropsWithout(const std::string& name, int i) const {
     const Eigen::Index column = at(indexOf(name)) + i;
     Matrix left = G_;
@@ -93,9 +96,9 @@ class MaximalCoordinates {
   struct Effort {
     Real value;
     bool determined;
-    Real freedom;  ///< likewise; of a torque over the length
+    Real freedom;  ///< by how much null vectors change it, a torque over the length
   };
-  /// Of a generalized coordinate, or of an actuated closure by its name.
+  /// The effort of a generalized coordinate, or of an actuated closure by its name.
   Effort effort(int coordinate) const {
     return effort(effortRow(coordinate), static_cast<Real>(terms_[coordinate]));
   }
@@ -109,9 +112,8 @@ class MaximalCoordinates {
     return effort(row, 0);
   }
 
-  /// How much reactions, root axes, of every joint, "ground" and closure violate the equations,
-  /// relative to the largest load or 1 N: small for any solution, whatever is chosen where there
-  /// are many.
+  /// By how much reactions of every joint, "ground" and closure, in root axes, violate the
+  /// equations, relative to the largest load or 1 N. It is small for any one of many solutions.
   template <typename WrenchOf>
   Real violationBy(const WrenchOf& wrench_of) const {
     Vector x(G_.cols());
@@ -154,7 +156,7 @@ class MaximalCoordinates {
     return m;
   }
 
-  // Force, and moment about the centre of mass over the length, of every link.
+  // The balances of force, and of moment about the centre of mass over the length, of every link.
   void addBalances() {
     const Eigen::Index links = static_cast<Eigen::Index>(mechanism_.links().size());
     rows_ = 6 * links;
@@ -241,7 +243,7 @@ class MaximalCoordinates {
     }
   }
 
-  // What the joints of a coordinate carry along their axes, as they mimic it.
+  // The row that sums what the joints of a coordinate carry along their axes, as they mimic it.
   Vector effortRow(int coordinate) const {
     Vector row = Vector::Zero(G_.cols());
     for (std::size_t k = 0; k < mechanism_.joints().size(); ++k) {
@@ -255,7 +257,8 @@ class MaximalCoordinates {
     return row;
   }
 
-  // Springs, friction and rotors of the scene's terms; a passive coordinate has no other effort.
+  // Adds the equations of passive coordinates, which have no effort other than springs, friction
+  // and rotors of the scene's terms.
   void addPassiveCoordinates(const Motion& motion) {
     terms_.assign(mechanism_.coordinates().size(), 0);
     for (const JointTerms& terms : scene_.joints) {
@@ -342,7 +345,7 @@ class MaximalCoordinates {
   Eigen::Index rows_ = 0;
   Matrix G_, N_;
   Vector b_, x_;
-  std::vector<long double> terms_;  // of coordinates
+  std::vector<long double> terms_;  // effort by joint terms of each coordinate
 };
 
 using MaximalCoordinatesOracle = MaximalCoordinates<long double>;

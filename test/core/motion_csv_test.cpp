@@ -23,7 +23,7 @@ MotionTable read(const std::string& text, const std::vector<std::string>& joints
   return readMotionCsv(stream, "m.csv", joints, unused, lines);
 }
 
-// What the reader says of a text it refuses.
+// The error of the reader for a text that it refuses.
 std::string refusal(const std::string& text, const std::vector<std::string>& joints = {}) {
   try {
     read(text, joints);
@@ -130,14 +130,14 @@ TEST(MotionCsv, NamesTheJointWithoutVelocityOrAcceleration) {
 
 TEST(MotionCsv, NamesADoubledColumn) {
   EXPECT_EQ(refusal("time,position.a,position.a\n0,1,2\n"),
-            "m.csv: line 1, column 3: 'position.a' stands already in column 2");
+            "m.csv: line 1, column 3: 'position.a' already stands in column 2");
   EXPECT_EQ(refusal("time,position.a,time\n0,1,2\n"),
-            "m.csv: line 1, column 3: 'time' stands already in column 1");
+            "m.csv: line 1, column 3: 'time' already stands in column 1");
 }
 
 TEST(MotionCsv, NamesAColumnOfNoKnownKind) {
   const std::string tail =
-      " is none of time, position.<joint>, velocity.<joint>, acceleration.<joint>";
+      " is not one of time, position.<joint>, velocity.<joint>, acceleration.<joint>";
   for (const std::string column :
        {"positon.a", "effort.a", "position", "position.", "Time", "t", "", "time;position.a"}) {
     EXPECT_EQ(refusal("time," + column + "\n0,1\n"),
@@ -158,18 +158,18 @@ TEST(MotionCsv, CountsTheCellsOfARaggedRow) {
 TEST(MotionCsv, QuotesWhatIsNoNumber) {
   const std::string start = "time,position.a,velocity.a\n0,1,2\n";
   EXPECT_EQ(refusal(start + "1,1.5x,2\n"),
-            "m.csv: line 3, column 2 (position.a): '1.5x' is no finite number");
+            "m.csv: line 3, column 2 (position.a): '1.5x' is not a finite number");
   EXPECT_EQ(refusal(start + "1,2,nan\n"),
-            "m.csv: line 3, column 3 (velocity.a): 'nan' is no finite number");
+            "m.csv: line 3, column 3 (velocity.a): 'nan' is not a finite number");
   EXPECT_EQ(refusal(start + "1e999,2,3\n"),
-            "m.csv: line 3, column 1 (time): '1e999' is no finite number");
+            "m.csv: line 3, column 1 (time): '1e999' is not a finite number");
   EXPECT_EQ(refusal(start + "1,,2\n"), "m.csv: line 3, column 2 (position.a): the cell is empty");
 }
 
 TEST(MotionCsv, QuotesGarbageOnOneShortLine) {
   const std::string message = refusal("time,position.a\n0,\x01\x02" + std::string(500, 'z') + "\n");
   EXPECT_EQ(message, "m.csv: line 2, column 2 (position.a): '??" + std::string(38, 'z') +
-                         "...' is no finite number");
+                         "...' is not a finite number");
 }
 
 TEST(MotionCsv, RefusesFilesWithoutRows) {

@@ -71,8 +71,9 @@ TEST(MotionEstimator, FollowsTheCosineLawAt1kHz) {
         if (!stream.estimator.ready()) continue;
         ++outputs;
         const std::int64_t instant = stream.evaluate();
-        // What a cubic over 8 ms leaves of the fourth derivative, by the formulae of Savitzky and
-        // Golay 2e-7 of the range of the acceleration with even spacing, and twice that for jitter.
+        // A cubic over 8 ms neglects the fourth derivative: by the formulae of Savitzky and Golay
+        // that is 2e-7 of the range of the acceleration with even spacing, and twice that for
+        // jitter.
         for (int c = 0; c < 2; ++c)
           expectNear(stream.motion, c, instant, laws[static_cast<std::size_t>(c)],
                      1e-12 * ranges[c], 1e-9 * ranges[c] * w, 4e-7 * ranges[c] * w * w);

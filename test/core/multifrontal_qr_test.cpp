@@ -15,7 +15,8 @@ constexpr double kEps = std::numeric_limits<double>::epsilon();
 constexpr double kAnyCondition = 1e12;
 // Rounding of some hundred reflections of vectors of order one.
 constexpr double kRounding = 300 * kEps;
-// The estimate is a lower bound but for rounding, and misses little of what a singular value shows.
+// The estimate is a lower bound except for rounding, and at most this factor below the condition
+// number from singular values.
 constexpr double kMissed = 10;
 
 // Blocks like those of loops: rows of several columns, repeated rows among them, and rows of one.
@@ -44,7 +45,7 @@ class RandomBlocks {
     return blocks;
   }
 
-  // Of a rank that can be less than the rows.
+  // Fills entries with a rank that can be less than the number of rows.
   void fill(Eigen::MatrixXd& entries) {
     const auto any = [&]() { return real(); };
     const Eigen::Index rank = number(1, static_cast<int>(entries.rows()));

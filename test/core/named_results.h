@@ -10,7 +10,7 @@
 
 namespace virtual_work_dynamics {
 
-/// The results of one sample by name of the joint.
+/// Results of one sample by the name of the joint.
 class NamedResults {
  public:
   NamedResults(const Mechanism& mechanism, const Scene& scene, const Request& request,
@@ -40,7 +40,7 @@ class NamedResults {
   Workspace workspace_;
 };
 
-/// As numbers: -0 is 0.
+/// Compares results as numbers, so that -0 equals 0.
 inline void expectSame(const Wrench& a, const Wrench& b) {
   EXPECT_EQ(a.force, b.force);
   EXPECT_EQ(a.torque, b.torque);

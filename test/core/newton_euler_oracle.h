@@ -9,9 +9,9 @@
 
 namespace virtual_work_dynamics {
 
-/// Inverse dynamics by Newton's and Euler's equations about every link's centre of mass, all in
-/// root axes and long double, link by link without lumping; the wrench at a joint is a plain sum
-/// over the links it carries. Shares nothing with the recursion under test but the Mechanism.
+/// Inverse dynamics by Newton's and Euler's equations about every link's centre of mass, in root
+/// axes and long double, link by link without lumping; the wrench at a joint is a plain sum over
+/// the links that it carries. Shares only the Mechanism with the recursion under test.
 class NewtonEulerOracle {
  public:
   NewtonEulerOracle(const Mechanism& mechanism, const Scene& scene, const Motion& motion)
@@ -35,7 +35,7 @@ class NewtonEulerOracle {
     return sum;
   }
 
-  /// The same in the child link's axes.
+  /// Wrench of the parent on the child about the joint origin, in axes of the child link.
   RootWrench childReaction(int joint) const {
     const RootWrench wrench = reaction(joint);
     const Matrix3l R_K0 = links_[joint + 1].R.transpose();
@@ -62,7 +62,8 @@ class NewtonEulerOracle {
   const Vector3l& angularVelocity(int link) const { return links_[link].w; }
   const Vector3l& centreOfMass(int link) const { return links_[link].c; }
 
-  /// What all joints of a link together exert on it, moment about its centre of mass, root axes.
+  /// The wrench that all joints of a link together exert on it, about its centre of mass, in root
+  /// axes.
   RootWrench demand(int link) const { return {links_[link].force, links_[link].moment_c}; }
 
  private:
@@ -70,7 +71,7 @@ class NewtonEulerOracle {
     Matrix3l R = Matrix3l::Identity();  // link -> root axes
     Vector3l o = Vector3l::Zero(), v = Vector3l::Zero(), a = Vector3l::Zero();
     Vector3l w = Vector3l::Zero(), alpha = Vector3l::Zero();
-    Vector3l c, force, moment_c;  // centre of mass; wrench that the joints exert in all, about it
+    Vector3l c, force, moment_c;  // centre of mass; wrench of all joints on the link, about it
   };
 
   void moveLink(std::size_t k, const Scene& scene, const Motion& motion) {

@@ -113,8 +113,8 @@ TEST_F(NonHolonomicConditions, BladeAloneDoesNotDisturbOtherLoops) {
   EXPECT_NEAR(motion.qd[1], speed.f(0) / std::cos(0.6), kConditionTolerance);
 }
 
-// Where y is free but for the blade it stays as near as the gear lets it, and moves as the blade
-// says.
+// When only the blade restricts y, y stays as near as the gear lets it and moves as the blade
+// demands.
 TEST_F(NonHolonomicConditions, GearAndBladeTogetherDetermineTheMotion) {
   const ConditionSets sets = {blade, std::make_shared<Gear>(mechanism, 3, 1, 2.0, 0.1)};
   ConditionedLoops loops(mechanism, sceneOf({"joint_1", "joint_3"}), sets);

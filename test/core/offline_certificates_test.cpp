@@ -10,7 +10,7 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Of four bodies, terms that are rounded a dozen times each; relative to their magnitudes.
+// Terms of four bodies are rounded a dozen times each; relative to their magnitudes.
 constexpr double kRounding = 2e-15;
 
 std::string craneMotion(int rows) {

@@ -45,7 +45,7 @@ class OfflineToolErrors : public OfflineTool {
 
   std::string usage(const std::string& arguments) { return failure(arguments, 2); }
 
-  // With a motion of this text instead of m.csv.
+  // The error for a motion with this text instead of m.csv.
   std::string motion(const std::string& text) {
     write("bad.csv", text);
     return failure("--urdf p.urdf --motion bad.csv --output r.csv", 1);
@@ -83,8 +83,8 @@ TEST_F(OfflineToolErrors, WrongUsageIsToldWithAHint) {
             "--gravity: '0 0' is not three numbers, as in --gravity \"0 0 -9.81\"");
   EXPECT_EQ(usage(good + "--gravity '0 0 -9.81 1'"),
             "--gravity: '0 0 -9.81 1' is not three numbers, as in --gravity \"0 0 -9.81\"");
-  EXPECT_EQ(usage(good + "--gravity '0 0 g'"), "--gravity: 'g' is no finite number");
-  EXPECT_EQ(usage(good + "--gravity=nan"), "--gravity: 'nan' is no finite number");
+  EXPECT_EQ(usage(good + "--gravity '0 0 g'"), "--gravity: 'g' is not a finite number");
+  EXPECT_EQ(usage(good + "--gravity=nan"), "--gravity: 'nan' is not a finite number");
   EXPECT_EQ(usage(good + "--reactions hinge,,ground"),
             "--reactions: there is an empty name in 'hinge,,ground'");
 }
@@ -93,7 +93,7 @@ TEST_F(OfflineToolErrors, ThreadsAreAWholeNumber) {
   const std::string good = "--urdf p.urdf --motion m.csv --output r.csv ";
   for (const std::string text : {"0", "-1", "1.5", "two", "1025", "nan"}) {
     EXPECT_EQ(usage(good + "--threads=" + text),
-              "--threads: '" + text + "' is no whole number from 1 to 1024");
+              "--threads: '" + text + "' is not a whole number from 1 to 1024");
   }
   EXPECT_EQ(usage(good + "--explain=yes"), "--explain takes no value");
 }
@@ -103,14 +103,14 @@ TEST_F(OfflineToolErrors, LagrangeHasOneThreadAndNothingToExplain) {
   EXPECT_EQ(usage(good + "newton"), "--method: 'newton' is neither virtual_work nor lagrange");
   EXPECT_EQ(usage(good + "lagrange --threads 2"),
             "--threads: --method lagrange runs in one thread, not in 2");
-  EXPECT_EQ(usage(good + "lagrange --explain"), "--explain: there is none of --method lagrange");
+  EXPECT_EQ(usage(good + "lagrange --explain"), "--explain cannot be used with --method lagrange");
 }
 
 TEST_F(OfflineToolErrors, AnUnknownInstructionSetIsNamed) {
   write("p.urdf", kPendulum);
   const Run result = run("--urdf p.urdf --explain", "VIRTUAL_WORK_DYNAMICS_INSTRUCTION_SET=mmx");
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_TRUE(contains(result.err, "'mmx' is none of baseline, avx2, avx512")) << result.err;
+  EXPECT_TRUE(contains(result.err, "'mmx' is not one of baseline, avx2, avx512")) << result.err;
 }
 
 TEST_F(OfflineToolErrors, AnInputIsNeverOverwritten) {
@@ -130,14 +130,14 @@ TEST_F(OfflineToolErrors, BadMotionsAreNamedWithLineAndColumn) {
   EXPECT_EQ(motion("time,position.hing\n0,1\n"),
             "bad.csv: line 1: column 'position.hinge' is missing");
   EXPECT_EQ(motion("time,positon.hinge\n0,1\n"),
-            "bad.csv: line 1, column 2: 'positon.hinge' is none of time, position.<joint>, "
+            "bad.csv: line 1, column 2: 'positon.hinge' is not one of time, position.<joint>, "
             "velocity.<joint>, acceleration.<joint>");
   EXPECT_EQ(motion("time,position.hinge,position.hinge\n0,1,2\n"),
-            "bad.csv: line 1, column 3: 'position.hinge' stands already in column 2");
+            "bad.csv: line 1, column 3: 'position.hinge' already stands in column 2");
   EXPECT_EQ(motion(std::string(kSwing) + "0.2,1,2\n"),
             "bad.csv: line 4: 4 cells expected as in the header, 3 found");
   EXPECT_EQ(motion(std::string(kSwing) + "0.2,1,2,fast\n"),
-            "bad.csv: line 4, column 4 (acceleration.hinge): 'fast' is no finite number");
+            "bad.csv: line 4, column 4 (acceleration.hinge): 'fast' is not a finite number");
   EXPECT_EQ(failure("--urdf p.urdf --motion none.csv --output r.csv", 1),
             "none.csv: cannot be read: No such file or directory");
   EXPECT_EQ(failure("--urdf p.urdf --motion . --output r.csv", 1),

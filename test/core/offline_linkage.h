@@ -25,7 +25,7 @@ constexpr char kLinkage[] = R"(<robot name="linkage">
     <origin xyz="0.5 0 0"/><axis xyz="0 1 0"/></joint>
 </robot>)";
 
-/// The scene of a pin at that distance from the crank's foot.
+/// A scene with a pin at that distance from the crank's foot.
 inline std::string pinned(const std::string& distance, const std::string& actuated = "drive") {
   return "closures:\n  - name: pin\n    type: revolute\n    parent: {link: base, xyz: [" +
          distance +
@@ -84,7 +84,8 @@ class OfflineLoops : public OfflineTool {
   }
 
   static constexpr char kFollow[] =
-      "note: m.csv: of passive joints, by the closures: positions, velocities, accelerations\n";
+      "note: m.csv: of passive joints, computed from the closures: positions, velocities, "
+      "accelerations\n";
 };
 
 }  // namespace virtual_work_dynamics

@@ -9,7 +9,7 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Of four bodies, terms that are rounded a dozen times each; relative to their magnitudes.
+// Terms of four bodies are rounded a dozen times each; relative to their magnitudes.
 constexpr double kRounding = 2e-15;
 // One formalism against the other, of results of some hundred at most; equal to the largest's
 // digits.

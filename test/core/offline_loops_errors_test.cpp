@@ -7,7 +7,7 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Of sums of numbers below one.
+// Rounding of sums of numbers below one.
 constexpr double kRounding = 1e-15;
 
 constexpr char kDriveMotion[] =
@@ -56,10 +56,10 @@ TEST_F(OfflineLoops, ResidualsAreOfEachLevel) {
 TEST_F(OfflineLoops, APartOfThePassiveJointsIsNoMotion) {
   write("part.csv", "time,position.drive,position.wrist\n0,0,0\n");
   EXPECT_EQ(failure("--scene s.yaml --motion part.csv"),
-            "part.csv: positions of the passive joints wrist are given, but not of elbow: give "
-            "those of all joints, or of the actuated ones only");
+            "part.csv: the passive joints 'wrist' are given, but not 'elbow': give all joints, or "
+            "the actuated ones only");
   write("part.csv", "time,position.elbow\n0,0\n");
-  EXPECT_TRUE(contains(failure("--scene s.yaml --motion part.csv"), "but not of wrist"));
+  EXPECT_TRUE(contains(failure("--scene s.yaml --motion part.csv"), "but not 'wrist'"));
   write("none.csv", "time,position.door\n0,0\n");
   EXPECT_EQ(failure("--scene s.yaml --motion none.csv"),
             "none.csv: line 1: column 'position.drive' is missing");
@@ -83,8 +83,8 @@ TEST_F(OfflineLoops, TheDriveAloneDoesNotSayHowTheOthersLeaveASingularPosition) 
         "time,position.drive,velocity.drive,acceleration.drive\n0,1.5,1,0\n"
         "0.1,1.5707963267948966,1,0\n");
   EXPECT_EQ(failure("--scene s.yaml --motion m.csv"),
-            "m.csv: line 3: the closures do not determine how the passive joints move: a singular "
-            "position; give the motion of all joints");
+            "m.csv: line 3: the position is singular: the closures do not determine how the "
+            "passive joints move; give the motion of all joints");
 }
 
 TEST_F(OfflineLoops, WhatLoopsDoNotHaveIsRefused) {
@@ -94,7 +94,7 @@ TEST_F(OfflineLoops, WhatLoopsDoNotHaveIsRefused) {
             "--loop-tolerance: the scene has no closures");
   for (const std::string text : {"0", "-1", "nan", "tight"}) {
     EXPECT_EQ(failure(start + "--loop-tolerance=" + text, 2),
-              "--loop-tolerance: '" + text + "' is no positive number");
+              "--loop-tolerance: '" + text + "' is not a positive number");
   }
   std::string named = pinned("0.5");
   write("comma.yaml", named.replace(named.find("pin"), 3, "'p,n'"));

@@ -24,7 +24,7 @@ std::string swingOfTheDrive(int rows = kRows) {
   return text;
 }
 
-/// With one row that is off by an angle; none: -1.
+/// Writes a motion in which one row is off by an angle, or no row when it is -1.
 std::string swingOfAll(int wrong_row = -1) {
   std::string text = kAllColumns;
   for (int i = 0; i < kRows; ++i) text += row(0.01 * i, swing(i), i == wrong_row ? 1e-3 : 0);
@@ -111,7 +111,7 @@ TEST_F(OfflineLoopThreads, ARowThatViolatesALoopIsNamedBeforeOneThatIsSingular) 
     write("m.csv", text);
     const Run one = expectSame("", 1);
     EXPECT_NE(one.err.find(violated ? "line 107: the positions violate"
-                                    : "line 112: the closures do not determine"),
+                                    : "line 112: the position is singular"),
               std::string::npos)
         << one.err;
   }

@@ -227,7 +227,7 @@ TEST_F(OfflineTool, ColumnsOfOtherJointsAreNamedAndIgnored) {
         "position.lid\n0,1,2,3,?,?,?\n");
   const Run result = run("--urdf p.urdf --motion m.csv");
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.err, "note: m.csv: ignored, no coordinates of the robot: gripper, lid\n");
+  EXPECT_EQ(result.err, "note: m.csv: ignored, not coordinates of the robot: gripper, lid\n");
 }
 
 TEST_F(OfflineTool, DoubtsAboutTheRobotAreWarnings) {
@@ -249,7 +249,7 @@ TEST_F(OfflineTool, WhatOverflowsIsAnEmptyCellAndOneWarning) {
     EXPECT_EQ(result.exit_code, 0);
     EXPECT_EQ(
         result.err,
-        "warning: m.csv: results of 2 rows overflow, first of line 4; their cells are empty\n");
+        "warning: m.csv: results of 2 rows overflow, first in line 4; their cells are empty\n");
     const NumberTable table = parseTable(result.out);
     ASSERT_EQ(table.rows.size(), 3u);
     EXPECT_TRUE(std::isfinite(table.rows[0][2]));

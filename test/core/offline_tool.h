@@ -17,7 +17,7 @@
 
 namespace virtual_work_dynamics {
 
-/// Runs the built offline tool as a user would, in a folder of its own that is gone afterwards.
+/// Runs the built offline tool as a user would, in a folder of its own that is removed afterwards.
 class OfflineTool : public testing::Test {
  protected:
   struct Run {
@@ -48,7 +48,7 @@ class OfflineTool : public testing::Test {
     return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   }
 
-  /// Runs the tool in the folder; `arguments` and what stands `before` it are shell text.
+  /// Runs the tool in the folder; `arguments` and the words `before` the tool are shell text.
   Run run(const std::string& arguments, const std::string& before = "") const {
     const std::string command = "cd '" + folder_ + "' && { " + before + " '" + kOfflineTool + "' " +
                                 arguments + "; } >'" + folder_ + ".out' 2>'" + folder_ + ".err'";
@@ -71,7 +71,7 @@ struct NumberTable {
   std::vector<std::string> header;
   std::vector<std::vector<double>> rows;
 
-  /// Column of a name, -1 when there is none.
+  /// The column of a name; -1 when there is none.
   int column(const std::string& name) const {
     const auto found = std::find(header.begin(), header.end(), name);
     return found == header.end() ? -1 : static_cast<int>(found - header.begin());
@@ -108,11 +108,11 @@ constexpr char kPendulum[] = R"(<robot name="pendulum">
     <origin xyz="0 0 1"/><axis xyz="0 1 0"/></joint>
 </robot>)";
 
-/// How the header ends with --certificates.
+/// The end of the header with --certificates.
 constexpr char kCertificateColumns[] =
     ",certificate.power,certificate.ground_force,certificate.ground_moment";
 
-/// A table without these columns.
+/// Removes the columns of --certificates from a table.
 inline std::string withoutCertificates(const std::string& csv) {
   std::istringstream lines(csv);
   std::string text;

@@ -16,7 +16,7 @@ inline Scene pendulumScene() {
   return scene;
 }
 
-/// The paper's motion (5.11).
+/// The motion (5.11) of the paper.
 inline Motion pendulumMotion(double t) {
   const double w = M_PI / 6;
   Motion motion(2);
@@ -31,7 +31,7 @@ struct Pendulum {
   double l1 = 0.5, l2 = 0.75, m1 = 0.25, m2 = 1, g = 9.81;
 };
 
-/// (5.7): the efforts.
+/// The efforts by (5.7), N m.
 inline Eigen::Vector2d equation57(const Motion& x, const Pendulum& p) {
   const double f1 = x.q[0], f2 = x.q[1], d1 = x.qd[0], d2 = x.qd[1], e1 = x.qdd[0], e2 = x.qdd[1];
   const double M1 = (p.m1 / 3 + p.m2) * p.l1 * p.l1 * e1 + p.m2 * p.l2 * p.l2 * (e1 + e2) / 3 +
@@ -45,7 +45,7 @@ inline Eigen::Vector2d equation57(const Motion& x, const Pendulum& p) {
   return {M1, M2};
 }
 
-/// (5.8): the force on the first rod along +x0, downwards.
+/// The force on the first rod along +x0, downwards, by (5.8), N.
 inline double equation58(const Motion& x, const Pendulum& p) {
   const double f1 = x.q[0], f = f1 + x.q[1], d1 = x.qd[0], d = d1 + x.qd[1], e1 = x.qdd[0],
                e = e1 + x.qdd[1];

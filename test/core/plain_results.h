@@ -13,7 +13,7 @@
 
 namespace virtual_work_dynamics {
 
-/// Results of one sample as plain numbers in the order of a ResultBlock.
+/// Results of one sample as plain numbers, in the order of a ResultBlock.
 template <typename Real>
 struct PlainResults {
   std::vector<Real> effort, child_axes, root_axes, poses, twists;
@@ -29,7 +29,7 @@ inline std::vector<InstructionSet> supportedInstructionSets() {
   return supported;
 }
 
-/// Efforts, reactions of all movable joints in both axes, poses and twists.
+/// A request for efforts, reactions of all movable joints in both axes, poses and twists.
 inline Request requestAll(const Mechanism& mechanism) {
   Request request;
   request.child_axes = request.root_axes = requestedReactions(mechanism, Scene());
@@ -37,7 +37,7 @@ inline Request requestAll(const Mechanism& mechanism) {
   return request;
 }
 
-/// The same, fixed joints and ground included.
+/// A request for efforts, reactions of all joints and ground in both axes, poses and twists.
 inline Request requestEveryJoint(const Mechanism& mechanism) {
   Request request;
   request.child_axes.push_back(kGround);
@@ -47,7 +47,7 @@ inline Request requestEveryJoint(const Mechanism& mechanism) {
   return request;
 }
 
-/// One sample; without poses, which a Workspace gives as quaternions.
+/// The results of one sample, without poses, which a Workspace gives as quaternions.
 inline PlainResults<double> singleResults(const Workspace& workspace) {
   PlainResults<double> results;
   const auto append = [](std::vector<double>& to, const Eigen::Vector3d& v) {
@@ -76,7 +76,8 @@ inline PlainResults<double> singleResults(const InverseDynamics& dynamics, const
   return singleResults(workspace);
 }
 
-/// The arrays of a block, each between fences, filled from motions and taken apart into samples.
+/// The arrays of a block, each between fences; they are filled from motions and divided into
+/// samples.
 template <typename Real>
 class FencedBlock {
  public:
@@ -111,13 +112,21 @@ class FencedBlock {
   }
 
   void compute(BlockInverseDynamics<Real>& dynamics) { dynamics.compute(layout_, in(), out()); }
+  void compute(BlockInverseDynamics<Real>& dynamics, const Load& load) {
+    dynamics.compute(layout_, in(), load, out());
+  }
 
   MotionBlock<Real> in() { return {samples_, array(0), array(1), array(2)}; }
-  /// What was not requested is null.
+  /// The result arrays; those that were not requested are null.
   ResultBlock<Real> out() { return {array(3), array(4), array(5), array(6), array(7)}; }
 
   PlainResults<Real> sample(std::size_t n) const {
     return {numbers(3, n), numbers(4, n), numbers(5, n), numbers(6, n), numbers(7, n)};
+  }
+  std::vector<PlainResults<Real>> samples() const {
+    std::vector<PlainResults<Real>> samples;
+    for (std::size_t n = 0; n < samples_; ++n) samples.push_back(sample(n));
+    return samples;
   }
 
   bool surroundingsUntouched() const {
@@ -145,7 +154,7 @@ class FencedBlock {
   std::unique_ptr<Array> arrays_[kArrays];
 };
 
-/// All samples through one block.
+/// Computes all samples in one block.
 template <typename Real>
 std::vector<PlainResults<Real>> blockResults(
     BlockInverseDynamics<Real>& dynamics, const std::vector<Motion>& motions, BlockLayout layout,
@@ -153,9 +162,18 @@ std::vector<PlainResults<Real>> blockResults(
   FencedBlock<Real> block(dynamics, motions, layout, edge);
   block.compute(dynamics);
   EXPECT_TRUE(block.surroundingsUntouched());
-  std::vector<PlainResults<Real>> results;
-  for (std::size_t n = 0; n < motions.size(); ++n) results.push_back(block.sample(n));
-  return results;
+  return block.samples();
+}
+
+/// All samples through one block, with a load.
+template <typename Real>
+std::vector<PlainResults<Real>> blockResults(BlockInverseDynamics<Real>& dynamics,
+                                             const std::vector<Motion>& motions, BlockLayout layout,
+                                             const Load& load) {
+  FencedBlock<Real> block(dynamics, motions, layout);
+  block.compute(dynamics, load);
+  EXPECT_TRUE(block.surroundingsUntouched());
+  return block.samples();
 }
 
 template <typename Real>
@@ -172,7 +190,7 @@ bool sameBits(const std::vector<Real>& a, const std::vector<Real>& b) {
          (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Real)) == 0);
 }
 
-/// Names of the results that differ; empty: none does.
+/// Names of the results that differ; empty when all are equal.
 template <typename Real>
 std::string differences(const PlainResults<Real>& a, const PlainResults<Real>& b) {
   std::string names;

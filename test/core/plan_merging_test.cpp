@@ -15,8 +15,8 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Of the largest force or moment: a plan that keeps a fixed joint rounds a few times more on the
-// way through it.
+// Relative to the largest force or moment: a plan that keeps a fixed joint rounds a few more times
+// on the way through it.
 constexpr double kMerged = 1e-14;
 
 double largest(const NamedResults& results, const Request& request) {

@@ -14,10 +14,10 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Of efforts up to 10 N m and positions up to 1 m, after a few dozen roundings.
+// Error of efforts up to 10 N m and positions up to 1 m after a few dozen roundings.
 constexpr double kRounding = 1e-14;
 
-// What the narrower request has is equal to the same in the wider one.
+// Results of the narrower request equal those of the wider one.
 void expectSame(const Request& narrow, const NamedResults& results, const NamedResults& wider) {
   if (narrow.efforts) {
     EXPECT_EQ(results.effort(), wider.effort());
@@ -146,7 +146,7 @@ TEST(PlanReduction, NoGravityIsTheFullPlanWithNextToNone) {
     const NamedResults full(mechanism, scene, request, motion);
     scene.gravity.setZero();
     const NamedResults reduced(mechanism, scene, request, motion);
-    constexpr double kGone = 1e-280;  // a result that is zero but for this gravity
+    constexpr double kGone = 1e-280;  // a result that is zero except for this gravity
     const auto close = [&](const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
       return (a - b).cwiseAbs().maxCoeff() <= kGone;
     };
@@ -160,8 +160,8 @@ TEST(PlanReduction, NoGravityIsTheFullPlanWithNextToNone) {
   }
 }
 
-// Constants that are zero but for one entry, each in turn, are not left out as zero. The joints are
-// z-aligned, so that the entries are those of the recursion.
+// Constants that are zero except for one entry, each in turn, are not left out as zero. The joints
+// are z-aligned, so that the entries are those of the recursion.
 TEST(PlanReduction, OneEntryIsNotNone) {
   for (int entry = 0; entry < 9; ++entry) {
     SCOPED_TRACE(entry);
@@ -318,8 +318,9 @@ TEST(PlanReduction, AppliedWrenchesElsewhereDoNotMatter) {
   EXPECT_EQ(with_wrench.summary().multiplications, without_wrench.summary().multiplications);
   const InverseDynamics dynamics(mechanism, scene, request);
   Workspace workspace = dynamics.makeWorkspace();
-  EXPECT_NO_THROW(workspace.setAppliedWrench(0, {7, 8, 9}, {1, 2, 3}));
-  dynamics.compute(motion, workspace);
+  Load load(scene);
+  load.wrenches[0] = {{7, 8, 9}, {1, 2, 3}};
+  EXPECT_NO_THROW(dynamics.compute(motion, load, workspace));
   expectSame(workspace.childAxes()[0], without_wrench.child("joint_4"));
 }
 

@@ -75,7 +75,7 @@ Cost revolute(const Cost& rotation) {
          2 * kAddVector + kTurnWrench + 2 * rotation + kAddCross;
 }
 
-// What one joint more in the middle of a chain costs.
+// Cost of one more joint in the middle of a chain.
 template <typename MakeChain>
 Cost costOfOneMore(const MakeChain& chain, bool child_axes, bool root_axes, bool poses,
                    bool twists) {

@@ -8,11 +8,12 @@
 
 namespace virtual_work_dynamics {
 
-/// Forces of a mechanism in the plane by free-body diagrams: for each body two balances of force
-/// and one of moment, unknown the two components of force in each pin, the couples of motors, and
-/// force and couple of guides. Written for one mechanism by hand, with the places of centres of
-/// mass and pins as functions of time, in closed form; accelerations are their differences.
-/// Independent of the package's descriptions and of everything it computes.
+/// Computes forces of a mechanism in the plane by free-body diagrams: for each body two balances of
+/// force and one of moment. The unknowns are the two components of force in each pin, the couples
+/// of motors, and force and couple of guides. A mechanism is written by hand, with the places of
+/// centres of mass and pins as functions of time in closed form; accelerations are their
+/// differences. All this is independent of the package's descriptions and of everything that it
+/// computes.
 class PlanarFreeBodies {
  public:
   using Vector2l = Eigen::Matrix<long double, 2, 1>;
@@ -26,7 +27,8 @@ class PlanarFreeBodies {
 
   PlanarFreeBodies(long double t, const Vector2l& gravity) : t_(t), gravity_(gravity) {}
 
-  /// A body by the place of its centre of mass; its moment of inertia about that.
+  /// Adds a body by the place of its centre of mass; `inertia` is the moment of inertia about that.
+  /// @returns its index.
   int body(long double mass, long double inertia, const Place& place) {
     const auto exact = withDerivatives(place, t_);
     Vector3l demand = mass * exact.acceleration;
@@ -37,7 +39,8 @@ class PlanarFreeBodies {
     return static_cast<int>(centres_.size()) - 1;
   }
 
-  /// The index in the solution of the force, x then y, that body a exerts on body b in a pin.
+  /// Adds a pin. @returns the index in the solution of the force, x then y, that body a exerts on
+  /// body b in it.
   int pin(int a, int b, const Point& point) {
     const int index = static_cast<int>(unknowns_.size());
     for (const Vector2l& direction : {Vector2l(1, 0), Vector2l(0, 1)}) {
@@ -45,7 +48,7 @@ class PlanarFreeBodies {
     }
     return index;
   }
-  /// Of the couple that body a exerts on body b.
+  /// Adds a motor. @returns the index in the solution of the couple that body a exerts on body b.
   int motor(int a, int b) {
     unknowns_.push_back({a, b, Vector2l::Zero(), Vector2l::Zero(), 1});
     return static_cast<int>(unknowns_.size()) - 1;

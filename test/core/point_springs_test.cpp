@@ -27,8 +27,7 @@ PointSpring spring(const std::string& name, const std::string& a, const Eigen::V
 }
 
 // Ends of a spring on a robot at rest without weight, by the pose of each joint.
-Eigen::Vector3d pointOf(const ClosedLoopDynamics& dynamics, std::size_t joint,
-                        const Eigen::Vector3d& at) {
+Eigen::Vector3d pointOf(const ClosedLoops& dynamics, std::size_t joint, const Eigen::Vector3d& at) {
   const Pose& pose = dynamics.poses()[joint];
   return pose.position + pose.orientation * at;
 }
@@ -44,7 +43,7 @@ TEST(PointSprings, OpenChainHoldsTheGradientOfTheirEnergy) {
   Request request;
   request.root_axes = requestedReactions(mechanism, scene);
   request.poses = true;
-  ClosedLoopDynamics dynamics(mechanism, scene, request);
+  ClosedLoops dynamics(mechanism, scene, request);
   Motion motion(5);
   motion.q << 0.3, -0.8, 1.4, 0.6, -0.2;
   const auto energy = [&](const Motion& at) {

@@ -16,7 +16,7 @@ namespace virtual_work_dynamics {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-// Published weights and closed forms hold but for a few roundings.
+// Published weights and closed forms hold except for a few roundings.
 constexpr double kIdentity = 50 * kEpsilon;
 // Errors of the samples and the weights, in units of the sum of |weight * sample|: a rounding for
 // each of the steps of the orthogonalization, which has up to 256 rows.

@@ -10,10 +10,10 @@
 
 namespace virtual_work_dynamics {
 
-/// Rate of change of a mechanism's kinetic energy and of its height in the gravity field, from
-/// positions and velocities alone: both are written as functions of time along
-/// q(t) = q + qd t + qdd t^2 / 2 and differentiated automatically. No acceleration of any body, and
-/// no force, enters.
+/// The balance of power of a mechanism: rates of change of its kinetic energy and of its height in
+/// the gravity field, from positions and velocities alone. Both are written as functions of time
+/// along q(t) = q + qd t + qdd t^2 / 2 and differentiated automatically. No acceleration of any
+/// body, and no force, enters.
 struct PowerBalance {
   long double kinetic = 0;  ///< dT/dt, W
   long double gravity = 0;  ///< power of the weights, W

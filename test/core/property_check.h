@@ -19,19 +19,19 @@
 
 namespace virtual_work_dynamics {
 
-// Sanitizers take ten times as long.
+// Fewer cases run with sanitizers, which take ten times as long.
 inline unsigned casesPerProperty() {
   return kSanitized ? 500 : 4000;
 }
 
-// What results may be off, in roundings of double: 4 for every joint on the way, which is the
-// package's contract, and 2 for what a transformed case rounds anew: its constants, its gravity and
-// its wrenches.
+// The error that results may have, in roundings of double: 4 for every joint on the way, which is
+// the package's contract, and 2 for the numbers that a transformed case rounds anew: its constants,
+// its gravity and its wrenches.
 constexpr long double kEps = std::numeric_limits<double>::epsilon();
 constexpr long double kRoundingsPerJoint = 4;
 constexpr long double kRoundingsOfInput = 2;
 
-/// A number and how far it may be off.
+/// A number and the error that it may have.
 struct Measured {
   long double value = 0;
   long double error = 0;
@@ -44,7 +44,7 @@ inline Measured operator*(long double factor, const Measured& a) {
   return {factor * a.value, std::abs(factor) * a.error};
 }
 
-/// A wrench and how far its force and its moment may be off.
+/// A wrench and the errors that its force and its moment may have.
 struct MeasuredWrench {
   Vector3l force = Vector3l::Zero(), torque = Vector3l::Zero();
   long double force_error = 0, torque_error = 0;
@@ -52,7 +52,7 @@ struct MeasuredWrench {
   MeasuredWrench turned(const Matrix3l& R) const {
     return {R * force, R * torque, force_error, torque_error};
   }
-  /// About a point that lies `d` from the present one.
+  /// The wrench about a point that lies `d` from the present one.
   MeasuredWrench about(const Vector3l& d) const {
     return {force, torque - d.cross(force), force_error, torque_error + d.norm() * force_error};
   }
@@ -70,12 +70,12 @@ inline MeasuredWrench operator-(const MeasuredWrench& a, const MeasuredWrench& b
   return a + (-1) * b;
 }
 
-/// Roundings of a result that is `depth` joints away from the leaves, times eps.
+/// The error that a result may have which is `depth` joints away from the leaves.
 inline long double allowedError(int depth, double magnitude) {
   return (kRoundingsPerJoint * std::max(depth, 1) + kRoundingsOfInput) * kEps * magnitude;
 }
 
-/// Results of a case by name, each with how far it may be off.
+/// Results of a case by name, each with the error that it may have.
 class Outcome {
  public:
   explicit Outcome(const Case& made)
@@ -89,7 +89,7 @@ class Outcome {
 
   const std::vector<std::string>& coordinates() const { return mechanism_.coordinateNames(); }
   const Request& request() const { return dynamics_.request(); }
-  /// Joints whose reactions there are.
+  /// The joints that have reactions.
   const std::vector<std::string>& reactions() const { return dynamics_.request().child_axes; }
 
   Measured effort(const std::string& joint) const {
@@ -125,10 +125,10 @@ class Outcome {
   ErrorBound bound_;
 };
 
-/// Compares results, and remembers the largest difference over what is allowed.
+/// Compares results, and remembers the largest difference relative to the allowed one.
 class Agreement {
  public:
-  /// What is compared from here on, for a failure's text.
+  /// Begins a comparison of results of these cases, which the text of a failure repeats.
   void begin(std::vector<Case> cases) { cases_ = std::move(cases); }
 
   void compare(const std::string& what, const Measured& a, const Measured& b) {
@@ -147,7 +147,7 @@ class Agreement {
   long double worst() const { return worst_; }
   long long comparisons() const { return comparisons_; }
 
-  /// The cases in question as files that repeat them.
+  /// The compared cases as the contents of files that repeat them.
   std::string replay() const {
     std::string text;
     for (const Case& made : cases_) {
@@ -174,8 +174,8 @@ class Agreement {
   long long comparisons_ = 0;
 };
 
-/// Checks a property on many random cases and stops at the first that fails.
-/// check(RandomCases&, Agreement&)
+/// Checks a property on many random cases by check(RandomCases&, Agreement&), and stops at the
+/// first case that fails.
 template <typename Check>
 void checkProperty(unsigned first_seed, Check check, unsigned cases = casesPerProperty()) {
   Agreement agreement;
@@ -194,7 +194,7 @@ void checkProperty(unsigned first_seed, Check check, unsigned cases = casesPerPr
             << static_cast<double>(agreement.worst()) << "\n";
 }
 
-/// A motion of the same joints for a mechanism that has them in another order.
+/// Reorders a motion for a mechanism that has the same joints in another order.
 inline Motion reordered(const Mechanism& from, const Motion& motion, const Mechanism& to) {
   Motion result(motion.q.size());
   for (Eigen::Index i = 0; i < result.q.size(); ++i) {

@@ -61,7 +61,7 @@ class Witness {
 
   MeasuredWrench child(std::size_t i) const { return measured(lagrange_.childAxes()[i]); }
   MeasuredWrench root(std::size_t i) const { return measured(lagrange_.rootAxes()[i]); }
-  /// Of a coordinate that moves these joints.
+  /// Effort of a coordinate that moves these joints.
   Measured effort(std::size_t i, const Mechanism& mechanism) const {
     Measured effort{lagrange_.effort()[static_cast<Eigen::Index>(i)], 0};
     for (const Joint& joint : mechanism.joints()) {

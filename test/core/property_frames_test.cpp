@@ -20,7 +20,8 @@ Case withActive(Case made) {
   return made;
 }
 
-// What include_active: false leaves of a reaction; `axis` of the joint in the wrench's axes.
+// The rest of a reaction with include_active: false; `axis` is that of the joint in the wrench's
+// axes.
 MeasuredWrench withoutActive(const MeasuredWrench& wrench, const Joint& joint,
                              const Vector3l& axis) {
   MeasuredWrench rest = wrench;

@@ -13,15 +13,15 @@
 
 namespace virtual_work_dynamics {
 
-/// What there is to compute: a mechanism, what is wanted of it, and a state.
+/// An input of the inverse dynamics: a mechanism, a scene and a state.
 struct Case {
   Mechanism mechanism;
   Scene scene;
   Motion motion;
 };
 
-/// Random trees, scenes and states, all numbers doubles or, for orientations, made from doubles, so
-/// that a description can hold them. The same seed gives the same case.
+/// Random trees, scenes and states. All numbers are doubles or, for orientations, made from
+/// doubles, so that a description can hold them. The same seed gives the same case.
 class RandomCases {
  public:
   explicit RandomCases(unsigned seed) : generator_(seed) {}
@@ -46,7 +46,7 @@ class RandomCases {
     return {std::move(tree), std::move(wanted), std::move(state)};
   }
 
-  /// A name that sorts anywhere among others; `serial` makes it different from them.
+  /// A name that sorts anywhere among other names; `serial` makes it different from them.
   std::string name(int serial) {
     return std::string(1, static_cast<char>('a' + pick(26))) + std::to_string(pick(100)) + "_" +
            std::to_string(serial);
@@ -94,7 +94,7 @@ class RandomCases {
     return applied;
   }
 
-  /// Velocities, accelerations or single entries of them may be zero.
+  /// A random motion, in which velocities, accelerations or single entries of them may be zero.
   Motion motion(const Mechanism& mechanism) {
     Motion motion(static_cast<Eigen::Index>(mechanism.coordinates().size()));
     const bool moves = chance(0.9), accelerates = chance(0.9);
@@ -114,7 +114,7 @@ class RandomCases {
         .toRotationMatrix();
   }
 
-  // One in eight massless, one in eight a point, one in eight a rod.
+  // A random link: one in eight is massless, one in eight is a point, one in eight is a rod.
   Link link(int index) {
     Link link;
     link.name = name(index);
@@ -159,7 +159,7 @@ class RandomCases {
     return joint;
   }
 
-  // Masters are joints that move and mimic none themselves.
+  // Makes some joints mimic others, which move and mimic no joint themselves.
   void addMimics(Description& tree) {
     for (std::size_t k = 0; k < tree.joints.size(); ++k) {
       const int master = pick(static_cast<int>(tree.joints.size()));

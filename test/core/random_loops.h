@@ -13,9 +13,9 @@
 namespace virtual_work_dynamics {
 
 /// Random trees with closures of all types, springs, and actuated joints and closures. The loops
-/// are closed at the positions of the motion, which are the scene's assembly; velocities and
-/// accelerations are anything, as forces do not need them to satisfy the loops. Actuated joints may
-/// be too few.
+/// are closed at the positions of the motion, which are the scene's assembly. Velocities and
+/// accelerations do not satisfy the loops, as forces do not need that. Actuated joints may be too
+/// few.
 class RandomLoops {
  public:
   explicit RandomLoops(unsigned seed) : cases_(seed) {}
@@ -60,7 +60,7 @@ class RandomLoops {
     return turn(2, rpy.z()) * turn(1, rpy.y()) * turn(0, rpy.x());
   }
 
-  // Somewhere in what the type leaves free: displacement and turn of the child in the parent frame.
+  // A random displacement and turn of the child in the parent frame that the type leaves free.
   void freeMotion(ClosureType type, Vector3l& p, Matrix3l& R) {
     using Type = ClosureType;
     p.setZero();
@@ -77,7 +77,7 @@ class RandomLoops {
     if (type == Type::kDistance) p = cases_.vector(0.5);
   }
 
-  // Joints between a link and the root that move it.
+  // The joints between a link and the root that move the link.
   static std::set<int> moversOf(const Mechanism& mechanism, int link) {
     std::set<int> movers;
     while (link > 0) {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-// A number of 113 bits; the long double constants of a Mechanism are exact in it. Where the
-// compiler has none, VWD_HAS_REAL113 stays undefined.
+// Real113 is a number of 113 bits, in which the long double constants of a Mechanism are exact.
+// Where the compiler has no such type, VWD_HAS_REAL113 stays undefined.
 #if LDBL_MANT_DIG == 113
 #define VWD_HAS_REAL113
 namespace virtual_work_dynamics {
@@ -85,7 +85,7 @@ Vector113 toVector113(const Vector& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-/// Columns of a matrix.
+/// A matrix by its columns.
 struct Matrix113 {
   Vector113 x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1};
 };
@@ -103,9 +103,9 @@ inline Matrix113 toMatrix113(const Matrix3l& A) {
   return {toVector113(A.col(0)), toVector113(A.col(1)), toVector113(A.col(2))};
 }
 
-/// Inverse dynamics by Newton's and Euler's equations in 113 bits, the yardstick of the errors:
-/// every link for itself, fixed joints kept, accelerations and forces in root axes, about centres
-/// of mass. Has nothing in common with the package's recursion but the Mechanism.
+/// Inverse dynamics by Newton's and Euler's equations in 113 bits, the yardstick of the errors.
+/// Every link is computed by itself, with fixed joints kept, accelerations and forces in root axes,
+/// about centres of mass. Shares only the Mechanism with the package's recursion.
 class Reference113 {
  public:
   struct Wrench {
@@ -139,14 +139,15 @@ class Reference113 {
     return efforts;
   }
 
-  /// Wrench of the parent on the child about the joint origin, axes of the child link; joint -1:
-  /// of ground on the root link.
+  /// Wrench of the parent on the child about the joint origin, in axes of the child link; joint -1
+  /// means that of ground on the root link.
   Wrench childAxes(int joint) const {
     const LinkState& link = links_[joint + 1];
     return {transposed(link.R, link.force), transposed(link.R, link.torque)};
   }
 
-  /// The same in root axes.
+  /// Wrench of the parent on the child about the joint origin, in root axes; joint -1 means that of
+  /// ground on the root link.
   Wrench rootAxes(int joint) const { return {links_[joint + 1].force, links_[joint + 1].torque}; }
 
  private:
@@ -155,10 +156,10 @@ class Reference113 {
     Vector113 r;              // from the parent's origin to this one
     Vector113 a;              // acceleration of the origin
     Vector113 w, alpha;       // angular velocity and acceleration
-    Vector113 force, torque;  // of all joints on link and what it carries, about the origin
+    Vector113 force, torque;  // wrench on the link with all that it carries, about the origin
   };
 
-  // Rodrigues' formula; `axis` is a unit vector.
+  // The rotation by Rodrigues' formula; `axis` is a unit vector.
   static Matrix113 rotation(const Vector113& axis, Real113 angle) {
     const Real113 s = sine(angle), c = cosine(angle);
     const auto turned = [&](const Vector113& v) {
@@ -196,7 +197,8 @@ class Reference113 {
     }
   }
 
-  // Newton and Euler about the centre of mass, carried to the link's origin.
+  // Newton's and Euler's equations about the centre of mass, with the moment taken to the link's
+  // origin.
   void balanceLink(int i, const Vector113& gravity) {
     const Link& body = mechanism_.links()[i];
     LinkState& link = links_[i];

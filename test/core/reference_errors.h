@@ -14,9 +14,9 @@
 
 namespace virtual_work_dynamics {
 
-/// Errors of results: of an effort over the largest effort of the motion, of a reaction's force
-/// over the largest force, of its moment over the largest moment. Infinite when a result is not
-/// finite.
+/// Relative errors of results: of an effort over the largest effort of the motion, of a reaction's
+/// force over the largest force, of its moment over the largest moment. An error is infinite when a
+/// result is not finite.
 struct ResultErrors {
   double effort = 0, force = 0, moment = 0;
 
@@ -33,7 +33,7 @@ inline std::ostream& operator<<(std::ostream& stream, const ResultErrors& errors
                 << errors.moment;
 }
 
-/// What a request's results should be along a motion, in 113 bits.
+/// The results that a request should have along a motion, in 113 bits.
 class ExpectedResults {
  public:
   ExpectedResults(const Mechanism& mechanism, const Scene& scene, const Request& request,
@@ -53,7 +53,7 @@ class ExpectedResults {
     }
   }
 
-  /// Largest errors of all samples.
+  /// The largest errors of all samples.
   template <typename Real>
   ResultErrors errorsOf(const std::vector<PlainResults<Real>>& results) const {
     ResultErrors errors;
@@ -62,7 +62,7 @@ class ExpectedResults {
     return errors;
   }
 
-  /// The same of samples that are computed one by one.
+  /// The largest errors of samples that InverseDynamics computes one by one.
   ResultErrors errorsOf(const InverseDynamics& dynamics, const std::vector<Motion>& motions) const {
     std::vector<PlainResults<double>> results;
     Workspace workspace = dynamics.makeWorkspace();

@@ -12,8 +12,8 @@
 namespace virtual_work_dynamics {
 
 /// Builds mechanisms joint by joint without a description, so that a test says exactly how each
-/// joint lies: link_0 is the root, joint_i carries link_i. Random where the caller says nothing;
-/// the same seed gives the same robot.
+/// joint lies: link_0 is the root, joint_i carries link_i. Numbers that the caller does not give
+/// are random; the same seed gives the same robot.
 class RobotBuilder {
  public:
   explicit RobotBuilder(unsigned seed) : generator_(seed), links_(1) { links_[0].name = "link_0"; }
@@ -31,7 +31,7 @@ class RobotBuilder {
   }
 
   /// Adds a joint and its child link with a random inertia; parents must come depth first.
-  /// Returns the child link.
+  /// @returns the index of the child link.
   int add(JointType type, int parent_link, const Vector3l& axis_K, const Matrix3l& R_PK,
           const Vector3l& p_PoKo_P) {
     const int k = static_cast<int>(joints_.size());
@@ -55,7 +55,7 @@ class RobotBuilder {
     return k + 1;
   }
 
-  /// A revolute joint in general position.
+  /// Adds a revolute joint in general position. @returns the index of the child link.
   int add(int parent_link) {
     const Vector3l axis = direction();
     const Matrix3l R_PK = rotation();

@@ -10,7 +10,7 @@
 
 namespace virtual_work_dynamics {
 
-/// The paper's composed pendulum (section 5) as a description.
+/// The description of the paper's composed pendulum (section 5).
 inline std::string pendulumUrdf() {
   return R"(<robot name="composed_pendulum">
   <link name="base"/>

@@ -161,7 +161,7 @@ TEST(SceneReaderLoops, RefusesClosuresByKey) {
   EXPECT_EQ(closure("name: c, name: d"), "closures[0].name: given twice");
   EXPECT_EQ(closure("name: [c]"), "closures[0].name: expected a name");
   EXPECT_EQ(closure("type: hinge"),
-            "closures[0].type: 'hinge' is none of fixed, revolute, prismatic, cylindrical, "
+            "closures[0].type: 'hinge' is not one of fixed, revolute, prismatic, cylindrical, "
             "universal, spherical, planar, distance");
   EXPECT_EQ(closure("type: [fixed]"),
             "closures[0].type: expected fixed, revolute, prismatic, cylindrical, universal, "
@@ -221,7 +221,7 @@ TEST(SceneReaderLoops, RefusesRedundancyByKey) {
             "rank_tolerance, length");
   EXPECT_EQ(redundancy("polcy: zero_at"), "redundancy.polcy: unknown key");
   EXPECT_EQ(redundancy("policy: least"),
-            "redundancy.policy: 'least' is none of minimum_norm, zero_at, stiffness");
+            "redundancy.policy: 'least' is not one of minimum_norm, zero_at, stiffness");
   EXPECT_EQ(redundancy("policy: zero_at, zero_at: c"),
             "redundancy.zero_at: expected a list of closures' names");
   EXPECT_EQ(redundancy("policy: zero_at"), "redundancy.zero_at: names no closure");

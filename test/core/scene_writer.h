@@ -31,7 +31,7 @@ inline std::string yamlJointTerms(const JointTerms& terms) {
   return text + "}";
 }
 
-/// A scene as YAML that readScene() takes back to the same scene.
+/// Writes a scene as YAML from which readScene() makes the same scene.
 inline std::string yamlText(const Scene& scene) {
   std::string text = "gravity: " + yamlVector(scene.gravity) +
                      "\nmotion: " + (scene.static_motion ? "static" : "full") +
@@ -51,7 +51,7 @@ inline std::string yamlText(const Scene& scene) {
   return text;
 }
 
-/// A motion of one sample as CSV for the offline tool.
+/// Writes a motion of one sample as CSV for the offline tool.
 inline std::string csvText(const Mechanism& mechanism, const Motion& motion) {
   std::string header = "time", values = "0";
   for (std::size_t i = 0; i < mechanism.coordinates().size(); ++i) {

@@ -58,7 +58,8 @@ struct Expected {
   Real113 angle, sine, cosine;
 };
 
-// Of the samples' angles in the order of joints and samples; Real: the type they are rounded to.
+// Expected values for the samples' angles, by joint and sample; Real is the type they are rounded
+// to.
 template <typename Real>
 std::vector<Expected> expectedOf(const std::vector<Motion>& samples) {
   std::vector<Expected> expected;

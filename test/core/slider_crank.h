@@ -16,7 +16,7 @@ class SliderCrank {
  public:
   static constexpr double kCrank = 0.5, kRod = 1.25, kSlider = 2;  // m, m, kg
 
-  /// A massless rod bears no force unless it must.
+  /// Makes the mechanism. A rod without mass bears no force unless it must.
   explicit SliderCrank(double rod_mass = 0, bool arm = false) : builder_(1) {
     const Matrix3l R = Matrix3l::Identity();
     const Vector3l zero = Vector3l::Zero();
@@ -52,7 +52,8 @@ class SliderCrank {
     return scene;
   }
 
-  /// By the crank's: sin(rod) = -crank / rod sin(crank), x = crank cos + rod cos.
+  /// The motion of all joints from that of the crank: sin(rod) = -crank / rod sin(crank), x = crank
+  /// cos + rod cos.
   static Motion motion(double angle, double rate, double acceleration, int coordinates = 3) {
     const double r = kCrank, l = kRod, s = std::sin(angle), c = std::cos(angle);
     const double rod = -std::asin(r / l * s);

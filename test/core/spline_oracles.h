@@ -16,21 +16,21 @@
 namespace virtual_work_dynamics {
 namespace spline_oracles {
 
-/// |value - expected| <= tolerance max(1, |expected|), and finite.
+/// Expects that |value - expected| <= tolerance max(1, |expected|), and that the value is finite.
 inline void expectClose(double value, double expected, double tolerance, const std::string& what) {
   ASSERT_TRUE(std::isfinite(value)) << what;
   EXPECT_LE(std::abs(value - expected), tolerance * std::max(1.0, std::abs(expected)))
       << what << ": " << value << " instead of " << expected;
 }
 
-/// A derivative (0: the value) of a scalar at t.
+/// A function that gives the derivative of an order (0: the value) of a scalar at t.
 using Function = std::function<double(int order, double t)>;
 
 inline Function sine() {
   return [](int order, double t) { return std::sin(t + order * std::acos(-1.0) / 2); };
 }
 
-/// Knots on one function a joint, with velocities and accelerations or without.
+/// Samples one function for each joint at knots, with or without velocities and accelerations.
 inline MotionTable sample(const std::vector<double>& times, const std::vector<Function>& joints,
                           bool velocities, bool accelerations) {
   MotionTable table;
@@ -62,7 +62,7 @@ inline std::array<double, kQuinticSamples> oneSided(const std::function<double(d
   std::array<long double, kQuinticSamples> x;
   std::array<long double, kQuinticSamples> difference;
   for (std::size_t i = 0; i < kQuinticSamples; ++i) {
-    // Inside of the piece: a value at the knot itself belongs to both sides.
+    // Samples are inside of the piece, as a value at the knot itself belongs to both sides.
     const double time = t + (other - t) * (static_cast<double>(i) + 0.5) / kQuinticSamples;
     x[i] = static_cast<long double>(time) - t;
     difference[i] = value(time);
@@ -72,7 +72,7 @@ inline std::array<double, kQuinticSamples> oneSided(const std::function<double(d
       difference[i] = (difference[i] - difference[i - 1]) / (x[i] - x[i - level]);
     }
   }
-  // From Newton's form to powers of the time relative to t.
+  // Newton's form becomes powers of the time relative to t.
   std::array<long double, kQuinticSamples> power{};
   for (std::size_t i = kQuinticSamples; i-- > 0;) {
     for (std::size_t k = kQuinticSamples - 1; k > 0; --k) power[k] = power[k - 1] - x[i] * power[k];

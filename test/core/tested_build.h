@@ -2,7 +2,7 @@
 
 namespace virtual_work_dynamics {
 
-// What tests are linked to: they are compiled once for several builds.
+// The build that tests are linked to: tests are compiled once for several builds.
 
 /// Path of the offline tool.
 extern const char* const kOfflineTool;

@@ -222,7 +222,7 @@ TEST(UrdfReader, DoubtsMasslessMovingLeavesOnly) {
   // Welded to something: no body of its own.
   EXPECT_TRUE(
       readUrdf(robot(link("a") + massless + joint("j", "fixed", "a", "m"))).doubts().empty());
-  // In the middle of a chain: its motion is carried on by what follows.
+  // In the middle of a chain a massless link passes its motion on to what follows.
   EXPECT_TRUE(readUrdf(robot(link("a") + massless + link("b") + joint("j", "revolute", "a", "m") +
                              joint("k", "revolute", "m", "b")))
                   .doubts()

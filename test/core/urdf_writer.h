@@ -8,8 +8,8 @@
 
 namespace virtual_work_dynamics {
 
-/// A mechanism as URDF text that readUrdf() takes back to the same tree. Every number is the double
-/// next to the mechanism's; orientations become angles. Joints must be named so that the
+/// Writes a mechanism as URDF text from which readUrdf() makes the same tree. Every number is the
+/// double nearest to the mechanism's; orientations become angles. Joints must be named so that the
 /// mechanism's order is the reader's.
 class UrdfWriter {
  public:
@@ -23,7 +23,8 @@ class UrdfWriter {
   const std::string& text() const { return text_; }
 
   /// Angles about fixed axes, R = Rz(yaw) Ry(pitch) Rx(roll). Where pitch is a quarter turn, only
-  /// the sum or difference of the others is determined; roll is what the yaw found leaves over.
+  /// the sum or difference of the others is determined; roll is then the remainder for the yaw
+  /// found.
   static Vector3l anglesOf(const Matrix3l& R) {
     const long double yaw = std::atan2(R(1, 0), R(0, 0));
     const long double s = std::sin(yaw), c = std::cos(yaw);
@@ -83,7 +84,7 @@ class UrdfWriter {
   std::string text_;
 };
 
-/// The same as a function.
+/// The URDF text of a mechanism, as UrdfWriter writes it.
 inline std::string urdfText(const Mechanism& mechanism) {
   return UrdfWriter(mechanism).text();
 }

@@ -1,3 +1,4 @@
+#include <geometry_msgs/WrenchStamped.h>
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -7,12 +8,9 @@
 #include <vector>
 
 #include "allocation_guard.h"
-#include "ros/active_plan.h"
-#include "ros/certificate_record.h"
-#include "ros/counters.h"
+#include "plan_maker.h"
 #include "ros/cross_check.h"
 #include "ros/plan_switch.h"
-#include "ros/sample_computation.h"
 #include "sample_robots.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 #include "wait_until.h"
@@ -27,21 +25,15 @@ constexpr double kSound = 1e-13;
 class CheckedPlans : public testing::Test {
  protected:
   explicit CheckedPlans(const Scene& wanted = Scene())
-      : robot(3, 9),
-        mechanism(readUrdf(robot.urdf())),
-        scene(wanted),
-        samples(static_cast<Eigen::Index>(mechanism.coordinates().size()), scene.static_motion,
-                counters, certificates) {}
+      : robot(3, 9), mechanism(readUrdf(robot.urdf())), scene(wanted), maker(mechanism, scene) {}
 
-  std::unique_ptr<ActivePlan> compile(const Audience& audience, bool checked = true) const {
-    const std::vector<std::string> reactions = requestedReactions(mechanism, scene);
-    return std::make_unique<ActivePlan>(mechanism, scene, requestFor(audience, reactions, false),
-                                        audience, "", PlanChecks{checked, checked});
+  std::unique_ptr<ActivePlan> compile(const Topics& topics, bool checked = true) const {
+    return maker.compile(topics, PlanChecks{checked, checked});
   }
 
   void compute(ActivePlan& plan) {
-    samples.motion() = robot.motion(mechanism);
-    ASSERT_EQ(samples.compute(plan, 1), SampleComputation::Outcome::kDone);
+    maker.samples.motion() = robot.motion(mechanism);
+    ASSERT_EQ(maker.samples.compute(plan, 1), SampleComputation::Outcome::kDone);
   }
 
   void expectSound(ActivePlan& plan) {
@@ -49,71 +41,66 @@ class CheckedPlans : public testing::Test {
     const auto finding = plan.cross_check->check();
     ASSERT_TRUE(finding);
     EXPECT_LE(finding->largest, kSound);
-    const auto certified = certificates.take();
+    const auto certified = maker.certificates.take();
     ASSERT_TRUE(certified);
     EXPECT_LE(certified->largest(), kSound);
+  }
+
+  // Topics of the first and the third reaction that the scene asks for.
+  Topics wrenchesOnly() const {
+    return {"reaction/" + maker.reactions[0], "reaction/" + maker.reactions[2]};
+  }
+
+  Topics everything() const {
+    Topics topics{"effort", "reactions", "joint_trajectory"};
+    for (const std::string& topic : wrenchesOnly()) topics.push_back(topic);
+    return topics;
   }
 
   RandomRobot robot;
   Mechanism mechanism;
   Scene scene;
-  Counters counters;
-  CertificateRecord certificates;
-  SampleComputation samples;
+  PlanMaker maker;
 };
 
-Audience effortOnly() {
-  Audience audience;
-  audience.effort = true;
-  return audience;
-}
-
-Audience everything() {
-  Audience audience;
-  audience.effort = audience.reactions = audience.trajectory = true;
-  audience.wrenches = {0, 2};
-  return audience;
-}
-
-Audience wrenchesOnly() {
-  Audience audience;
-  audience.wrenches = {0, 2};
-  return audience;
-}
+const Topics kEffortOnly{"effort"};
 
 TEST_F(CheckedPlans, CheckNothingThatNobodyListensTo) {
-  const auto plan = compile(Audience());
+  const auto plan = compile({});
   EXPECT_FALSE(plan->cross_check);
   EXPECT_FALSE(plan->certifier);
-  EXPECT_FALSE(plan->request().efforts);
+  EXPECT_FALSE(plan->dynamics.request().efforts);
   EXPECT_EQ(describe(*plan), "nothing");
 }
 
 TEST_F(CheckedPlans, PublishNothingOfWhatCertificatesNeed) {
   const auto plan = compile(wrenchesOnly());
-  EXPECT_TRUE(plan->request().efforts);
-  EXPECT_EQ(plan->request().child_axes.size(), 3u);
+  EXPECT_TRUE(plan->dynamics.request().efforts);
+  EXPECT_EQ(plan->dynamics.request().child_axes.size(), 3u);
   compute(*plan);
-  EXPECT_TRUE(plan->messages.effort().effort.empty());
-  EXPECT_EQ(plan->messages.wrenches().size(), 2u);
+  EXPECT_EQ(plan->outputs.size(), 2u);
+  for (const std::string& topic : wrenchesOnly()) {
+    EXPECT_EQ(maker.message<geometry_msgs::WrenchStamped>(*plan, topic).message().header.stamp,
+              ros::Time(0, 1));
+  }
 }
 
 TEST_F(CheckedPlans, AreAsEverWithChecksOff) {
   const auto plan = compile(wrenchesOnly(), false);
   EXPECT_FALSE(plan->cross_check);
   EXPECT_FALSE(plan->certifier);
-  EXPECT_FALSE(plan->request().efforts);
-  EXPECT_EQ(plan->request().child_axes.size(), 2u);
+  EXPECT_FALSE(plan->dynamics.request().efforts);
+  EXPECT_EQ(plan->dynamics.request().child_axes.size(), 2u);
   compute(*plan);
-  EXPECT_FALSE(certificates.take());
+  EXPECT_FALSE(maker.certificates.take());
 }
 
 TEST_F(CheckedPlans, AreCheckedAcrossSwitches) {
-  PlanSwitch plans(compile(Audience()));
+  PlanSwitch plans(compile({}));
   CrossCheck cross_check(1000);
   std::uint64_t done = 0;
-  for (const Audience& audience : {effortOnly(), wrenchesOnly(), effortOnly()}) {
-    auto next = compile(audience);
+  for (const Topics& topics : {kEffortOnly, wrenchesOnly(), kEffortOnly}) {
+    auto next = compile(topics);
     cross_check.watch(next->cross_check);
     plans.offer(std::move(next));
     compute(plans.current());
@@ -122,7 +109,7 @@ TEST_F(CheckedPlans, AreCheckedAcrossSwitches) {
     waitUntil([&] { return (report = cross_check.takeReport()).news; });
     EXPECT_EQ(report.done, ++done);
     EXPECT_LE(report.finding.largest, kSound);
-    const auto certified = certificates.take();
+    const auto certified = maker.certificates.take();
     ASSERT_TRUE(certified);
     EXPECT_LE(certified->largest(), kSound);
   }
@@ -139,7 +126,7 @@ class CheckedStaticPlans : public CheckedPlans {
   CheckedStaticPlans() : CheckedPlans(staticScene()) {}
 };
 
-// Accelerations of the motion are none of theirs.
+// Static plans do not use the accelerations of the motion.
 TEST_F(CheckedStaticPlans, AreSound) {
   expectSound(*compile(everything()));
 }
@@ -164,15 +151,15 @@ class CheckedBusyPlans : public CheckedPlans {
 
 TEST_F(CheckedBusyPlans, AreSound) {
   expectSound(*compile(everything()));
-  // Ground is among them, first of all.
+  // Ground is the first of them.
   expectSound(*compile(wrenchesOnly()));
 }
 
 TEST_F(CheckedPlans, ComputeAndCheckWithoutAllocation) {
-  const auto plan = compile(effortOnly());
-  samples.motion() = robot.motion(mechanism);
+  const auto plan = compile(kEffortOnly);
+  maker.samples.motion() = robot.motion(mechanism);
   const AllocationGuard guard;
-  const SampleComputation::Outcome outcome = samples.compute(*plan, 1);
+  const SampleComputation::Outcome outcome = maker.samples.compute(*plan, 1);
   const std::size_t allocations = guard.allocations();
   EXPECT_EQ(outcome, SampleComputation::Outcome::kDone);
   EXPECT_EQ(allocations, 0u);

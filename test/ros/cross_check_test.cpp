@@ -22,9 +22,9 @@ namespace {
 
 // Both routes round: a few eps for each of the 12 links that a wrench has gone through.
 constexpr double kSound = 1e-13;
-// What is planted, a share of the sum of magnitudes, far above rounding errors.
+// The planted error as a share of the sum of magnitudes, far above rounding errors.
 constexpr double kTampered = 1e-6;
-// Of a planted share that is found again, beside rounding errors.
+// Relative accuracy to which a planted share is found again despite rounding errors.
 constexpr double kShare = 1e-5;
 
 /// A sample of a random tree, right until something is changed.
@@ -39,20 +39,18 @@ struct Sample {
     request.child_axes.push_back(kGround);
     request.root_axes = requestedReactions(mechanism, scene);
     recompute();
-    slot = std::make_shared<CrossCheckSlot>(mechanism, scene, request);
+    slot = std::make_shared<CrossCheckSlot>(mechanism, Dynamics(mechanism, scene, request));
   }
 
   void recompute() {
     const InverseDynamics dynamics(mechanism, scene, request);
     Workspace workspace = dynamics.makeWorkspace();
     dynamics.compute(motion, workspace);
-    effort = workspace.effort();
-    child_axes = workspace.childAxes();
-    root_axes = workspace.rootAxes();
+    results = workspace.results();
     bound.compute(motion);
   }
 
-  bool offer() { return slot->offer(motion, effort, child_axes, root_axes); }
+  bool offer() { return slot->offer(motion, results); }
 
   CrossCheckSlot::Finding check() {
     EXPECT_TRUE(offer());
@@ -70,13 +68,12 @@ struct Sample {
   ErrorBound bound;
   Motion motion;
   Request request;
-  Eigen::VectorXd effort;
-  std::vector<Wrench> child_axes;
-  std::vector<Wrench> root_axes;
+  Results results;
   std::shared_ptr<CrossCheckSlot> slot;
 };
 
-// Adds the share of a sum to a value, looks for it, and takes it away. False: nothing to add to.
+// Adds the share of a sum to a value, checks that it is found, and removes it. Returns false when
+// the sum is zero.
 bool expectFound(Sample& sample, double& value, double sum, const std::string& where) {
   if (sum == 0) return false;
   const double before = value;
@@ -99,9 +96,9 @@ TEST(CrossCheckSlot, SoundResultsDifferByRoundingErrors) {
 TEST(CrossCheckSlot, NamesTheResultThatWasTamperedWith) {
   Sample sample;
   int found = 0;
-  for (Eigen::Index i = 0; i < sample.effort.size(); ++i) {
+  for (Eigen::Index i = 0; i < sample.results.effort.size(); ++i) {
     const auto place = static_cast<std::size_t>(i);
-    found += expectFound(sample, sample.effort[i], sample.bound.efforts()[place],
+    found += expectFound(sample, sample.results.effort[i], sample.bound.efforts()[place],
                          "effort of " + sample.mechanism.coordinateNames()[place]);
   }
   const auto tamper = [&](std::vector<Wrench>& wrenches, const std::vector<std::string>& joints) {
@@ -111,15 +108,15 @@ TEST(CrossCheckSlot, NamesTheResultThatWasTamperedWith) {
       found += expectFound(sample, wrenches[i].torque[2], sum.moment, "moment at " + joints[i]);
     }
   };
-  tamper(sample.child_axes, sample.request.child_axes);
-  tamper(sample.root_axes, sample.request.root_axes);
-  // All but those of massless ends.
+  tamper(sample.results.child_axes, sample.request.child_axes);
+  tamper(sample.results.root_axes, sample.request.root_axes);
+  // All are found except those of massless ends.
   EXPECT_GE(found, 40);
 }
 
 TEST(CrossCheckSlot, WhatIsNotFiniteDiffersInfinitely) {
   Sample sample;
-  sample.child_axes[1].torque[1] = std::numeric_limits<double>::quiet_NaN();
+  sample.results.child_axes[1].torque[1] = std::numeric_limits<double>::quiet_NaN();
   const CrossCheckSlot::Finding finding = sample.check();
   EXPECT_EQ(finding.largest, std::numeric_limits<double>::infinity());
   EXPECT_EQ(finding.where, "moment at " + sample.request.child_axes[1]);
@@ -148,12 +145,12 @@ TEST(CrossCheckSlot, ChecksEachOfTheSamplesOfferedAsOften) {
   // Six standard deviations of a binomial distribution.
   const double kSpread = 6 * std::sqrt(kRounds * 0.2 * 0.8);
   Sample sample;
-  const double sound = sample.effort[0];
+  const double sound = sample.results.effort[0];
   std::array<int, kSamples> checked{};
   for (int round = 0; round < kRounds; ++round) {
-    // The sample is told by how much is wrong with it.
+    // How much is wrong identifies the sample.
     for (int i = 0; i < kSamples; ++i) {
-      sample.effort[0] = sound + (i + 1) * kTampered * sample.bound.efforts()[0];
+      sample.results.effort[0] = sound + (i + 1) * kTampered * sample.bound.efforts()[0];
       sample.offer();
     }
     const auto finding = sample.slot->check();
@@ -172,11 +169,11 @@ TEST(CrossCheckSlot, KeepsSamplesOfTwoThreadsWhole) {
   other.motion = one.robot.motion(one.mechanism);
   other.recompute();
   std::atomic<bool> done{false};
-  // Each by itself is sound; parts of both are not.
+  // Each sample by itself is sound; a mixture of both is not.
   std::thread computing([&] {
     while (!done) {
       one.offer();
-      one.slot->offer(other.motion, other.effort, other.child_axes, other.root_axes);
+      one.slot->offer(other.motion, other.results);
     }
   });
   for (int i = 0; i < kChecks;) {
@@ -206,7 +203,7 @@ TEST(CrossCheck, ReportsOnceWhatItFinds) {
   CrossCheck cross_check(1000);
   EXPECT_FALSE(cross_check.takeReport().news);
   cross_check.watch(sample.slot);
-  sample.effort[1] += kTampered * sample.bound.efforts()[1];
+  sample.results.effort[1] += kTampered * sample.bound.efforts()[1];
   ASSERT_TRUE(sample.offer());
   CrossCheck::Report report;
   waitUntil([&] { return (report = cross_check.takeReport()).news; });
@@ -222,10 +219,10 @@ TEST(CrossCheck, KeepsTheLargestUntilAsked) {
   Sample sample;
   CrossCheck cross_check(1000);
   cross_check.watch(sample.slot);
-  const double sound = sample.effort[0];
+  const double sound = sample.results.effort[0];
   // The third check begins after the findings of the second one have been kept.
   for (int i = 0; i < 4; ++i) {
-    sample.effort[0] = sound + (i == 1 ? kTampered * sample.bound.efforts()[0] : 0);
+    sample.results.effort[0] = sound + (i == 1 ? kTampered * sample.bound.efforts()[0] : 0);
     waitUntil([&] { return sample.offer(); });
     waitUntil([&] { return !sample.slot->full(); });
   }
@@ -235,19 +232,19 @@ TEST(CrossCheck, KeepsTheLargestUntilAsked) {
 }
 
 TEST(CrossCheck, ChecksTheSlotItWasToldLast) {
-  Sample outworn, current;
+  Sample replaced, current;
   CrossCheck cross_check(1000);
-  cross_check.watch(outworn.slot);
+  cross_check.watch(replaced.slot);
   cross_check.watch(current.slot);
-  outworn.effort[0] += kTampered * outworn.bound.efforts()[0];
-  ASSERT_TRUE(outworn.offer());
+  replaced.results.effort[0] += kTampered * replaced.bound.efforts()[0];
+  ASSERT_TRUE(replaced.offer());
   ASSERT_TRUE(current.offer());
   CrossCheck::Report report;
   waitUntil([&] { return (report = cross_check.takeReport()).news; });
   EXPECT_LE(report.finding.largest, kSound);
-  EXPECT_TRUE(outworn.slot->full());
+  EXPECT_TRUE(replaced.slot->full());
   cross_check.watch(nullptr);
-  cross_check.watch(outworn.slot);
+  cross_check.watch(replaced.slot);
   waitUntil([&] { return (report = cross_check.takeReport()).news; });
   EXPECT_NEAR(report.finding.largest, kTampered, kShare * kTampered);
 }

@@ -13,14 +13,14 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Rounding errors of each of the steps that lie behind a result.
+// Rounding error of each of the steps that lead to a result.
 constexpr double kStep = 4 * std::numeric_limits<double>::epsilon();
-// What is planted, relative; the sums of magnitudes may be larger than what it is a part of.
+// The planted error, relative to a value whose sum of magnitudes may be larger.
 constexpr double kTampered = 1e-6;
 constexpr double kShare = 1e-3;
-// What a closure's wrench is at least of the sums of passive joints, in the examples.
+// Least share of a closure's wrench in the sums of passive joints, in the examples.
 constexpr double kLeastShare = 1e-3;
-// Of what must be seen, beside rounding errors and what they cancel of it.
+// Share of an error that must be seen; rounding errors may cancel the rest.
 constexpr double kMost = 0.9;
 // The longest way through the examples' trees has a dozen steps.
 constexpr double kSoundest = 12 * kStep;
@@ -33,11 +33,9 @@ struct LoopSample {
         dynamics(example.mechanism, example.scene, request),
         motion(at),
         slot(example.mechanism, dynamics) {
-    dynamics.compute(motion);
-    effort = dynamics.effort();
-    child_axes = dynamics.childAxes();
-    root_axes = dynamics.rootAxes();
-    wrenches = dynamics.treeWrenches();
+    Dynamics::Workspace workspace = dynamics.makeWorkspace();
+    dynamics.compute(motion, workspace);
+    results = workspace.results();
   }
 
   static Request requestOf(const LoopExample& example, Request request) {
@@ -52,7 +50,7 @@ struct LoopSample {
   }
 
   CrossCheckSlot::Finding check() {
-    EXPECT_TRUE(slot.offer(motion, effort, child_axes, root_axes, wrenches));
+    EXPECT_TRUE(slot.offer(motion, results));
     return slot.check().value_or(CrossCheckSlot::Finding());
   }
 
@@ -63,10 +61,9 @@ struct LoopSample {
 
   LoopExample example;
   Request request;
-  ClosedLoopDynamics dynamics;
+  Dynamics dynamics;
   Motion motion;
-  Eigen::VectorXd effort;
-  std::vector<Wrench> child_axes, root_axes, wrenches;
+  Results results;
   CrossCheckSlot slot;
 };
 
@@ -84,7 +81,7 @@ constexpr NamedMotion kExamples[] = {{"four_bar", fourBarAt},
 
 void expectSound(const LoopExample& example, const Motion& motion, const char* what) {
   LoopSample sample(example, motion);
-  ASSERT_EQ(sample.dynamics.determinacy().free_motions, 0) << what;
+  ASSERT_EQ(sample.results.loops.determinacy.free_motions, 0) << what;
   const CrossCheckSlot::Finding finding = sample.check();
   EXPECT_LE(finding.largest, sample.bound()) << what << ": " << finding.where;
   EXPECT_GT(finding.largest, 0) << what;
@@ -96,7 +93,7 @@ TEST(LoopCrossCheck, SoundResultsDifferByRoundingErrorsOfTheTree) {
     for (const long double t : {0.1L, 0.45L, 0.8L}) {
       const Motion motion = motionAt(example.mechanism, named.positions, t);
       expectSound(example, motion, named.name);
-      // What violates the loops is checked as it is.
+      // A motion that violates the loops is checked as it is.
       Motion violating = motion;
       violating.q[violating.q.size() - 1] += 0.01;
       violating.qd[0] += 0.1;
@@ -133,7 +130,7 @@ TEST(LoopCrossCheck, SpringsAndActuatedClosuresAreSoundToo) {
   expectSound(example, motion, "by the crank");
   example.scene.actuated = std::vector<std::string>{example.scene.closures[0].name};
   expectSound(example, motion, "by the pin");
-  EXPECT_EQ(LoopSample(example, motion).effort.size(), 4);
+  EXPECT_EQ(LoopSample(example, motion).results.effort.size(), 4);
 }
 
 TEST(LoopCrossCheck, WithoutEffortsAndWithGroundAndClosuresFirst) {
@@ -143,10 +140,10 @@ TEST(LoopCrossCheck, WithoutEffortsAndWithGroundAndClosuresFirst) {
   request.child_axes = {kGround, example.scene.closures[0].name};
   LoopSample sample(example, motionAt(example.mechanism, sliderCrankAt, 0.3L), request);
   EXPECT_LE(sample.check().largest, sample.bound());
-  // Reactions of closures are Lagrange's own.
-  sample.child_axes[1].force[0] += 1;
+  // Reactions of closures are taken over, not compared.
+  sample.results.child_axes[1].force[0] += 1;
   EXPECT_LE(sample.check().largest, sample.bound());
-  sample.child_axes[2].force[0] += 1;
+  sample.results.child_axes[2].force[0] += 1;
   EXPECT_EQ(sample.check().where, "force at " + sample.request.child_axes[2]);
 }
 
@@ -155,23 +152,24 @@ TEST(LoopCrossCheck, NamesEffortsOfPassiveJointsThatDoNotVanish) {
     LoopExample example(named.name);
     LoopSample sample(example, motionAt(example.mechanism, named.positions, 0.45L));
     ErrorBound bound(example.mechanism, sample.dynamics.tree());
-    sample.dynamics.applyTo(bound);
-    bound.compute(sample.motion);
+    Load load;
+    sample.dynamics.getTreeLoad(sample.results, load);
+    bound.compute(sample.motion, load);
     for (Eigen::Index i = 0; i < sample.motion.q.size(); ++i) {
       const auto place = static_cast<std::size_t>(i);
-      const double before = sample.effort[i];
+      const double before = sample.results.effort[i];
       EXPECT_TRUE(sample.dynamics.actuated()[place] || before == 0);
-      sample.effort[i] += kTampered * bound.efforts()[place];
+      sample.results.effort[i] += kTampered * bound.efforts()[place];
       const CrossCheckSlot::Finding finding = sample.check();
       EXPECT_EQ(finding.where, "effort of " + example.mechanism.coordinateNames()[place]);
       EXPECT_NEAR(finding.largest, kTampered, kShare * kTampered);
-      sample.effort[i] = before;
+      sample.results.effort[i] = before;
     }
   }
 }
 
-// Results that follow from wrenches which are a closure's, scaled. Only efforts of passive joints,
-// which are none, can tell.
+// Computes results with the wrench of one closure scaled. Only the efforts of passive joints, which
+// should vanish, can show that.
 CrossCheckSlot::Finding withLastClosureScaled(const NamedMotion& named, double scale) {
   const LoopExample example(named.name);
   const Mechanism& mechanism = example.mechanism;
@@ -179,26 +177,28 @@ CrossCheckSlot::Finding withLastClosureScaled(const NamedMotion& named, double s
   Request request;
   for (const Joint& joint : mechanism.joints()) request.root_axes.push_back(joint.name);
   request.child_axes = {kGround};
-  ClosedLoopDynamics loops(mechanism, example.scene, request);
-  loops.compute(motion);
-  std::vector<Wrench> wrenches = loops.treeWrenches();
-  for (std::size_t i = wrenches.size() - 2; i < wrenches.size(); ++i) {
-    wrenches[i].force *= scale;
-    wrenches[i].torque *= scale;
+  const Dynamics loops(mechanism, example.scene, request);
+  Dynamics::Workspace workspace = loops.makeWorkspace();
+  loops.compute(motion, workspace);
+  Results tampered = workspace.results();
+  Load load;
+  loops.getTreeLoad(tampered, load);
+  for (std::size_t i = load.wrenches.size() - 2; i < load.wrenches.size(); ++i) {
+    load.wrenches[i].force *= scale;
+    load.wrenches[i].torque *= scale;
   }
   const InverseDynamics tree(mechanism, loops.tree(), request);
   Workspace results = tree.makeWorkspace();
-  const std::size_t own = example.scene.applied_wrenches.size();
-  for (std::size_t i = 0; i < wrenches.size(); ++i) {
-    results.setAppliedWrench(own + i, wrenches[i].force, wrenches[i].torque);
-  }
-  tree.compute(motion, results);
-  Eigen::VectorXd effort = results.effort();
+  tree.compute(motion, load, results);
+  tampered.effort = results.effort();
   for (std::size_t i = 0; i < loops.actuated().size(); ++i) {
-    if (!loops.actuated()[i]) effort[static_cast<Eigen::Index>(i)] = 0;
+    if (!loops.actuated()[i]) tampered.effort[static_cast<Eigen::Index>(i)] = 0;
   }
+  tampered.child_axes = results.childAxes();
+  tampered.root_axes = results.rootAxes();
+  tampered.loops.tree_wrenches = load.wrenches;
   CrossCheckSlot slot(mechanism, loops);
-  EXPECT_TRUE(slot.offer(motion, effort, results.childAxes(), results.rootAxes(), wrenches));
+  EXPECT_TRUE(slot.offer(motion, tampered));
   const CrossCheckSlot::Finding finding = slot.check().value_or(CrossCheckSlot::Finding());
   for (std::size_t i = 0; i < loops.actuated().size(); ++i) {
     if (!loops.actuated()[i] && finding.where == "effort of " + mechanism.coordinateNames()[i]) {
@@ -224,9 +224,10 @@ TEST(LoopCrossCheck, WrenchesOtherThanThoseOfTheResultsShow) {
     const LoopExample example(named.name);
     LoopSample sample(example, motionAt(example.mechanism, named.positions, 0.45L));
     ErrorBound bound(example.mechanism, sample.dynamics.tree());
-    sample.dynamics.applyTo(bound);
-    bound.compute(sample.motion);
-    for (Wrench& wrench : sample.wrenches) {
+    Load load;
+    sample.dynamics.getTreeLoad(sample.results, load);
+    bound.compute(sample.motion, load);
+    for (Wrench& wrench : sample.results.loops.tree_wrenches) {
       // Ground has to bear what the opposite wrench does not.
       const Wrench sound = wrench;
       const double share = kMost * sound.force.norm() / bound.wrenches()[0].force;

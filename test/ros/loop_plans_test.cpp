@@ -1,18 +1,20 @@
+#include <geometry_msgs/WrenchStamped.h>
 #include <gtest/gtest.h>
+#include <sensor_msgs/JointState.h>
+#include <sensor_msgs/MultiDOFJointState.h>
+#include <trajectory_msgs/JointTrajectory.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "allocation_guard.h"
-#include "ros/active_plan.h"
-#include "ros/certificate_record.h"
+#include "plan_maker.h"
 #include "ros/closure_frames.h"
-#include "ros/counters.h"
-#include "ros/loop_samples.h"
-#include "ros/sample_computation.h"
+#include "ros/determinacy_message.h"
 #include "slider_crank.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -32,124 +34,137 @@ class LoopPlans : public testing::Test {
   explicit LoopPlans(const std::string& actuated = "joint_3")
       : mechanism(slider_crank.mechanism()),
         scene(gravityOn(slider_crank.scene(actuated))),
-        reactions(requestedReactions(mechanism, scene)),
-        loops(mechanism, scene, reactions, kLimits),
-        samples(3, false, counters, certificates, &loops) {}
+        maker(mechanism, scene, true, kLimits, "left/") {}
 
   static Scene gravityOn(Scene scene) {
     scene.gravity << 0, -9.81, 0;
     return scene;
   }
 
-  std::unique_ptr<ActivePlan> compile(const Audience& audience) const {
-    return std::make_unique<ActivePlan>(mechanism, scene, requestFor(audience, reactions, true),
-                                        audience, "left/", PlanChecks());
+  std::unique_ptr<ActivePlan> compile(const Topics& topics, PlanChecks checks = {}) const {
+    return maker.compile(topics, checks);
   }
 
-  /// Of joint states that give all joints.
+  /// Computes a sample of joint states that give all joints.
   Outcome compute(ActivePlan& plan, const Motion& motion) {
     const std::vector<int> all{0, 1, 2};
-    loops.completer.saw(all.data(), 3);
-    samples.motion() = motion;
-    return samples.compute(plan, 1);
+    maker.completer.saw(all.data(), 3);
+    maker.samples.motion() = motion;
+    return maker.samples.compute(plan, 1);
+  }
+
+  const MessageOf<sensor_msgs::JointState>& effortOf(const ActivePlan& plan) const {
+    return maker.message<sensor_msgs::JointState>(plan, "effort");
+  }
+  const MessageOf<geometry_msgs::WrenchStamped>& wrenchOf(const ActivePlan& plan,
+                                                          const std::string& name) const {
+    return maker.message<geometry_msgs::WrenchStamped>(plan, "reaction/" + name);
   }
 
   SliderCrank slider_crank{0.5};
   Mechanism mechanism;
   Scene scene;
-  Names reactions;
-  Counters counters;
-  CertificateRecord certificates;
-  LoopSamples loops;
-  SampleComputation samples;
+  PlanMaker maker;
 };
 
-Audience everything() {
-  Audience audience;
-  audience.effort = audience.reactions = true;
-  audience.wrenches = {1, 3};
-  return audience;
-}
+const Topics kEverything{"effort", "reactions", "reaction/joint_2", "reaction/pin"};
+
+/// The message of ~determinacy as it would be published.
+class Determinacies {
+ public:
+  explicit Determinacies(const PlanMaker& maker)
+      : places_(maker.reactions.size()),
+        message_(assembledDeterminacy(maker.mechanism, maker.everything, maker.reactions,
+                                      kLimits.condition)) {
+    std::iota(places_.begin(), places_.end(), 0);
+  }
+
+  bool update(const ActivePlan& plan) {
+    return message_.update(1, plan.workspace.results().loops, places_, places_);
+  }
+  const diagnostic_msgs::DiagnosticStatus& status(std::size_t i) const {
+    return message_.message().status[i];
+  }
+
+ private:
+  std::vector<std::size_t> places_;
+  DeterminacyMessage message_;
+};
 
 TEST_F(LoopPlans, LeaveOutWhatHasNoValueAndTakeItInAgain) {
-  const auto plan = compile(everything());
-  const OutputMessages& messages = plan->messages;
+  const auto plan = compile(kEverything);
+  const auto& reactions = maker.message<sensor_msgs::MultiDOFJointState>(*plan, "reactions");
   const Names joints{"joint_1", "joint_2", "joint_3"};
   for (const double angle : {0.7, 0.0, 0.8, 0.0, 0.9}) {
     ASSERT_EQ(compute(*plan, SliderCrank::motion(angle, 0, 0)), Outcome::kDone);
     const bool singular = angle == 0;
-    EXPECT_EQ(plan->loops->singular(), singular);
-    const sensor_msgs::JointState& effort = messages.effort();
+    EXPECT_EQ(plan->workspace.results().singular(), singular);
+    const sensor_msgs::JointState& effort = effortOf(*plan).message();
     EXPECT_EQ(effort.name, singular ? Names(joints.begin(), joints.begin() + 2) : joints);
     for (const auto* values : {&effort.position, &effort.velocity, &effort.effort}) {
       EXPECT_EQ(values->size(), effort.name.size());
     }
     EXPECT_EQ(effort.position[0], angle);
     EXPECT_EQ(effort.effort[0], 0);
-    const sensor_msgs::MultiDOFJointState& wrenches = messages.reactions();
-    EXPECT_EQ(wrenches.joint_names, singular ? Names() : reactions);
+    const sensor_msgs::MultiDOFJointState& wrenches = reactions.message();
+    EXPECT_EQ(wrenches.joint_names, singular ? Names() : maker.reactions);
     EXPECT_EQ(wrenches.wrench.size(), wrenches.joint_names.size());
     EXPECT_EQ(wrenches.transforms.size(), wrenches.joint_names.size());
     EXPECT_EQ(wrenches.twist.size(), wrenches.joint_names.size());
-    EXPECT_EQ(messages.wrenchExists(0), !singular);
-    EXPECT_EQ(messages.wrenchExists(1), !singular);
+    EXPECT_EQ(wrenchOf(*plan, "joint_2").exists(), !singular);
+    EXPECT_EQ(wrenchOf(*plan, "pin").exists(), !singular);
   }
-  EXPECT_EQ(messages.wrenches()[0].header.frame_id, "left/link_2");
-  EXPECT_EQ(messages.wrenches()[1].header.frame_id, "left/pin");
-  const LoopRecord::Report report = loops.record.take();
+  EXPECT_EQ(wrenchOf(*plan, "joint_2").message().header.frame_id, "left/link_2");
+  EXPECT_EQ(wrenchOf(*plan, "pin").message().header.frame_id, "left/pin");
+  const LoopRecord::Report report = maker.loops.take();
   EXPECT_TRUE(report.news);
   EXPECT_EQ(report.singular, 2u);
   EXPECT_EQ(report.violations, 0u);
   EXPECT_EQ(report.efforts, std::vector<std::size_t>{2});
   EXPECT_EQ(report.reactions, (std::vector<std::size_t>{0, 1, 2, 3}));
-  EXPECT_TRUE(loops.record.take().efforts.empty());
-  EXPECT_FALSE(loops.record.take().news);
+  EXPECT_TRUE(maker.loops.take().efforts.empty());
+  EXPECT_FALSE(maker.loops.take().news);
 }
 
-// Out of plane nothing is determined anywhere: no reason to leave anything out.
+// Out of plane nothing is determined in any position, so nothing is left out.
 TEST_F(LoopPlans, PublishWhatRedundantConstraintsLeaveOpen) {
-  const auto plan = compile(everything());
+  const auto plan = compile(kEverything);
   ASSERT_EQ(compute(*plan, SliderCrank::motion(0.7, 0, 0)), Outcome::kDone);
-  EXPECT_FALSE(plan->loops->results().rootAxesDetermined()[0][2]);
-  EXPECT_EQ(plan->messages.reactions().joint_names, reactions);
+  EXPECT_FALSE(plan->workspace.results().loops.root_axes_determined[0][2]);
+  const auto& message = maker.message<sensor_msgs::MultiDOFJointState>(*plan, "reactions");
+  EXPECT_EQ(message.message().joint_names, maker.reactions);
 }
 
 TEST_F(LoopPlans, WrenchesAreThoseOfTheirJointsWithDeterminacyToo) {
-  Audience audience = everything();
-  const auto some = compile(audience);
-  audience.determinacy = true;
-  const auto all = compile(audience);
-  EXPECT_EQ(all->request().child_axes, reactions);
-  EXPECT_EQ(some->request().child_axes.size(), 2u);
+  Topics topics = kEverything;
+  const auto some = compile(topics);
+  topics.push_back("determinacy");
+  const auto all = compile(topics);
+  EXPECT_EQ(all->dynamics.request().child_axes.size(), maker.reactions.size());
+  EXPECT_EQ(some->dynamics.request().child_axes.size(), 2u);
   const Motion motion = SliderCrank::motion(0.7, 1, 2);
   ASSERT_EQ(compute(*some, motion), Outcome::kDone);
   ASSERT_EQ(compute(*all, motion), Outcome::kDone);
-  ASSERT_EQ(all->messages.wrenches().size(), 2u);
-  for (std::size_t i = 0; i < 2; ++i) {
-    const geometry_msgs::Wrench& one = some->messages.wrenches()[i].wrench;
-    const geometry_msgs::Wrench& other = all->messages.wrenches()[i].wrench;
+  for (const char* name : {"joint_2", "pin"}) {
+    const geometry_msgs::Wrench& one = wrenchOf(*some, name).message().wrench;
+    const geometry_msgs::Wrench& other = wrenchOf(*all, name).message().wrench;
     EXPECT_NE(one.force.x, 0);
     EXPECT_EQ(one.force.x, other.force.x);
     EXPECT_EQ(one.force.y, other.force.y);
     EXPECT_EQ(one.torque.z, other.torque.z);
   }
-  // Reactions that only flags are computed for have no place in any message.
-  Audience only_flags;
-  only_flags.determinacy = true;
-  const auto flags = compile(only_flags);
+  // Reactions that are computed only for flags appear in no message.
+  const auto flags = compile({"determinacy"});
   ASSERT_EQ(compute(*flags, motion), Outcome::kDone);
-  EXPECT_TRUE(flags->messages.reactions().joint_names.empty());
-  EXPECT_TRUE(flags->messages.reactions().wrench.empty());
-  EXPECT_TRUE(flags->messages.effort().name.empty());
+  EXPECT_EQ(flags->outputs.size(), 1u);
 }
 
 TEST_F(LoopPlans, DeterminacyChangesWithThePosition) {
-  Audience audience;
-  audience.determinacy = true;
-  const auto plan = compile(audience);
+  const auto plan = compile({"determinacy"});
+  Determinacies determinacies(maker);
   const auto changed = [&](double angle) {
     EXPECT_EQ(compute(*plan, SliderCrank::motion(angle, 0, 0)), Outcome::kDone);
-    return loops.determinacy.update(1, plan->loops->results());
+    return determinacies.update(*plan);
   };
   EXPECT_FALSE(changed(0.7));  // as assembled
   EXPECT_TRUE(changed(0));
@@ -159,15 +174,14 @@ TEST_F(LoopPlans, DeterminacyChangesWithThePosition) {
 
 // The slider holds the crank by a lever that is as long as the angle from the dead centre.
 TEST_F(LoopPlans, ConditionGrowsTowardsDeadCentre) {
-  Audience audience;
-  audience.effort = audience.determinacy = true;
-  const auto plan = compile(audience);
+  const auto plan = compile({"effort", "determinacy"});
+  Determinacies determinacies(maker);
   const auto computed = [&](double angle) {
     EXPECT_EQ(compute(*plan, SliderCrank::motion(angle, 0, 0)), Outcome::kDone);
-    return loops.record.take();
+    return maker.loops.take();
   };
-  const auto changed = [&] { return loops.determinacy.update(1, plan->loops->results()); };
-  const auto level = [&] { return loops.determinacy.message().status[0].level; };
+  const auto changed = [&] { return determinacies.update(*plan); };
+  const auto level = [&] { return determinacies.status(0).level; };
   LoopRecord::Report report = computed(0.7);
   EXPECT_LT(report.conditions[0], 100);
   EXPECT_EQ(report.close_to_singular, 0u);
@@ -178,11 +192,11 @@ TEST_F(LoopPlans, ConditionGrowsTowardsDeadCentre) {
     EXPECT_GT(report.conditions[0], 0.1 / std::abs(angle));
     EXPECT_LT(report.conditions[0], 100 / std::abs(angle));
     EXPECT_EQ(report.determinacy.free_motions, 0);
-    EXPECT_EQ(changed(), angle > 0);  // no news afterwards
+    EXPECT_EQ(changed(), angle > 0);  // later positions are not news
     EXPECT_EQ(level(), diagnostic_msgs::DiagnosticStatus::WARN);
   }
   EXPECT_EQ(report.close_to_singular, 2u);
-  EXPECT_NE(loops.determinacy.message().status[0].message.find("close to a singular position"),
+  EXPECT_NE(determinacies.status(0).message.find("close to a singular position"),
             std::string::npos);
   report = computed(0);
   EXPECT_EQ(report.close_to_singular, 2u);
@@ -195,67 +209,56 @@ TEST_F(LoopPlans, ConditionGrowsTowardsDeadCentre) {
 }
 
 TEST_F(LoopPlans, MotionsThatViolateALoopAreComputedAndCounted) {
-  const auto plan = compile(everything());
+  const auto plan = compile(kEverything);
   Motion motion = SliderCrank::motion(0.7, 0, 0);
   motion.q[2] += 0.01;
   ASSERT_EQ(compute(*plan, motion), Outcome::kDone);
-  EXPECT_EQ(plan->messages.effort().position[2], motion.q[2]);
-  const LoopRecord::Report report = loops.record.take();
+  EXPECT_EQ(effortOf(*plan).message().position[2], motion.q[2]);
+  const LoopRecord::Report report = maker.loops.take();
   EXPECT_EQ(report.violations, 1u);
   EXPECT_NEAR(report.residuals[0][0], 0.01, 1e-15);
   EXPECT_GT(report.relative[0][0], kLimits.tolerance);
 }
 
 TEST_F(LoopPlans, AreCertifiedOutOfSingularPositions) {
-  Audience only_wrenches, only_determinacy;
-  only_wrenches.wrenches = {1, 3};
-  only_determinacy.determinacy = true;
-  for (const Audience& audience : {everything(), only_wrenches, only_determinacy}) {
-    const ActivePlan plain(mechanism, scene, requestFor(audience, reactions, true), audience, "",
-                           PlanChecks());
-    ActivePlan plan(mechanism, scene, requestFor(audience, reactions, true), audience, "",
-                    PlanChecks{false, true});
-    ASSERT_TRUE(plan.certifier);
-    EXPECT_EQ(plan.request().child_axes.size(), plain.request().child_axes.size() + 1);
-    ASSERT_EQ(compute(plan, SliderCrank::motion(0.7, 1.5, -2)), Outcome::kDone);
-    auto found = certificates.take();
+  const Topics only_wrenches{"reaction/joint_2", "reaction/pin"}, only_determinacy{"determinacy"};
+  for (const Topics& topics : {kEverything, only_wrenches, only_determinacy}) {
+    const auto plain = compile(topics);
+    const auto plan = compile(topics, PlanChecks{false, true});
+    ASSERT_TRUE(plan->certifier);
+    EXPECT_EQ(plan->dynamics.request().child_axes.size(),
+              plain->dynamics.request().child_axes.size() + 1);
+    ASSERT_EQ(compute(*plan, SliderCrank::motion(0.7, 1.5, -2)), Outcome::kDone);
+    auto found = maker.certificates.take();
     ASSERT_TRUE(found);
     EXPECT_LE(found->largest(), kSound);
     EXPECT_GT(found->power + found->ground_force + found->ground_moment, 0);
-    ASSERT_EQ(compute(plan, SliderCrank::motion(0, 1.5, 0)), Outcome::kDone);
-    EXPECT_FALSE(certificates.take());
-    if (audience.determinacy) loops.determinacy.update(1, plan.loops->results());
-    // What violates a loop is certified as it is.
+    ASSERT_EQ(compute(*plan, SliderCrank::motion(0, 1.5, 0)), Outcome::kDone);
+    EXPECT_FALSE(maker.certificates.take());
+    // A motion that violates a loop is certified as it is.
     Motion violating = SliderCrank::motion(0.7, 1.5, -2);
     violating.q[2] += 0.01;
     violating.qd[1] += 0.1;
+    // Results that begin to exist again and a new message on determinacy allocate.
+    ASSERT_EQ(compute(*plan, violating), Outcome::kDone);
+    maker.samples.motion() = violating;
     const AllocationGuard guard;
-    const Outcome outcome = compute(plan, violating);
+    const Outcome outcome = maker.samples.compute(*plan, 1);
     const std::size_t allocations = guard.allocations();
     ASSERT_EQ(outcome, Outcome::kDone);
-    EXPECT_LE(allocations, 1u) << "of the test's own";
-    found = certificates.take();
+    EXPECT_EQ(allocations, 0u);
+    found = maker.certificates.take();
     ASSERT_TRUE(found);
     EXPECT_LE(found->largest(), kSound);
-    EXPECT_TRUE(loops.record.take().news);
-    if (!audience.determinacy) continue;
-    EXPECT_TRUE(loops.determinacy.update(1, plan.loops->results()));
-    EXPECT_EQ(loops.determinacy.message().status[2].values.size(), 6 * reactions.size());
+    EXPECT_TRUE(maker.loops.take().news);
   }
 }
 
 TEST_F(LoopPlans, AreCrossCheckedOutOfSingularPositions) {
-  Audience only_effort, only_wrenches, only_determinacy;
-  only_effort.effort = true;
-  only_wrenches.wrenches = {3};
-  only_determinacy.determinacy = true;
-  const auto compileChecked = [&](const Audience& audience) {
-    return std::make_unique<ActivePlan>(mechanism, scene, requestFor(audience, reactions, true),
-                                        audience, "", PlanChecks{true, false});
-  };
-  EXPECT_FALSE(compileChecked(Audience())->cross_check);
-  for (const Audience& audience : {everything(), only_effort, only_wrenches, only_determinacy}) {
-    const auto plan = compileChecked(audience);
+  EXPECT_FALSE(compile({}, PlanChecks{true, false})->cross_check);
+  const Topics only_effort{"effort"}, only_wrenches{"reaction/pin"}, flags{"determinacy"};
+  for (const Topics& topics : {kEverything, only_effort, only_wrenches, flags}) {
+    const auto plan = compile(topics, PlanChecks{true, false});
     ASSERT_TRUE(plan->cross_check);
     Motion violating = SliderCrank::motion(0.7, 1.5, -2);
     violating.q[2] += 0.01;
@@ -269,14 +272,62 @@ TEST_F(LoopPlans, AreCrossCheckedOutOfSingularPositions) {
     }
     ASSERT_EQ(compute(*plan, SliderCrank::motion(0, 1.5, 0)), Outcome::kDone);
     EXPECT_FALSE(plan->cross_check->full());
-    samples.motion() = violating;
+    ASSERT_EQ(compute(*plan, violating), Outcome::kDone);
+    maker.samples.motion() = violating;
     const AllocationGuard guard;
-    const Outcome outcome = samples.compute(*plan, 1);
+    const Outcome outcome = maker.samples.compute(*plan, 1);
     const std::size_t allocations = guard.allocations();
     EXPECT_EQ(outcome, Outcome::kDone);
     EXPECT_EQ(allocations, 0u);
     EXPECT_TRUE(plan->cross_check->full());
   }
+}
+
+// Plans come and go with subscribers, but which results exist depends only on the position.
+TEST_F(LoopPlans, WhatExistsDoesNotDependOnWhatWasMetBefore) {
+  const auto fresh = compile(kEverything), travelled = compile(kEverything);
+  for (const double angle : {0.7, 1.9, -2.2}) {
+    ASSERT_EQ(compute(*travelled, SliderCrank::motion(angle, 0, 0)), Outcome::kDone);
+  }
+  for (ActivePlan* plan : {fresh.get(), travelled.get()}) {
+    ASSERT_EQ(compute(*plan, SliderCrank::motion(0, 0, 0)), Outcome::kDone);
+  }
+  EXPECT_EQ(effortOf(*fresh).message().name, effortOf(*travelled).message().name);
+  EXPECT_EQ(fresh->workspace.results().loops.root_axes_exist,
+            travelled->workspace.results().loops.root_axes_exist);
+  EXPECT_EQ(fresh->workspace.results().loops.child_axes_exist,
+            travelled->workspace.results().loops.child_axes_exist);
+}
+
+// A trajectory's message is complete or not at all, and its points are samples only where they are
+// published as such.
+TEST_F(LoopPlans, TrajectoriesAreAnsweredAsAWhole) {
+  const auto plan = compile({"effort", "joint_trajectory"});
+  const auto& answer = maker.message<trajectory_msgs::JointTrajectory>(*plan, "joint_trajectory");
+  trajectory_msgs::JointTrajectory message;
+  message.joint_names = mechanism.coordinateNames();
+  message.points.resize(2);
+  TrajectoryMotion motion;
+  motion.columns = motion.coordinates = {0, 1, 2};
+  motion.stamps_ns = {1, 2};
+  motion.table.joints = mechanism.coordinateNames();
+  motion.table.times = {0, 1};
+  for (auto* values :
+       {&motion.table.positions, &motion.table.velocities, &motion.table.accelerations}) {
+    values->setZero(2, 3);
+  }
+  motion.table.positions.row(0) = SliderCrank::motion(0.7, 0, 0).q;
+  motion.table.positions.row(1) = SliderCrank::motion(0.8, 0, 0).q;
+  for (auto& point : message.points) {
+    point.positions = point.velocities = point.accelerations = {0, 0, 0};
+  }
+  for (ActiveOutput& output : plan->outputs) output.message->begin(message, motion);
+  ASSERT_EQ(maker.samples.computeNext(*plan, motion, 0, false), Outcome::kDone);
+  EXPECT_FALSE(answer.exists());
+  EXPECT_EQ(effortOf(*plan).message().header.stamp, ros::Time());
+  ASSERT_EQ(maker.samples.computeNext(*plan, motion, 1, true), Outcome::kDone);
+  EXPECT_TRUE(answer.exists());
+  EXPECT_EQ(answer.message().points[1].effort, effortOf(*plan).message().effort);
 }
 
 class LoopPlansOfTheCrank : public LoopPlans {
@@ -285,27 +336,29 @@ class LoopPlansOfTheCrank : public LoopPlans {
 };
 
 TEST_F(LoopPlansOfTheCrank, CompleteAndComputeWithoutAllocation) {
-  const auto plan = compile(everything());
-  samples.motion().q[0] = 0.7;
-  samples.motion().qd[0] = 0.3;
-  ASSERT_EQ(samples.compute(*plan, 1), Outcome::kDone);
-  samples.motion().q[0] = 2.9;  // far enough to be halved
+  const auto plan = compile(kEverything);
+  maker.samples.motion().q[0] = 0.7;
+  maker.samples.motion().qd[0] = 0.3;
+  ASSERT_EQ(maker.samples.compute(*plan, 1), Outcome::kDone);
+  maker.samples.motion().q[0] = 2.9;  // far enough to be halved
   const AllocationGuard guard;
-  const Outcome outcome = samples.compute(*plan, 2);
+  const Outcome outcome = maker.samples.compute(*plan, 2);
   const std::size_t allocations = guard.allocations();
   EXPECT_EQ(outcome, Outcome::kDone);
   EXPECT_EQ(allocations, 0u);
-  EXPECT_NEAR(plan->messages.effort().position[2], SliderCrank::motion(2.9, 0, 0).q[2], 1e-12);
+  EXPECT_NEAR(effortOf(*plan).message().position[2], SliderCrank::motion(2.9, 0, 0).q[2], 1e-12);
 }
 
 TEST_F(LoopPlans, SayWhyAMotionCannotBeCompleted) {
-  const auto plan = compile(everything());
-  samples.motion().q[2] = SliderCrank::kCrank + SliderCrank::kRod + 0.1;
-  EXPECT_EQ(samples.compute(*plan, 1), Outcome::kOpenLoop);
-  EXPECT_NE(loops.completer.problem().find("closure 'pin' stays open by 0.1"), std::string::npos)
-      << loops.completer.problem();
-  EXPECT_EQ(counters.samples.value(), 1u);
-  EXPECT_FALSE(loops.record.take().news);
+  const auto plan = compile(kEverything);
+  maker.samples.motion().q[2] = SliderCrank::kCrank + SliderCrank::kRod + 0.1;
+  EXPECT_EQ(maker.samples.compute(*plan, 1), Outcome::kOpenLoop);
+  EXPECT_NE(maker.completer.problem(plan->dynamics, plan->workspace)
+                .find("closure 'pin' stays open by 0.1"),
+            std::string::npos)
+      << maker.completer.problem(plan->dynamics, plan->workspace);
+  EXPECT_EQ(maker.counters.samples.value(), 1u);
+  EXPECT_FALSE(maker.loops.take().news);
 }
 
 TEST(ClosureFrames, AreThoseOfTheChildren) {
@@ -321,7 +374,8 @@ TEST(ClosureFrames, AreThoseOfTheChildren) {
   EXPECT_EQ(message.transforms[0].transform.translation.z, 3);
   const auto& turn = message.transforms[0].transform.rotation;
   const Eigen::Matrix3d R = Eigen::Quaterniond(turn.w, turn.x, turn.y, turn.z).matrix();
-  // Of fixed axes: x stays in the plane that roll leaves alone, its height is that of the pitch.
+  // The angles are about fixed axes: x stays in the plane that roll does not change, and pitch
+  // gives its height.
   EXPECT_NEAR(R(2, 0), -std::sin(-0.5), 1e-15);
   EXPECT_NEAR(std::atan2(R(1, 0), R(0, 0)), 1.1, 1e-15);
   EXPECT_NEAR(std::atan2(R(2, 1), R(2, 2)), 0.3, 1e-15);

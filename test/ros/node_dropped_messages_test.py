@@ -63,9 +63,9 @@ BAD_STATES = [
     ('no joints', state('', (), ()), 'no known joint', "no joint of robot 'test_arm'"),
     ('a joint twice', state('shoulder elbow elbow'), 'joint twice', "names 'elbow' twice"),
     ('zero stamp', state(stamp=0), 'zero stamp', 'its stamp is zero'),
-    ('equal stamp', state(stamp=SAME), 'equal stamp', 'was there before'),
+    ('equal stamp', state(stamp=SAME), 'equal stamp', 'was received before'),
     ('equal stamp of one joint', state('slide', (7,), (7,), stamp=SAME), 'equal stamp',
-     'was there before'),
+     'was received before'),
 ]
 
 
@@ -222,7 +222,8 @@ class DroppedMessages(NodeTest):
         self.trajectories.publish(trajectory(good, stamp=0))
         self.trajectories.publish(trajectory(good, stamp=EPOCH))
         self.assertStamps(self.efforts.wait(1), [EPOCH])
-        self.expect_drop('no time', 'joint_trajectory', 'no time yet', '/clock has not come yet')
+        self.expect_drop('no time', 'joint_trajectory', 'no time yet',
+                         '/clock has not been received yet')
         # The log does not wait for the time either.
         for ns in (EPOCH + STEP, EPOCH):
             self.states.publish(joint_state(ns, *MOTION(ns)[:2]))

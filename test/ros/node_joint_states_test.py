@@ -145,7 +145,7 @@ class JointStates(NodeTest):
                             'than ~estimator/max_gap = 0.25 s' in line], 'the warning')
         self.assertTrue([status for status in self.node.statuses()
                          if status.level == DiagnosticStatus.WARN and
-                         'no result of joint states' in status.message and
+                         'no result from joint states' in status.message and
                          '~estimator/max_gap' in status.message])
         # After a full window, a gap is news and no more.
         last = EPOCH + 400 * MS * 14

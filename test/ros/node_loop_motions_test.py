@@ -46,7 +46,7 @@ class LoopMotions(LoopTest):
             self.assertEqual(wrench.header.frame_id, 'wrist_pin')
             self.assertClose(vector(wrench.wrench.force), force, CLOSED_FORM, 'axes')
         values = self.node.wait_for_count('samples computed', len(stamps))
-        self.assertEqual(values['passive joints'], 'by the closures')
+        self.assertEqual(values['passive joints'], 'from the closures')
         self.assertEqual(values['joints waited for'], 'none')
         self.assertEqual(values['samples that violate a loop'], '0')
         self.assertLess(float(values['residual, largest (relative)']), 1e-9)
@@ -147,7 +147,7 @@ class LoopMotions(LoopTest):
                                  CLOSED_FORM, 'velocities')
         values = self.node.wait_for_count('trajectory points computed', 100)
         self.assertEqual(values['samples that violate a loop'], '0')
-        self.assertIn('passive joints by the closures', ''.join(self.node.lines('INFO')))
+        self.assertIn('passive joints from the closures', ''.join(self.node.lines('INFO')))
 
     def test_trajectories_that_give_a_part_of_the_passive_joints(self):
         self.start('effort')
@@ -157,7 +157,7 @@ class LoopMotions(LoopTest):
         message.points = [trajectory_point(0, message.joint_names, (still.q, still.qd, still.qdd))]
         self.trajectories.publish(message)
         values = self.node.wait_for_count('dropped: passive joints', 1)
-        self.assertIn('not rod_joint: name all joints or the actuated ones only',
+        self.assertIn(''slider_joint' are given, but not 'rod_joint': give all joints, or the actuated ones only',
                       values['last drop'])
 
     def test_a_part_of_the_passive_joints_is_ignored(self):
@@ -167,7 +167,7 @@ class LoopMotions(LoopTest):
         self.states.publish(joint_state(EPOCH, wrong))
         self.assertMatches(self.recorders['effort'].wait(1)[0], still, CLOSED_FORM)
         wait_until(lambda: self.node.lines('WARN'), 'a warning')
-        self.assertIn('passive joints slider_joint have come, but not rod_joint: they are ignored',
+        self.assertIn('passive joints slider_joint are given, but not rod_joint: they are ignored',
                       self.node.lines('WARN')[0])
         self.states.publish(joint_state(EPOCH + STEP, {'rod_joint': 7}))
         self.node.diagnostics(lambda values: values['passive joints'] == 'given', 'all of them')

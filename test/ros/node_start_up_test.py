@@ -36,7 +36,7 @@ GOOD = robot(HINGE, WRIST)
 
 
 def with_inertial(**changes):
-    """GOOD, but for attributes of the inertial of both links."""
+    """GOOD, except for attributes of the inertial of both links."""
     inertial = INERTIAL
     for attribute, value in changes.items():
         name = 'value' if attribute == 'mass' else attribute

@@ -11,7 +11,7 @@ from rigid_bodies import RigidBodies
 
 ARM = read('data', 'arm.urdf')
 COORDINATES = ['shoulder', 'elbow', 'slide']
-# A cubic, which the estimator reproduces but for rounding; see node_joint_states_test.py.
+# A cubic, which the estimator reproduces except for rounding; see node_joint_states_test.py.
 ESTIMATED = 1e-9
 STEP = 10000000  # ns
 WINDOW = 9

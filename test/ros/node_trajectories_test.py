@@ -13,8 +13,8 @@ ARM = read('data', 'arm.urdf')
 COORDINATES = ['shoulder', 'elbow', 'slide']
 # The oracle's rounding.
 EXACT = 1e-12
-# Splines reproduce polynomials of up to their own order but for rounding: 1e-16 of a position over
-# the squared step, 1e-2 s^2 and more, and a margin of a thousand.
+# Splines reproduce polynomials of up to their own order except for rounding: 1e-16 of a position
+# over the squared step, 1e-2 s^2 and more, and a margin of a thousand.
 SPLINE = 1e-11
 # The estimator's rounding on a cubic; see node_joint_states_test.py.
 ESTIMATED = 1e-9

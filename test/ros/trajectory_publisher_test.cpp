@@ -264,7 +264,7 @@ TEST(TrajectoryPublisher, RefusesToStartWithOneLine) {
   int count = 0;
   for (const Refusal& refusal : refusals) {
     std::vector<std::string> arguments = refusal.arguments;
-    // A name each: private parameters outlive their node.
+    // Each node has its own name, as private parameters outlive their node.
     arguments.push_back("__name:=refused_" + std::to_string(++count));
     NodeProcess node(arguments);
     EXPECT_EQ(node.wait(), 1) << refusal.part;

@@ -51,7 +51,7 @@ TEST_F(TrajectoryQueues, PlayPointsOneAfterTheOther) {
   EXPECT_TRUE(queue.empty());
 }
 
-// More is due than there is.
+// More points are due than exist.
 TEST_F(TrajectoryQueues, EndWithTheLastPointHoweverLate) {
   add({1, 2, 3});
   add({});

@@ -21,7 +21,7 @@ const double kPi = std::acos(-1.0);
 // Values of order 1 computed in another order.
 constexpr double kClosedForm = 1e-14;
 
-/// What `rosparam load` makes of YAML.
+/// Converts YAML as `rosparam load` does.
 XmlRpcValue parameter(const YAML::Node& node) {
   XmlRpcValue value;
   if (node.IsSequence()) {
@@ -70,7 +70,7 @@ void expectRefused(const std::string& yaml, const std::string& part) {
   }
 }
 
-/// A CSV that is there as long as this lives.
+/// A CSV file that exists as long as this object.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& text) : path_(::testing::TempDir() + "motion.csv") {
@@ -110,7 +110,7 @@ TEST(TrajectorySettings, TheConfigurationFileHoldsAllDefaults) {
   EXPECT_EQ(read.law->duration(), defaults.law->duration());
   EXPECT_EQ(motionAt(read, 1.7).q, motionAt(defaults, 1.7).q);
   EXPECT_EQ(motionAt(read, 1.7).qdd, motionAt(defaults, 1.7).qdd);
-  // The sweep's are not used by the default law.
+  // The default law does not use the parameters of the sweep.
   YAML::Node sweep = YAML::Clone(file);
   sweep["law"] = "sine_sweep";
   EXPECT_EQ(motionAt(settingsOfTree(parameter(sweep)), 1.7).q,

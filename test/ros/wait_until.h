@@ -7,7 +7,8 @@
 
 namespace virtual_work_dynamics {
 
-/// Waits for another thread to make the condition true. Patience only ends what never happens.
+/// Waits for another thread to make the condition true. The time limit is only for conditions that
+/// never come true.
 template <typename Condition>
 void waitUntil(const Condition& condition) {
   constexpr std::chrono::seconds kPatience{90};

@@ -25,6 +25,8 @@ PLANTED = [
      "base must not include motion"),
     ("src/tree/plan.cpp", "#include <ros/time.h>", "tree knows no ROS"),
     ("src/offline/rows.cpp", "#include <sensor_msgs/JointState.h>", "offline knows no ROS"),
+    ("src/offline/rows.cpp", '#include "tree/plan.h"', "offline must not include tree"),
+    ("src/ros/outputs.cpp", '#include "loops/forces.h"', "ros must not include loops"),
     ("src/offline/rows.cpp", '#include "ros/counters.h"', "offline must not include ros"),
     ("src/ros/counters.h", '#include "offline/rows.h"', "ros must not include offline"),
     ("src/attic/old.h", "", "'attic', has no rule"),

@@ -6,8 +6,8 @@
 namespace virtual_work_dynamics {
 namespace {  // see kernel.h
 
-/// Angle of a joint, and in `rest` what rounding took from multiplier * q + offset: at a billion
-/// radians that is more than all errors of the recursion.
+/// Returns the angle of a joint, and in `rest` what rounding took from multiplier * q + offset: at
+/// a billion radians that is more than all errors of the recursion.
 template <typename T, typename R>
 VWD_INLINE T angleOf(const JointPosition<R>& joint, const KernelInputs<R>& in, T& rest) {
   const T q = load<T>(in.q + static_cast<std::size_t>(joint.coordinate) * in.stride);
@@ -22,7 +22,7 @@ VWD_INLINE T angleOf(const JointPosition<R>& joint, const KernelInputs<R>& in, T
   return angle;
 }
 
-/// Turns on by the small angle `rest`.
+/// Turns a rotation further by the small angle `rest`.
 template <typename R, typename T>
 VWD_INLINE void turnByRest(const T& rest, T& cosine, T& sine) {
   const T c = cosine, s = sine, square = rest * rest;
@@ -32,7 +32,7 @@ VWD_INLINE void turnByRest(const T& rest, T& cosine, T& sine) {
   sine = s + mulSub(small_sine, c, versine * s);
 }
 
-/// Rz(q) Rz(phase).
+/// Returns Rz(q) Rz(phase).
 template <typename S, typename T>
 VWD_INLINE void turnByPhase(const S& phase_cos, const S& phase_sin, T& cosine, T& sine) {
   const T c = cosine, s = sine;
@@ -64,8 +64,8 @@ VWD_INLINE void packAngles(const PlanView<R>& plan, const KernelInputs<R>& in,
   }
 }
 
-/// The same for one sample: the joints side by side in packs. The arrays of `scratch` are as long
-/// as whole packs.
+/// Cosines and sines of one sample: the joints side by side in packs. The arrays of `scratch` are
+/// as long as whole packs.
 template <int kWidth, typename R>
 VWD_INLINE void sampleAngles(const PlanView<R>& plan, const KernelInputs<R>& in,
                              const Scratch<R, R>& scratch) {
@@ -100,7 +100,7 @@ VWD_INLINE void sampleAngles(const PlanView<R>& plan, const KernelInputs<R>& in,
   }
 }
 
-/// The same for other number types, by functions of their own.
+/// Cosines and sines of all joints for other number types, by functions of their own.
 template <typename T, typename R, typename Function>
 VWD_INLINE void plainAngles(const PlanView<R>& plan, const KernelInputs<R>& in,
                             const Scratch<T, R>& scratch, Function sine_of, Function cosine_of) {

@@ -44,7 +44,7 @@ struct KernelInputs {
   const PlainWrench<R>* applied;
 };
 
-/// As in ResultBlock; null: not wanted.
+/// Where results go, laid out as those of a ResultBlock; null: not wanted.
 template <typename R>
 struct KernelOutputs {
   R* effort;
@@ -62,17 +62,17 @@ struct Kernel {
   int width;  ///< samples of a pack
   std::size_t (*scratchSize)(const PlanView<R>& plan);
   void (*prepare)(const PlanView<R>& plan, void* scratch);
-  /// One sample.
+  /// Computes one sample.
   void (*one)(const PlanView<R>&, const KernelInputs<R>&, const KernelOutputs<R>&, void* scratch);
-  /// `width` neighbouring samples.
+  /// Computes `width` neighbouring samples.
   void (*pack)(const PlanView<R>&, const KernelInputs<R>&, const KernelOutputs<R>&, void* scratch);
-  /// From `width` rows of `columns` numbers to columns of `width` numbers, and back. A tile has
+  /// Turns `width` rows of `columns` numbers into columns of `width` numbers, and back. A tile has
   /// room for `width` columns at least; what the rows do not fill is written, and read, too.
   void (*toColumns)(const R* rows, std::size_t columns, R* tile);
   void (*toRows)(const R* tile, std::size_t columns, R* rows);
 };
 
-// The builds; null where the compiler cannot make them.
+// The builds of the recursion; null where the compiler cannot make one.
 template <typename R>
 const Kernel<R>* baselineKernel();
 template <typename R>

@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <cstring>
 
-/// Inlined in every build: no copy compiled for one instruction set can serve another. But for the
-/// address sanitizer's checks, which would take the compiler minutes and gigabytes.
+/// Inlined in every build: no copy compiled for one instruction set can serve another. Builds with
+/// the address sanitizer are excepted, as its checks would take the compiler minutes and gigabytes.
 #if defined(__SANITIZE_ADDRESS__)
 #define VWD_INLINE inline
 #define VWD_LAMBDA
@@ -25,25 +25,25 @@ namespace {  // see kernel.h
 // where the instruction set has them, and nowhere else: kernels are built with contraction off, so
 // that builds with fused operations agree bit for bit.
 
-/// a b + c.
+/// Returns a b + c.
 template <typename A, typename B, typename C>
 VWD_INLINE C mulAdd(const A& a, const B& b, const C& c) {
   return a * b + c;
 }
 
-/// c - a b.
+/// Returns c - a b.
 template <typename A, typename B, typename C>
 VWD_INLINE C subMul(const C& c, const A& a, const B& b) {
   return c - a * b;
 }
 
-/// a b - c.
+/// Returns a b - c.
 template <typename T>
 VWD_INLINE T mulSub(const T& a, const T& b, const T& c) {
   return a * b - c;
 }
 
-/// -(a b) - c.
+/// Returns -(a b) - c.
 template <typename T>
 VWD_INLINE T minusMulSub(const T& a, const T& b, const T& c) {
   return -(a * b) - c;
@@ -191,7 +191,7 @@ VWD_INLINE Pack<R, kWidth> subMul(const Pack<R, kWidth>& c, const Pack<R, kWidth
 }
 #endif
 
-/// a b - product, where `product` is a b rounded: what rounding took away, exactly.
+/// Returns a b - product, where `product` is a b rounded: what rounding took away, exactly.
 VWD_INLINE double productRest(const double& a, const double& b, const double& product) {
   return __builtin_fma(a, b, -product);
 }
@@ -215,7 +215,7 @@ VWD_INLINE Pack<R, kWidth> productRest(const R& a, const Pack<R, kWidth>& b,
 #endif
 }
 
-/// x, or 1 or -1 where it is beyond.
+/// Returns x, or 1 or -1 where x is beyond.
 template <typename T>
 VWD_INLINE T heldWithinOne(const T& x) {
   const T low = x < T(-1) ? T(-1) : x;

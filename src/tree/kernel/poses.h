@@ -14,7 +14,7 @@ struct BodyPose {
   Vec3<T> w_0;   ///< omega_{k0}
 };
 
-/// a_{k0}^T by composition, and (2.5), (2.6) in root axes.
+/// Pose of a body from its parent's, and its velocities (2.5) and (2.6) in root axes.
 template <bool kTwist, typename T, typename R>
 VWD_INLINE BodyPose<T> propagatePose(const Body<R>& body, const JointMotion<T>& joint,
                                      const BodyPose<T>& parent) {
@@ -33,10 +33,10 @@ VWD_INLINE BodyPose<T> propagatePose(const Body<R>& body, const JointMotion<T>& 
   if (body.mobility == Mobility::kRevolute) pose.R_0Z = times(pose.R_0Z, joint.Rz);
   if (!kTwist) return pose;
   pose.w_0 = parent.w_0;
-  pose.v_0 = addCross(parent.v_0, parent.w_0, arm);
+  pose.v_0 = addCross(parent.v_0, parent.w_0, arm);  // (2.6)
   const Vec3<T> u3{pose.R_0Z.xz, pose.R_0Z.yz, pose.R_0Z.zz};
-  if (body.mobility == Mobility::kRevolute) pose.w_0 = pose.w_0 + scaled(joint.qd, u3);
-  if (body.mobility == Mobility::kPrismatic) pose.v_0 = pose.v_0 + scaled(joint.qd, u3);
+  if (body.mobility == Mobility::kRevolute) pose.w_0 = pose.w_0 + scaled(joint.qd, u3);   // (2.5)
+  if (body.mobility == Mobility::kPrismatic) pose.v_0 = pose.v_0 + scaled(joint.qd, u3);  // (2.6)
   return pose;
 }
 
@@ -47,7 +47,7 @@ VWD_INLINE void storeVector(const Vec3<T>& v, R* to, std::size_t stride) {
   store(to + 2 * stride, v.z);
 }
 
-/// Position of O_k, then R_0K = R_0Z R_KZ^T by rows.
+/// Writes the position of O_k, then R_0K = R_0Z R_KZ^T by rows.
 template <typename T, typename R>
 VWD_INLINE void storePose(const ReactionOutput<R>& output, const BodyPose<T>& pose, R* to,
                           std::size_t stride) {

@@ -8,11 +8,12 @@ namespace virtual_work_dynamics {
 namespace {  // see kernel.h
 
 // The recursive virtual-work model of Stroe & Staicu (2010), templated on the number type T of the
-// samples and R of the constants. Symbols are those of notation.h; every quantity of a body is in
-// its own frame Z, z along the joint axis u3. Gravity is carried as gamma_root = -g, so that (3.6)
-// needs no term of its own.
+// samples and R of the constants. Symbols are those of notation.h, doc/theory.md derives each line;
+// every quantity of a body is in its own frame Z, z along the joint axis u3.
+//
+// Departs from (3.6): gravity is a vector, carried as gamma_root = -g instead of weights.
 
-/// Motion of a body.
+/// Motion of a body, in its Z axes.
 template <typename T>
 struct BodyMotion {
   Vec3<T> w;      ///< omega_{k0}
@@ -21,15 +22,16 @@ struct BodyMotion {
   Mat3<T> U;      ///< w~ w~ + alpha~: the acceleration of the point r is gamma + U r
 };
 
-/// Motion of a joint.
+/// Position, velocity and acceleration of a joint.
 template <typename T>
 struct JointMotion {
-  RotationZ<T> Rz;  ///< where it turns
-  T slide;          ///< position where it slides
+  RotationZ<T> Rz;  ///< rotation of a joint that turns
+  T slide;          ///< position of a joint that slides
   T qd;
   T qdd;
 };
 
+/// U = w~ w~ + alpha~, the bracket of (2.7) and (3.5).
 template <typename T>
 VWD_INLINE Mat3<T> accelerationGradient(const Vec3<T>& w, const Vec3<T>& alpha) {
   const T yy = w.y * w.y, zz = w.z * w.z;
@@ -46,7 +48,7 @@ VWD_INLINE Vec3<T> originInParent(const Body<R>& body, const T& slide) {
           mulAdd(body.R_PZ.zz, slide, T(body.p_PoZo_P.z))};
 }
 
-/// sum + U r.
+/// Returns sum + U r.
 template <typename S, typename T>
 VWD_INLINE Vec3<T> addProduct(const Vec3<T>& sum, const Mat3<T>& U, const Vec3<S>& r) {
   return {addDot(sum.x, r.x, r.y, r.z, Vec3<T>{U.xx, U.xy, U.xz}),
@@ -54,7 +56,11 @@ VWD_INLINE Vec3<T> addProduct(const Vec3<T>& sum, const Mat3<T>& U, const Vec3<S
           addDot(sum.z, r.x, r.y, r.z, Vec3<T>{U.zx, U.zy, U.zz})};
 }
 
-/// gamma + U r for the origin r of a body in its parent; components that are zero are left out.
+// Departs from (2.7): the print has a second a_{k,k-1} before this U r. It is spurious: r and U are
+// in the parent's axes already, and (5.2) has the bracket without it.
+
+/// Returns gamma + U r, the bracket of (2.7), for the origin r of a body in its parent; components
+/// of r that are zero are left out.
 template <typename S, typename T, typename R>
 VWD_INLINE Vec3<T> accelerationOf(const Body<R>& body, const BodyMotion<T>& motion,
                                   const Vec3<S>& r) {
@@ -66,7 +72,8 @@ VWD_INLINE Vec3<T> accelerationOf(const Body<R>& body, const BodyMotion<T>& moti
   return b;
 }
 
-/// moment + r x force for the same r.
+/// Returns moment + r x force for the origin r of a body in its parent; components of r that are
+/// zero are left out.
 template <typename S, typename T, typename R>
 VWD_INLINE Vec3<T> momentAt(const Body<R>& body, const Vec3<T>& moment, const Vec3<S>& r,
                             const Vec3<T>& force) {
@@ -86,8 +93,8 @@ VWD_INLINE Vec3<T> momentAt(const Body<R>& body, const Vec3<T>& moment, const Ve
   return sum;
 }
 
-/// What arrives at a body from its parent, in the parent's axes: omega, epsilon and, of its own
-/// origin, b = gamma_p + U_p r.
+/// What arrives at a body from its parent, in the parent's axes: omega, epsilon and, for the body's
+/// own origin r, b = gamma_p + U_p r.
 template <typename T>
 struct Arrival {
   Vec3<T> w;
@@ -109,35 +116,35 @@ VWD_INLINE void arriveAt(const Body<R>& body, const T* slides, const BodyMotion<
   }
 }
 
-/// Motion of a body from its parent's: (2.5), (2.7). kPlain: see BodyUse::plain_motion.
+/// Motion of a body from its parent's, (2.5) and (2.7). kPlain: see BodyUse::plain_motion.
 template <bool kStatic, bool kPlain, AxisDirection kAxis, typename T, typename R>
 VWD_INLINE void propagateMotion(const Body<R>& body, const JointMotion<T>& joint,
                                 const Arrival<T>& arrival, BodyMotion<T>& motion) {
   const Mobility mobility = kPlain ? Mobility::kRevolute : body.mobility;
   if (!kStatic) {
-    motion.w = toChild<kAxis>(body.R_PZ, arrival.w);
-    motion.alpha = toChild<kAxis>(body.R_PZ, arrival.alpha);
+    motion.w = toChild<kAxis>(body.R_PZ, arrival.w);          // (2.5), a w_p
+    motion.alpha = toChild<kAxis>(body.R_PZ, arrival.alpha);  // (2.7), a eps_p
   }
-  motion.gamma = toChild<kAxis>(body.R_PZ, arrival.b);
+  motion.gamma = toChild<kAxis>(body.R_PZ, arrival.b);  // (2.7), a (gamma_p + U_p r)
   if (mobility == Mobility::kRevolute) {
     motion.gamma = transposeTimes(joint.Rz, motion.gamma);
     if (kStatic) return;
     motion.w = transposeTimes(joint.Rz, motion.w);
     motion.alpha = transposeTimes(joint.Rz, motion.alpha);
-    motion.w.z = motion.w.z + joint.qd;                             // (2.5)
-    motion.alpha.x = mulAdd(joint.qd, motion.w.y, motion.alpha.x);  // (2.7), w x u3 =
-    motion.alpha.y = subMul(motion.alpha.y, joint.qd, motion.w.x);  //   (w_y, -w_x, 0)
-    motion.alpha.z = motion.alpha.z + joint.qdd;
+    motion.w.z = motion.w.z + joint.qd;                             // (2.5), + qd u3
+    motion.alpha.x = mulAdd(joint.qd, motion.w.y, motion.alpha.x);  // (2.7), + qd w x u3, where
+    motion.alpha.y = subMul(motion.alpha.y, joint.qd, motion.w.x);  //   w x u3 = (w_y, -w_x, 0)
+    motion.alpha.z = motion.alpha.z + joint.qdd;                    // (2.7), + qdd u3
   } else if (mobility == Mobility::kPrismatic && !kStatic) {
     const T qd2 = joint.qd + joint.qd;
-    motion.gamma.x = mulAdd(qd2, motion.w.y, motion.gamma.x);  // (2.7), 2 v w x u3
+    motion.gamma.x = mulAdd(qd2, motion.w.y, motion.gamma.x);  // (2.7), + 2 qd w x u3
     motion.gamma.y = subMul(motion.gamma.y, qd2, motion.w.x);
-    motion.gamma.z = motion.gamma.z + joint.qdd;
+    motion.gamma.z = motion.gamma.z + joint.qdd;  // (2.7), + qdd u3
   }
   if (!kStatic) motion.U = accelerationGradient(motion.w, motion.alpha);
 }
 
-/// The same for a parent at rest: its w and alpha are zero.
+/// Motion of a body on a parent at rest, (2.5) and (2.7) with the parent's w and alpha zero.
 template <bool kStatic, typename T, typename R>
 VWD_INLINE void startMotion(const Body<R>& body, const JointMotion<T>& joint,
                             BodyMotion<T>& motion) {
@@ -150,8 +157,8 @@ VWD_INLINE void startMotion(const Body<R>& body, const JointMotion<T>& joint,
   motion.w = motion.alpha = {zero, zero, zero};
   motion.U = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
   if (body.mobility == Mobility::kRevolute) {
-    motion.w.z = joint.qd;
-    motion.alpha.z = joint.qdd;
+    motion.w.z = joint.qd;       // (2.5)
+    motion.alpha.z = joint.qdd;  // (2.7)
     motion.U.xx = motion.U.yy = -joint.qd * joint.qd;
     motion.U.xy = -joint.qdd;
     motion.U.yx = joint.qdd;
@@ -160,8 +167,10 @@ VWD_INLINE void startMotion(const Body<R>& body, const JointMotion<T>& joint,
   }
 }
 
-/// Integral of r x (U r) dm over a body from its second moment of mass G, which is
-/// J alpha + w x (J w), in two parts: the moment is `plus` - `minus`.
+// Departs from (3.5): J eps + w x (J w) is the integral of r x (U r) dm over the body, and comes
+// from U and the second moment of mass G in 18 products.
+
+/// Integral of r x (U r) dm over a body in two parts: the moment is `plus` - `minus`.
 template <typename T, typename R>
 VWD_INLINE void turningMoment(const Body<R>& body, const Mat3<T>& U, Vec3<T>& plus,
                               Vec3<T>& minus) {
@@ -177,21 +186,21 @@ VWD_INLINE void turningMoment(const Body<R>& body, const Mat3<T>& U, Vec3<T>& pl
            mulAdd(G.yz, U.xz, mulAdd(G.xy, U.xx, minus.z))};
 }
 
-/// (3.5) less the weight, which gamma carries: F_k0 = m gamma + U h and
-/// M_k0 = h x gamma + integral of r x (U r) dm.
+/// The wrench (3.5) of a body with the opposite sign, less the weight (3.6), which gamma carries:
+/// F_k0 = m gamma + U h and M_k0 = h x gamma + integral of r x (U r) dm.
 template <bool kStatic, typename T, typename R>
 VWD_INLINE PlainWrench<T> inertiaWrench(const Body<R>& body, const BodyMotion<T>& motion) {
   const Vec3<R>& h = body.h;
   const Vec3<T>& gamma = motion.gamma;
-  Vec3<T> force = scaled(body.mass, gamma), plus, minus;
+  Vec3<T> force = scaled(body.mass, gamma), plus, minus;  // (3.5), m gamma
   if (kStatic) {
     plus = minus = {T(0), T(0), T(0)};
   } else {
-    turningMoment(body, motion.U, plus, minus);
+    turningMoment(body, motion.U, plus, minus);  // (3.5), J eps + w x (J w)
   }
   if (!body.centred) {
-    if (!kStatic) force = addProduct(force, motion.U, h);
-    plus = {mulAdd(h.y, gamma.z, plus.x), mulAdd(h.z, gamma.x, plus.y),
+    if (!kStatic) force = addProduct(force, motion.U, h);                // (3.5), + U h
+    plus = {mulAdd(h.y, gamma.z, plus.x), mulAdd(h.z, gamma.x, plus.y),  // (3.5), h x gamma
             mulAdd(h.x, gamma.y, plus.z)};
     minus = {mulAdd(h.z, gamma.y, minus.x), mulAdd(h.x, gamma.z, minus.y),
              mulAdd(h.y, gamma.x, minus.z)};
@@ -199,7 +208,7 @@ VWD_INLINE PlainWrench<T> inertiaWrench(const Body<R>& body, const BodyMotion<T>
   return {force, plus - minus};
 }
 
-/// The same for a body on a parent at rest: U has the four entries of a turn about z.
+/// The wrench (3.5) of a body on a parent at rest: U has the four entries of a turn about z.
 template <bool kStatic, typename T, typename R>
 VWD_INLINE PlainWrench<T> startWrench(const Body<R>& body, const BodyMotion<T>& motion) {
   const T zero = T(0);
@@ -217,7 +226,7 @@ VWD_INLINE PlainWrench<T> startWrench(const Body<R>& body, const BodyMotion<T>& 
   return wrench;
 }
 
-/// (3.8): what a body's wrench adds to its parent's, in the parent's frame and about its origin.
+/// What a body's wrench adds to its parent's, (3.8), in the parent's frame and about its origin.
 template <bool kPlain, AxisDirection kAxis, typename T, typename R>
 VWD_INLINE PlainWrench<T> toParent(const Body<R>& body, const JointMotion<T>& joint,
                                    PlainWrench<T> wrench) {
@@ -225,12 +234,12 @@ VWD_INLINE PlainWrench<T> toParent(const Body<R>& body, const JointMotion<T>& jo
   if (mobility == Mobility::kRevolute) {
     wrench = {times(joint.Rz, wrench.force), times(joint.Rz, wrench.torque)};
   }
-  wrench.force = toParent<kAxis>(body.R_PZ, wrench.force);
-  wrench.torque = toParent<kAxis>(body.R_PZ, wrench.torque);
+  wrench.force = toParent<kAxis>(body.R_PZ, wrench.force);    // (3.8), a^T F
+  wrench.torque = toParent<kAxis>(body.R_PZ, wrench.torque);  // (3.8), a^T M
   if (mobility == Mobility::kPrismatic) {
     wrench.torque = momentAt(body, wrench.torque, originInParent(body, joint.slide), wrench.force);
   } else {
-    wrench.torque = momentAt(body, wrench.torque, body.p_PoZo_P, wrench.force);
+    wrench.torque = momentAt(body, wrench.torque, body.p_PoZo_P, wrench.force);  // (3.8), r x F
   }
   return wrench;
 }

@@ -49,7 +49,7 @@ VWD_INLINE Scratch<T, R> dealScratch(const PlanView<R>& plan, std::size_t pad,
   return scratch;
 }
 
-/// What stays the same from sample to sample.
+/// Fills in what does not change from sample to sample.
 template <typename T, typename R>
 void prepareScratch(const PlanView<R>& plan, std::size_t pad, const Scratch<T, R>& scratch) {
   if (plan.any_pose) {

@@ -9,16 +9,16 @@ namespace {  // see kernel.h
 /// Memory of one evaluation; the arrays are as long as the plan's lists.
 template <typename T, typename R>
 struct Scratch {
-  T* cosines;                ///< of Plan::angles
-  T* sines;                  ///<
+  T* cosines;                ///< cosines of Plan::angles
+  T* sines;                  ///< sines of Plan::angles
   T* slides;                 ///< positions of Plan::slides
-  PlainWrench<T>* wrenches;  ///< of the bodies, in Z axes and about O_k; partial sums behind them
+  PlainWrench<T>* wrenches;  ///< the bodies', in Z axes and about O_k; partial sums behind them
   BodyMotion<T>* slots;      ///< motions that later children need
-  BodyPose<T>* poses;        ///< of the bodies that need one; [0] is the root's
+  BodyPose<T>* poses;        ///< poses of the bodies that need one; [0] is the root's
   T* angles;                 ///< see sampleAngles()
-  T* rests;                  ///<
-  R* phase_cos;              ///<
-  R* phase_sin;              ///<
+  T* rests;                  ///< see sampleAngles()
+  R* phase_cos;              ///< see sampleAngles()
+  R* phase_sin;              ///< see sampleAngles()
 };
 
 template <typename T, typename R>
@@ -64,7 +64,7 @@ VWD_INLINE PlainWrench<T> constantWrench(const PlainWrench<R>& wrench) {
           {T(wrench.torque.x), T(wrench.torque.y), T(wrench.torque.z)}};
 }
 
-/// The next body of sweepOut(), where it is reached from this one.
+/// Makes `arrival` that of the next body of sweepOut(), where that one is reached from this one.
 template <bool kStatic, typename T, typename R>
 VWD_INLINE void feedNext(const PlanView<R>& plan, const Body<R>& body, const Scratch<T, R>& scratch,
                          const BodyMotion<T>& motion, Arrival<T>& arrival) {
@@ -73,7 +73,7 @@ VWD_INLINE void feedNext(const PlanView<R>& plan, const Body<R>& body, const Scr
   }
 }
 
-/// A body of sweepOut() that is plain.
+/// Moves a body of sweepOut() that is plain.
 template <bool kStatic, AxisDirection kAxis, typename T, typename R>
 VWD_INLINE void movePlainBody(const PlanView<R>& plan, const Body<R>& body,
                               const KernelInputs<R>& in, const Scratch<T, R>& scratch,
@@ -85,7 +85,7 @@ VWD_INLINE void movePlainBody(const PlanView<R>& plan, const Body<R>& body,
   feedNext<kStatic>(plan, body, scratch, motion, arrival);
 }
 
-/// And one that is on a parent at rest.
+/// Moves a body of sweepOut() that is on a parent at rest.
 template <bool kStatic, typename T, typename R>
 VWD_INLINE void startBody(const PlanView<R>& plan, const Body<R>& body, const KernelInputs<R>& in,
                           const Scratch<T, R>& scratch, Arrival<T>& arrival,
@@ -97,6 +97,7 @@ VWD_INLINE void startBody(const PlanView<R>& plan, const Body<R>& body, const Ke
   feedNext<kStatic>(plan, body, scratch, motion, arrival);
 }
 
+/// Moves any other body of sweepOut().
 template <bool kStatic, typename T, typename R>
 VWD_INLINE void moveBody(const PlanView<R>& plan, const Body<R>& body, const KernelInputs<R>& in,
                          const Scratch<T, R>& scratch, Arrival<T>& arrival,
@@ -139,7 +140,7 @@ VWD_INLINE void sweepOut(const PlanView<R>& plan, const KernelInputs<R>& in,
   }
 }
 
-/// -f*, -m* of (3.8) for the applied wrenches.
+/// Subtracts the applied wrenches: -f* and -m* of (3.8).
 template <typename T, typename R>
 VWD_INLINE void subtractApplied(const PlanView<R>& plan, const KernelInputs<R>& in,
                                 const Scratch<T, R>& scratch) {
@@ -153,7 +154,7 @@ VWD_INLINE void subtractApplied(const PlanView<R>& plan, const KernelInputs<R>& 
       applied.torque = addCross(transposeTimes(R_0Z, applied.torque), where.p_ZoA_Z, applied.force);
     }
     PlainWrench<T>& wrench = scratch.wrenches[where.body];
-    wrench = {wrench.force - applied.force, wrench.torque - applied.torque};
+    wrench = {wrench.force - applied.force, wrench.torque - applied.torque};  // (3.8), - f*, - m*
   }
 }
 
@@ -199,12 +200,12 @@ VWD_INLINE void storeZeros(R* to, std::size_t count, std::size_t stride) {
   for (std::size_t i = 0; i < count; ++i) store(to + i * stride, T(0));
 }
 
-/// (3.7): the component along the joint axis, summed over the joints that a coordinate moves.
+/// Adds the component along the joint axis, (3.7), summed over the joints that a coordinate moves.
 template <typename T, typename R>
 VWD_INLINE void addEffort(const Body<R>& body, const PlainWrench<T>& wrench,
                           const KernelOutputs<R>& out) {
   R* const to = out.effort + static_cast<std::size_t>(body.coordinate) * out.stride;
-  T active = body.mobility == Mobility::kPrismatic ? wrench.force.z : wrench.torque.z;
+  T active = body.mobility == Mobility::kPrismatic ? wrench.force.z : wrench.torque.z;  // (3.7)
   if (body.geared) active = body.multiplier * active;
   store(to, body.summed ? load<T>(to) + active : active);
 }
@@ -218,7 +219,9 @@ VWD_INLINE void addTo(PlainWrench<T>& sum, bool starts, const PlainWrench<T>& wr
   }
 }
 
-/// The sum over children in (3.8).
+// Departs from (3.8): the print is of a serial chain; in a tree it is a sum over all children.
+
+/// Adds a child's wrench to the sum over children, or to a partial sum of them.
 template <typename T, typename R>
 VWD_INLINE void sumUp(const PlanView<R>& plan, const Body<R>& body, const PlainWrench<T>& handed,
                       PlainWrench<T>* wrenches) {
@@ -240,13 +243,14 @@ VWD_INLINE void sweepIn(const PlanView<R>& plan, const KernelInputs<R>& in,
     const PlainWrench<T>& own = scratch.wrenches[k];
     PlainWrench<T> wrench;
     if (body.takes_from_next) {
-      wrench = {own.force + handed.force, own.torque + handed.torque};
+      wrench = {own.force + handed.force, own.torque + handed.torque};  // (3.8)
     } else {
       wrench = {{own.force.x, own.force.y, own.force.z},
                 {own.torque.x, own.torque.y, own.torque.z}};
     }
     if (body.plain_wrench) {
       if (out.effort) {
+        // (3.7), u3^T M
         store(out.effort + static_cast<std::size_t>(body.coordinate) * out.stride, wrench.torque.z);
       }
     } else if (body.drives && out.effort) {
@@ -274,7 +278,7 @@ VWD_INLINE void sweepIn(const PlanView<R>& plan, const KernelInputs<R>& in,
   }
 }
 
-/// What is known to be zero.
+/// Writes zeros where results are known to be zero.
 template <typename T, typename R>
 VWD_INLINE void storeKnownZeros(const PlanView<R>& plan, const KernelOutputs<R>& out) {
   if (out.effort) {
@@ -289,7 +293,7 @@ VWD_INLINE void storeKnownZeros(const PlanView<R>& plan, const KernelOutputs<R>&
   }
 }
 
-/// What the joints' springs, dampers, friction and rotors add to the efforts.
+/// Adds to the efforts what the joints' springs, dampers, friction and rotors demand.
 template <bool kStatic, typename T, typename R>
 VWD_INLINE void addActuators(const PlanView<R>& plan, const KernelInputs<R>& in,
                              const KernelOutputs<R>& out) {
@@ -311,7 +315,7 @@ VWD_INLINE void addActuators(const PlanView<R>& plan, const KernelInputs<R>& in,
   }
 }
 
-/// Poses of the bodies that need one; velocities where they are asked for.
+/// Finds the poses of the bodies that need one, and velocities where they are asked for.
 template <bool kStatic, typename T, typename R>
 VWD_INLINE void sweepPoses(const PlanView<R>& plan, const KernelInputs<R>& in,
                            const KernelOutputs<R>& out, const Scratch<T, R>& scratch) {
@@ -330,7 +334,7 @@ VWD_INLINE void sweepPoses(const PlanView<R>& plan, const KernelInputs<R>& in,
   }
 }
 
-/// (4.3): reactions, poses and twists in root axes.
+/// Writes reactions (4.3), poses and twists in root axes.
 template <typename T, typename R>
 VWD_INLINE void storeRootAxes(const PlanView<R>& plan, const KernelOutputs<R>& out,
                               const Scratch<T, R>& scratch) {
@@ -348,7 +352,7 @@ VWD_INLINE void storeRootAxes(const PlanView<R>& plan, const KernelOutputs<R>& o
       if (body.wrench_needed) {
         PlainWrench<T> wrench = scratch.wrenches[output.body];
         if (output.drop_active) dropActive(body.mobility, wrench);
-        storeVector(times(pose.R_0Z, wrench.force), to, out.stride);
+        storeVector(times(pose.R_0Z, wrench.force), to, out.stride);  // (4.3)
         storeVector(times(pose.R_0Z, wrench.torque), to + 3 * out.stride, out.stride);
       } else {
         storeZeros<T>(to, 6, out.stride);
@@ -375,7 +379,7 @@ VWD_INLINE void sweepAll(const PlanView<R>& plan, const KernelInputs<R>& in,
   storeRootAxes(plan, out, scratch);
 }
 
-/// One evaluation, once the cosines and sines of the joints are in the scratch memory.
+/// Evaluates one sample, once the cosines and sines of the joints are in the scratch memory.
 template <typename T, typename R>
 VWD_INLINE void evaluate(const PlanView<R>& plan, const KernelInputs<R>& in,
                          const KernelOutputs<R>& out, const Scratch<T, R>& scratch) {

@@ -5,9 +5,9 @@
 namespace virtual_work_dynamics {
 namespace {  // see kernel.h
 
-// Between rows of samples and the columns that packs are made of.
+// Transposition between rows of samples and the columns that packs are made of.
 
-/// In place: entry j of rows[i] becomes entry i of rows[j].
+/// Transposes in place: entry j of rows[i] becomes entry i of rows[j].
 template <typename Vector, std::size_t kWidth>
 VWD_INLINE void transpose(Vector (&rows)[kWidth]) {
   for (std::size_t i = 0; i < kWidth; ++i) {
@@ -33,8 +33,8 @@ VWD_INLINE void transpose(VectorOf<double, 4>::Type (&rows)[4]) {
 #endif
 
 #if defined(__AVX512F__)
-/// Of the pairs of rows 0-1, 2-3, 4-5, 6-7, pair c of each pair in turn: columns c and c + 4, then
-/// c + 2 and c + 6.
+/// Gathers columns c, c + 2, c + 4 and c + 6 of a tile from its rows, which come in the pairs 0-1,
+/// 2-3, 4-5 and 6-7.
 VWD_INLINE void gatherPairs(__m512d rows_01, __m512d rows_23, __m512d rows_45, __m512d rows_67,
                             VectorOf<double, 8>::Type* columns) {
   const __m512d near_0123 = _mm512_shuffle_f64x2(rows_01, rows_23, 0x88);
@@ -58,7 +58,7 @@ VWD_INLINE void transpose(VectorOf<double, 8>::Type (&rows)[8]) {
 }
 #endif
 
-/// The first `count` entries.
+/// Reads the first `count` entries of a row into a vector, or writes them back.
 template <typename Vector, typename R>
 VWD_INLINE void loadPart(const R* from, std::size_t count, Vector& to) {
   to = Vector{};
@@ -77,7 +77,7 @@ VWD_INLINE void storePart(double* to, std::size_t count, const VectorOf<double, 
 }
 #endif
 
-/// Column `first` and the kWidth - 1 behind it, of kWidth rows.
+/// Takes column `first` and the kWidth - 1 behind it from kWidth rows.
 template <typename R, int kWidth>
 VWD_INLINE void blockToColumns(const R* rows, std::size_t columns, std::size_t first, R* tile) {
   typename VectorOf<R, kWidth>::Type block[kWidth];
@@ -102,8 +102,8 @@ VWD_INLINE void blockToRows(const R* tile, std::size_t columns, std::size_t firs
   }
 }
 
-/// From kWidth rows of `columns` numbers to `columns` columns of kWidth numbers. The last block of
-/// columns overlaps the one before where it must; the tile has room for kWidth columns at least.
+/// Turns kWidth rows of `columns` numbers into `columns` columns of kWidth numbers. The last block
+/// of columns overlaps the one before where it must; the tile has room for kWidth columns at least.
 template <typename R, int kWidth>
 void toColumns(const R* rows, std::size_t columns, R* tile) {
   if (columns >= kWidth) {

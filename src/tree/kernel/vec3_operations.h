@@ -23,25 +23,25 @@ VWD_INLINE Vec3<T> scaled(const S& s, const Vec3<T>& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
 
-/// a . b.
+/// Returns a . b.
 template <typename S, typename T>
 VWD_INLINE T dot(const S& ax, const S& ay, const S& az, const Vec3<T>& b) {
   return mulAdd(ax, b.x, mulAdd(ay, b.y, az * b.z));
 }
 
-/// sum + a . b.
+/// Returns sum + a . b.
 template <typename S, typename T>
 VWD_INLINE T addDot(const T& sum, const S& ax, const S& ay, const S& az, const Vec3<T>& b) {
   return mulAdd(ax, b.x, mulAdd(ay, b.y, mulAdd(az, b.z, sum)));
 }
 
-/// A v.
+/// Returns A v.
 template <typename S, typename T>
 VWD_INLINE Vec3<T> times(const Mat3<S>& A, const Vec3<T>& v) {
   return {dot(A.xx, A.xy, A.xz, v), dot(A.yx, A.yy, A.yz, v), dot(A.zx, A.zy, A.zz, v)};
 }
 
-/// A v for a constant v.
+/// Returns A v for a constant v.
 template <typename S, typename T>
 VWD_INLINE Vec3<T> columnTimes(const Mat3<T>& A, const Vec3<S>& v) {
   return {mulAdd(A.xx, v.x, mulAdd(A.xy, v.y, A.xz * v.z)),
@@ -49,13 +49,13 @@ VWD_INLINE Vec3<T> columnTimes(const Mat3<T>& A, const Vec3<S>& v) {
           mulAdd(A.zx, v.x, mulAdd(A.zy, v.y, A.zz * v.z))};
 }
 
-/// A^T v.
+/// Returns A^T v.
 template <typename S, typename T>
 VWD_INLINE Vec3<T> transposeTimes(const Mat3<S>& A, const Vec3<T>& v) {
   return {dot(A.xx, A.yx, A.zx, v), dot(A.xy, A.yy, A.zy, v), dot(A.xz, A.yz, A.zz, v)};
 }
 
-/// sum + a x b.
+/// Returns sum + a x b.
 template <typename S, typename T>
 VWD_INLINE Vec3<T> addCross(const Vec3<T>& sum, const Vec3<S>& a, const Vec3<T>& b) {
   return {subMul(mulAdd(a.y, b.z, sum.x), a.z, b.y), subMul(mulAdd(a.z, b.x, sum.y), a.x, b.z),
@@ -68,19 +68,19 @@ struct RotationZ {
   T c, s;  ///< cosine and sine of the angle
 };
 
-/// Rz v; v may be a constant.
+/// Returns Rz v; v may be a constant.
 template <typename T, typename V>
 VWD_INLINE Vec3<T> times(const RotationZ<T>& R, const Vec3<V>& v) {
   return {subMul(R.c * v.x, R.s, v.y), mulAdd(R.s, v.x, R.c * v.y), T(v.z)};
 }
 
-/// Rz^T v.
+/// Returns Rz^T v.
 template <typename T, typename V>
 VWD_INLINE Vec3<T> transposeTimes(const RotationZ<T>& R, const Vec3<V>& v) {
   return {mulAdd(R.c, v.x, R.s * v.y), subMul(R.c * v.y, R.s, v.x), T(v.z)};
 }
 
-/// A Rz.
+/// Returns A Rz.
 template <typename T>
 VWD_INLINE Mat3<T> times(const Mat3<T>& A, const RotationZ<T>& R) {
   return {mulAdd(A.xx, R.c, A.xy * R.s), subMul(A.xy * R.c, A.xx, R.s), A.xz,

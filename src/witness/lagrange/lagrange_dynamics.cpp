@@ -12,7 +12,7 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// The axis of a fixed joint is zero.
+// Takes the component along a joint's axis away; the axis of a fixed joint is zero.
 template <typename Real>
 void dropActive(const Triple<Real>& axis, Triple<Real>& v) {
   const Real active = dot(axis, v);
@@ -31,6 +31,7 @@ struct LagrangeDynamics<Real>::Impl {
   Impl(const Mechanism& mechanism, const Scene& scene, const Request& wanted)
       : request(wanted),
         plan(mechanism, scene, wanted),
+        own_load(scene),
         states(plan.joints.size()),
         poses(plan.joints.size()),
         axes(plan.links.size()),
@@ -46,6 +47,7 @@ struct LagrangeDynamics<Real>::Impl {
     for (std::size_t i = 0; i < 3; ++i) axes[0].R[i][i].value = 1;
   }
 
+  void take(const Load& load);
   void move(const Motion& motion);
   Real effortOf(const typename LagrangePlan<Real>::Coordinate& coordinate);
   void displace(const typename LagrangePlan<Real>::Reaction& reaction, Triple<Real>& force);
@@ -58,16 +60,17 @@ struct LagrangeDynamics<Real>::Impl {
 
   Request request;
   LagrangePlan<Real> plan;
+  Load own_load;  // the values in the scene
   std::vector<JointState<Real>> states;
-  std::vector<RelativePose<Real, 0>> poses;  // by joint; the others by link
+  std::vector<RelativePose<Real, 0>> poses;  // by joint; the other frames are by link
   std::vector<Orientation<Real, 0>> axes;
   std::vector<Origin<Real, 0>> origins;
-  // As they depend on one coordinate, or on the mobility of one joint.
+  // Frames of links as they depend on one coordinate, or on the fictitious mobility of one joint.
   std::vector<Orientation<Real, 1>> axes_1;
   std::vector<Origin<Real, 1>> origins_1;
   std::vector<Orientation<Real, 3>> axes_3;
   std::vector<Origin<Real, 3>> origins_3;
-  std::vector<RealWrench> reactions;  // child axes
+  std::vector<RealWrench> reactions;  // in child axes
   Eigen::VectorXd effort;
   std::vector<Wrench> child_axes, root_axes;
 };
@@ -94,6 +97,7 @@ void LagrangeDynamics<Real>::Impl::move(const Motion& motion) {
   }
 }
 
+// Equation (4.1) of one coordinate, solved for its generalized force.
 template <typename Real>
 Real LagrangeDynamics<Real>::Impl::effortOf(
     const typename LagrangePlan<Real>::Coordinate& coordinate) {
@@ -117,7 +121,7 @@ Real LagrangeDynamics<Real>::Impl::effortOf(
         origin = composed(axes[parent], origins[parent], pose.origin);
       }
     }
-    sum += linkForce<Real>(plan.links[step.link], plan.gravity, link_axes, origin)[0];
+    sum += linkForce<Real>(plan.links[step.link], plan.gravity, link_axes, origin)[0];  // (4.1)
   }
   for (const ResolvedJointTerms& terms : coordinate.terms) {
     sum += termsForce(terms, states[terms.joint], plan.joints[terms.joint].multiplier);
@@ -125,8 +129,8 @@ Real LagrangeDynamics<Real>::Impl::effortOf(
   return sum;
 }
 
-// The mobility sits after the joint's own motion, at O_k in child axes. A displacement turns no
-// link, so the orientations are those of the motion.
+// The force of a reaction by (4.2). The fictitious mobility sits after the joint's own motion, at
+// O_k in child axes. A displacement turns no link, so the orientations are those of the motion.
 template <typename Real>
 void LagrangeDynamics<Real>::Impl::displace(const typename LagrangePlan<Real>::Reaction& reaction,
                                             Triple<Real>& force) {
@@ -137,10 +141,13 @@ void LagrangeDynamics<Real>::Impl::displace(const typename LagrangePlan<Real>::R
     const auto& joint = plan.joints[link - 1];
     origins_3[link] =
         childOrigin<Real>(joint, poses[link - 1], axes[joint.parent], origins_3[joint.parent]);
-    add(linkForce<Real>(plan.links[link], plan.gravity, axes[link], origins_3[link]), force);
+    add(linkForce<Real>(plan.links[link], plan.gravity, axes[link], origins_3[link]),
+        force);  // (4.2)
   }
 }
 
+// The moment of a reaction by (4.2), with rotations at the place of displace()'s displacements: a
+// rotation before a joint that slides would be about another point than O_k.
 template <typename Real>
 void LagrangeDynamics<Real>::Impl::rotate(const typename LagrangePlan<Real>::Reaction& reaction,
                                           Triple<Real>& torque) {
@@ -153,7 +160,23 @@ void LagrangeDynamics<Real>::Impl::rotate(const typename LagrangePlan<Real>::Rea
     const auto& pose = poses[link - 1];
     axes_3[link] = childOrientation<Real>(joint, pose, axes_3[joint.parent]);
     origins_3[link] = childOrigin<Real>(joint, pose, axes_3[joint.parent], origins_3[joint.parent]);
-    add(linkForce<Real>(plan.links[link], plan.gravity, axes_3[link], origins_3[link]), torque);
+    add(linkForce<Real>(plan.links[link], plan.gravity, axes_3[link], origins_3[link]),
+        torque);  // (4.2)
+  }
+}
+
+template <typename Real>
+Triple<Real> tripleOf(const Eigen::Vector3d& v) {
+  return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())};
+}
+
+template <typename Real>
+void LagrangeDynamics<Real>::Impl::take(const Load& load) {
+  requireLoad(load, plan.applied.size());
+  for (std::size_t i = 0; i < plan.applied.size(); ++i) {
+    auto& applied = plan.links[plan.applied[i].link].applied[plan.applied[i].index];
+    applied.force = tripleOf<Real>(load.wrenches[i].force);
+    applied.torque = tripleOf<Real>(load.wrenches[i].torque);
   }
 }
 
@@ -166,7 +189,7 @@ void LagrangeDynamics<Real>::Impl::output() {
   for (std::size_t i = 0; i < plan.root_axes.size(); ++i) {
     const RealWrench& wrench = reactions[plan.root_axes[i]];
     const Matrix<Real> R_0K = values(axes[plan.reactions[plan.root_axes[i]].link]);
-    root_axes[i] = {toDouble(R_0K * wrench.force), toDouble(R_0K * wrench.torque)};
+    root_axes[i] = {toDouble(R_0K * wrench.force), toDouble(R_0K * wrench.torque)};  // (4.3)
   }
 }
 
@@ -193,23 +216,15 @@ const Request& LagrangeDynamics<Real>::request() const {
 }
 
 template <typename Real>
-void LagrangeDynamics<Real>::setAppliedWrench(std::size_t index, const Eigen::Vector3d& force,
-                                              const Eigen::Vector3d& torque) {
-  if (index >= impl_->plan.applied.size()) {
-    throw SceneError("the scene has no applied wrench " + std::to_string(index));
-  }
-  const auto& place = impl_->plan.applied[index];
-  auto& applied = impl_->plan.links[place.link].applied[place.index];
-  for (int i = 0; i < 3; ++i) {
-    applied.force[static_cast<std::size_t>(i)] = static_cast<Real>(force[i]);
-    applied.torque[static_cast<std::size_t>(i)] = static_cast<Real>(torque[i]);
-  }
+void LagrangeDynamics<Real>::compute(const Motion& motion) {
+  compute(motion, impl_->own_load);
 }
 
 template <typename Real>
-void LagrangeDynamics<Real>::compute(const Motion& motion) {
+void LagrangeDynamics<Real>::compute(const Motion& motion, const Load& load) {
   Impl& impl = *impl_;
   requireLengths(motion, coordinates());
+  impl.take(load);
   impl.move(motion);
   for (std::size_t i = 0; i < impl.plan.coordinates.size(); ++i) {
     impl.effort[i] = static_cast<double>(impl.effortOf(impl.plan.coordinates[i]));

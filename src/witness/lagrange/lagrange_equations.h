@@ -5,10 +5,12 @@
 
 namespace virtual_work_dynamics {
 
-// Lagrange's equations (4.1) of one link, one joint and one fictitious mobility (4.2).
+// Lagrange's equations (4.1) of one link, one joint and one fictitious mobility (4.2). What is
+// written down is kinetic energy E, force function U and virtual work; all derivatives are
+// automatic.
 
-/// Motion of one joint, which may depend on a direction: position and velocity then have the
-/// derivative `multiplier` with respect to s and sd.
+/// Position, velocity and acceleration of one joint, which may depend on a direction: position and
+/// velocity then have the derivative `multiplier` with respect to s and sd.
 template <typename Real>
 struct JointState {
   Real q = 0, qd = 0, qdd = 0;
@@ -81,7 +83,7 @@ auto childOrigin(const typename LagrangePlan<Real>::JointData& joint,
   return composed(parent_axes, parent, joint.p_PoKo_P);
 }
 
-/// Vector of the skew-symmetric matrix A^T B.
+/// The vector that is associated to the skew-symmetric matrix A^T B.
 template <typename T, typename U>
 auto skewVector(const Matrix<T>& A, const Matrix<U>& B) {
   using Product = decltype(A[0][0] * B[0][0]);
@@ -91,10 +93,10 @@ auto skewVector(const Matrix<T>& A, const Matrix<U>& B) {
 
 // --- generalized forces --------------------------------------------------------------------------
 
-/// d/dt (dE / dsd) - dE/ds, the left-hand side of (4.1).
+/// Left-hand side of (4.1): d/dt (dE / dsd) - dE/ds.
 template <typename Real, std::size_t N>
 std::array<Real, N> inertiaForce(const VelocityNumber<Real, N>& E) {
-  return added(E.dsd_rate, scaled(Real(-1), E.ds));
+  return added(E.dsd_rate, scaled(Real(-1), E.ds));  // (4.1), left
 }
 
 template <typename Real, std::size_t N>
@@ -102,10 +104,11 @@ void add(const std::array<Real, N>& term, std::array<Real, N>& sum) {
   for (std::size_t i = 0; i < N; ++i) sum[i] += term[i];
 }
 
-/// Of the motion about the centre of mass.
+/// Kinetic energy of the motion about the centre of mass, the terms in J of (5.5).
 template <typename Real, std::size_t N>
 VelocityNumber<Real, N> rotationEnergy(const Matrix<Real>& I, const Orientation<Real, N>& axes) {
-  const Triple<VelocityNumber<Real, N>> w = skewVector(axes.R, axes.Rdot);  // R^T Rdot
+  // (2.3): w~ = a da^T/dt = R^T dR/dt, so that no angular velocity is propagated.
+  const Triple<VelocityNumber<Real, N>> w = skewVector(axes.R, axes.Rdot);
   return ((w[0] * w[0]) * I[0][0] + (w[1] * w[1]) * I[1][1] + (w[2] * w[2]) * I[2][2]) * Real(0.5) +
          ((w[0] * w[1]) * I[0][1] + (w[0] * w[2]) * I[0][2] + (w[1] * w[2]) * I[1][2]);
 }
@@ -143,7 +146,7 @@ std::array<Real, M> virtualWork(const typename LagrangePlan<Real>::Applied& appl
   return work;
 }
 
-/// What one link adds to the generalized force of each direction, (4.1) solved for it.
+/// What one link adds to the generalized force of each direction: (4.1) and (4.2) solved for it.
 template <typename Real, std::size_t N, std::size_t M>
 std::array<Real, M> linkForce(const typename LagrangePlan<Real>::LinkData& link,
                               const Triple<Real>& gravity, const Orientation<Real, N>& axes,
@@ -152,19 +155,20 @@ std::array<Real, M> linkForce(const typename LagrangePlan<Real>::LinkData& link,
   if (link.mass != 0) {
     const auto c = origin.o + axes.R * link.p_KoCm_K;
     const auto cdot = origin.odot + axes.Rdot * link.p_KoCm_K;
-    add(inertiaForce(dot(cdot, cdot) * (link.mass / 2)), force);
-    add(scaled(-link.mass, dot(c, gravity).ds), force);  // U = m g . c
+    add(inertiaForce(dot(cdot, cdot) * (link.mass / 2)), force);  // (4.1), E = m v_C^2 / 2
+    add(scaled(-link.mass, dot(c, gravity).ds), force);           // (4.1), force function m g . c
   }
   if constexpr (N > 0) {
-    if (link.has_inertia) add(inertiaForce(rotationEnergy(link.inertia_Cm_K, axes)), force);
+    if (link.has_inertia)
+      add(inertiaForce(rotationEnergy(link.inertia_Cm_K, axes)), force);  // (4.1)
   }
   for (const auto& applied : link.applied) {
-    add(scaled(Real(-1), virtualWork<Real>(applied, axes, origin)), force);
+    add(scaled(Real(-1), virtualWork<Real>(applied, axes, origin)), force);  // (4.1), - Q
   }
   return force;
 }
 
-/// Whose derivative is s (3 - s^2) / 2 with s held within [-1, 1]; but for a constant.
+/// The function whose derivative is s (3 - s^2) / 2 with s held within [-1, 1], up to a constant.
 template <typename Real>
 VelocityNumber<Real, 1> frictionPotential(const VelocityNumber<Real, 1>& s) {
   if (s.value >= 1 || s.value <= -1) return s * Real(s.value > 0 ? 1 : -1);
@@ -172,7 +176,8 @@ VelocityNumber<Real, 1> frictionPotential(const VelocityNumber<Real, 1>& s) {
   return squared * (squared * (Real(-1) / 8) + Real(3) / 4);
 }
 
-/// Spring, rotor and a dissipation function of Rayleigh's for damping and friction.
+/// Generalized force of what acts in a joint: of its spring and rotor, and of damping and friction
+/// by a dissipation function of Rayleigh's.
 template <typename Real>
 Real termsForce(const ResolvedJointTerms& terms, const JointState<Real>& state, Real multiplier) {
   const std::array<Real, 1> along{multiplier};
@@ -180,17 +185,17 @@ Real termsForce(const ResolvedJointTerms& terms, const JointState<Real>& state, 
   const VelocityNumber<Real, 1> qd = state.velocity(along), squared = qd * qd;
   const Real v = terms.coulomb_velocity;
   const VelocityNumber<Real, 1> E = squared * (Real(terms.rotor_inertia) / 2);
-  const PositionNumber<Real, 1> U = (stretch * stretch) * (-Real(terms.stiffness) / 2);
+  const PositionNumber<Real, 1> force_function = (stretch * stretch) * (-Real(terms.stiffness) / 2);
   const VelocityNumber<Real, 1> dissipation =
       squared * (Real(terms.damping) / 2) +
       frictionPotential(qd * (1 / v)) * (Real(terms.coulomb) * v);
-  return inertiaForce(E)[0] - U.ds[0] + dissipation.dsd[0];
+  return inertiaForce(E)[0] - force_function.ds[0] + dissipation.dsd[0];  // (4.1)
 }
 
 // --- fictitious mobility -------------------------------------------------------------------------
 
-/// Three displacements along, or small rotations about, the axes, with their velocities, all zero
-/// in the motion (4.2). To first order in s, and that is all that is differentiated, R = 1 + [s]x.
+/// Fictitious mobility (4.2) of three displacements along the axes, which are zero in the motion as
+/// their velocities are.
 template <typename Real>
 Origin<Real, 3> fictitiousDisplacement() {
   Origin<Real, 3> origin{};
@@ -201,13 +206,16 @@ Origin<Real, 3> fictitiousDisplacement() {
   return origin;
 }
 
+/// Fictitious mobility (4.2) of three successive rotations about the axes, (2.2), which are zero in
+/// the motion as their velocities are. To first order in s, and that is all that is differentiated,
+/// their order does not matter: R = 1 + [s]x.
 template <typename Real>
 Orientation<Real, 3> fictitiousRotation() {
   Orientation<Real, 3> axes{};
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
     axes.R[i][i].value = 1;
-    axes.R[k][j].ds[i] = axes.Rdot[k][j].dsd[i] = 1;
+    axes.R[k][j].ds[i] = axes.Rdot[k][j].dsd[i] = 1;  // (2.2), to first order
     axes.R[j][k].ds[i] = axes.Rdot[j][k].dsd[i] = -1;
   }
   return axes;

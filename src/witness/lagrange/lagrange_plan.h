@@ -55,12 +55,12 @@ struct LagrangePlan {
 
   struct Coordinate {
     std::vector<Step> steps;                ///< parents first
-    std::vector<ResolvedJointTerms> terms;  ///< of the joints that it moves
+    std::vector<ResolvedJointTerms> terms;  ///< terms of the joints that it moves
   };
 
   struct Reaction {
     int link = 0;            ///< child link; 0: ground
-    std::vector<int> links;  ///< that the joint carries and that matter, without its own
+    std::vector<int> links;  ///< links behind `link` that the joint carries and that matter
     bool drop_active = false;
   };
 
@@ -77,7 +77,7 @@ struct LagrangePlan {
   bool static_motion = false;
   int coordinate_count = 0;
   std::vector<Coordinate> coordinates;  ///< empty when efforts are not wanted
-  std::vector<Reaction> reactions;      ///< each that is wanted in any axes, once
+  std::vector<Reaction> reactions;      ///< those wanted in either axes, each once
   std::vector<int> child_axes;          ///< indices into reactions
   std::vector<int> root_axes;
 };

@@ -42,7 +42,7 @@ auto operator*(const Matrix<T>& A, const Matrix<U>& B) {
   return C;
 }
 
-/// Of matrices, too.
+/// Adds vectors, and matrices by their rows.
 template <typename T, typename U>
 auto operator+(const Triple<T>& a, const Triple<U>& b) {
   return Triple<decltype(a[0] + b[0])>{a[0] + b[0], a[1] + b[1], a[2] + b[2]};

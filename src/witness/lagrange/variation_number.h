@@ -46,7 +46,7 @@ std::array<Real, N> scaled(Real factor, const std::array<Real, N>& d) {
   return writtenOut<Real>([&](auto i) { return factor * d[i]; }, std::make_index_sequence<N>());
 }
 
-/// Of a sum; of the two, one may have no directions.
+/// Derivatives of a sum; one of the two terms may have no directions.
 template <typename Real, std::size_t N, std::size_t M>
 std::array<Real, std::max(N, M)> added(const std::array<Real, N>& df,
                                        const std::array<Real, M>& dg) {
@@ -60,7 +60,7 @@ std::array<Real, std::max(N, M)> added(const std::array<Real, N>& df,
   }
 }
 
-/// df g + f dg.
+/// Derivatives of a product: df g + f dg.
 template <typename Real, std::size_t N, std::size_t M>
 auto ofProduct(const std::array<Real, N>& df, Real g, Real f, const std::array<Real, M>& dg) {
   return added(scaled(g, df), scaled(f, dg));
@@ -136,7 +136,7 @@ VelocityNumber<Real, N> operator*(const VelocityNumber<Real, N>& f,
 
 // --- functions -----------------------------------------------------------------------------------
 
-/// f(x), by its value and derivative where x is.
+/// Composes f(x) from the value and derivative of f where x is.
 template <typename Real, std::size_t N>
 PositionNumber<Real, N> composed(Real f, Real dfdx, const PositionNumber<Real, N>& x) {
   return {f, dfdx * x.rate, scaled(dfdx, x.ds)};

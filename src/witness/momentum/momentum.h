@@ -9,14 +9,14 @@ namespace virtual_work_dynamics {
 // accelerations, inertia forces or moments is that of the recursion (kernel/). Compiled for several
 // instruction sets under the same rules as the kernels; see kernel/kernel.h.
 
-/// A body with what is welded to it. Its frame Z has the origin of the joint that carries it, and
-/// its z axis along the joint's; body 0 is the root. Constants are rounded once.
+/// A body with everything that is welded to it. Its frame Z has the origin of the joint that
+/// carries it, and its z axis along the joint's; body 0 is the root. Constants are rounded once.
 struct MomentumBody {
   int parent = 0;
   bool slides = false;
   bool empty = false;  ///< neither mass nor inertia
 
-  double R_PZ[9] = {};  ///< columns, at position 0; see MomentumJoint
+  double R_PZ[9] = {};  ///< by columns, at position 0; see MomentumJoint
   double p_PoZo_P[3] = {};
   double mass = 0;
   double h[3] = {};  ///< first moment of mass about the origin
@@ -28,16 +28,16 @@ struct MomentumBody {
   double second = 0;    ///< sum of the norms of the inertias about the origin
 };
 
-/// Motion of the joint that carries a body.
+/// Position and motion of the joint that carries a body.
 struct MomentumJoint {
-  double R_PZ[9] = {};  ///< columns, where it is
+  double R_PZ[9] = {};  ///< by columns, at the joint's position
   double slide = 0;
-  double slide_norm = 0;  ///< what the slide adds up to
+  double slide_norm = 0;  ///< sum of the magnitudes of the terms of the slide
   double rate = 0;
   double acceleration = 0;
 };
 
-/// A wrench from outside.
+/// An applied wrench, with its norms for the scales.
 struct MomentumWrench {
   int body = 0;
   bool in_root_axes = false;
@@ -54,12 +54,12 @@ struct MomentumInputs {
   std::size_t body_count;
   const MomentumWrench* wrenches;
   std::size_t wrench_count;
-  double gamma_root[3];  ///< less gravity
+  double gamma_root[3];  ///< acceleration of the root: -g
   double gravity_norm;
 };
 
-/// What the wrench of ground and the efforts must be, root axes and origin; with the sums of the
-/// magnitudes of all terms.
+/// What the wrench of ground, in root axes and about the root's origin, and the power of the
+/// efforts must be, with the sums of the magnitudes of all terms.
 struct MomentumSums {
   double force[3];
   double moment[3];
@@ -75,7 +75,7 @@ struct Momentum {
   void (*sum)(const MomentumInputs& in, void* states, MomentumSums& sums);
 };
 
-// The builds; null where the compiler cannot make them.
+// The builds of these sums; null where the compiler cannot make one.
 const Momentum* baselineMomentum();
 const Momentum* avx2Momentum();
 

@@ -6,7 +6,7 @@
 namespace virtual_work_dynamics {
 namespace {  // see momentum.h
 
-/// Columns.
+/// A matrix by its columns.
 struct Matrix {
   Vector x, y, z;
 };
@@ -53,7 +53,7 @@ inline NormSums nextNorms(const MomentumBody& body, const MomentumJoint& joint,
   return sums;
 }
 
-/// R = R_P R_PZ, p = p_P + R_P r, differentiated twice.
+/// Composes R = R_P R_PZ and p = p_P + R_P r, differentiated twice.
 inline void moveBody(const MomentumBody& body, const MomentumJoint& joint, const BodyState& parent,
                      BodyState& state) {
   const double qd = joint.rate, qdd = joint.acceleration;

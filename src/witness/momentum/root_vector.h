@@ -7,7 +7,7 @@ namespace {  // see momentum.h
 // compilers take the halves of larger vectors through memory.
 
 #if defined(__AVX__)
-/// x, y, z and a fourth number that means nothing.
+/// Three components x, y, z and a fourth number without meaning.
 typedef double Vector __attribute__((vector_size(4 * sizeof(double))));
 
 inline Vector vectorOf(double x, double y, double z) {
@@ -72,7 +72,7 @@ inline Vector vectorOf(const double* v) {
   return vectorOf(v[0], v[1], v[2]);
 }
 
-/// a x b, its components in the order z, x, y.
+/// Returns a x b, its components in the order z, x, y.
 inline Vector crossZxy(const Vector& a, const Vector& b) {
   return a * yzx(b) - yzx(a) * b;
 }

@@ -34,7 +34,7 @@ MomentumBody carriedBody(const Joint& joint, const LinkPlace& parent, const Matr
   return body;
 }
 
-// What a body's links add up to about its origin.
+// Mass and moments of a body's links, added up about its origin.
 struct Inertia {
   Real mass = 0;
   Vector3l h = Vector3l::Zero();

@@ -7,7 +7,7 @@
 
 namespace virtual_work_dynamics {
 
-/// Where a link of the description is in the body it belongs to.
+/// Place of a link of the description in the body it belongs to.
 struct LinkPlace {
   int body = 0;
   Matrix3l R_ZL = Matrix3l::Identity();
@@ -21,7 +21,7 @@ struct WeldedBodies {
   explicit WeldedBodies(const Mechanism& mechanism);
 
   std::vector<MomentumBody> bodies;
-  std::vector<int> joints;  ///< index into Mechanism::joints() of each body's; -1: the root's
+  std::vector<int> joints;  ///< by body: index of its joint in Mechanism::joints(); -1: the root
   std::vector<LinkPlace> places;
 };
 

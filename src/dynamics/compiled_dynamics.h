@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "virtual_work_dynamics/dynamics.h"
+
+namespace virtual_work_dynamics {
+
+/// What a Dynamics was compiled to.
+struct Dynamics::Impl {
+  Impl(const Mechanism& mechanism, const Scene& scene, const Request& request,
+       InstructionSet instruction_set);
+
+  // Exactly one of the two is set.
+  std::optional<InverseDynamics> chain;
+  std::optional<ClosedLoopDynamics> loops;
+
+  Scene tree;
+  Request tree_request;
+  Load own_load;  // values in the scene
+  std::vector<std::string> effort_names, closure_names;
+  std::vector<bool> actuated;
+  Eigen::VectorXd assembly;
+};
+
+/// The memory behind a Dynamics::Workspace.
+struct Dynamics::Workspace::Impl {
+  const Dynamics::Impl* plan;  // compared with the plan of a call
+
+  // Exactly one of the two is set.
+  std::optional<virtual_work_dynamics::Workspace> chain;
+  std::optional<ClosedLoopDynamics::Workspace> loops;
+};
+
+}  // namespace virtual_work_dynamics

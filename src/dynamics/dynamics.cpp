@@ -1,0 +1,172 @@
+#include "virtual_work_dynamics/dynamics.h"
+
+#include <algorithm>
+
+#include "base/number_text.h"
+#include "dynamics/compiled_dynamics.h"
+#include "loops/cut_tree.h"
+#include "scene/input_checks.h"
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+
+namespace {
+
+// Relative misfit below which the loops count as closed, so that the position is what hinders.
+constexpr double kClosed = 1e-9;
+
+Request everything(const Mechanism& mechanism, const Scene& scene) {
+  Request request;
+  request.child_axes = requestedReactions(mechanism, scene);
+  request.root_axes = request.child_axes;
+  return request;
+}
+
+}  // namespace
+
+Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Request& request,
+                     InstructionSet instruction_set)
+    : tree(scene),
+      tree_request(request),
+      own_load(scene),
+      effort_names(mechanism.coordinateNames()),
+      actuated(mechanism.coordinates().size(), true),
+      assembly(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(actuated.size()))) {
+  if (!needsClosedLoops(scene)) {
+    chain.emplace(mechanism, scene, request, instruction_set);
+    return;
+  }
+  loops.emplace(mechanism, scene, request);
+  tree = loops->tree();
+  tree_request = virtual_work_dynamics::treeRequest(mechanism, request);
+  actuated = loops->actuated();
+  assembly = loops->assembly();
+  const std::vector<std::string>& closures = loops->actuatedClosures();
+  effort_names.insert(effort_names.end(), closures.begin(), closures.end());
+  for (const Closure& closure : scene.closures) closure_names.push_back(closure.name);
+}
+
+Dynamics::Dynamics(const Mechanism& mechanism, const Scene& scene, const Request& request,
+                   InstructionSet instruction_set)
+    : impl_(new Impl(mechanism, scene, request, instruction_set)) {}
+
+Dynamics::Dynamics(const Mechanism& mechanism, const Scene& scene)
+    : Dynamics(mechanism, scene, everything(mechanism, scene)) {}
+
+Dynamics::~Dynamics() = default;
+Dynamics::Dynamics(Dynamics&&) noexcept = default;
+Dynamics& Dynamics::operator=(Dynamics&&) noexcept = default;
+
+Eigen::Index Dynamics::coordinates() const {
+  return impl_->assembly.size();
+}
+
+const Request& Dynamics::request() const {
+  return impl_->chain ? impl_->chain->request() : impl_->loops->request();
+}
+
+const std::vector<std::string>& Dynamics::effortNames() const {
+  return impl_->effort_names;
+}
+
+bool Dynamics::closed() const {
+  return impl_->loops.has_value();
+}
+
+const std::vector<std::string>& Dynamics::closureNames() const {
+  return impl_->closure_names;
+}
+
+const std::vector<bool>& Dynamics::actuated() const {
+  return impl_->actuated;
+}
+
+bool Dynamics::closuresDetermine() const {
+  return !impl_->closure_names.empty() && impl_->loops->actuatedClosures().empty();
+}
+
+const Eigen::VectorXd& Dynamics::assembly() const {
+  return impl_->assembly;
+}
+
+const Scene& Dynamics::tree() const {
+  return impl_->tree;
+}
+
+const Request& Dynamics::treeRequest() const {
+  return impl_->tree_request;
+}
+
+void Dynamics::getTreeLoad(const Results& results, Load& load) const {
+  load.wrenches = closed() ? results.loops.tree_wrenches : impl_->own_load.wrenches;
+}
+
+PlanSummary Dynamics::summary() const {
+  return impl_->chain ? impl_->chain->summary() : impl_->loops->summary();
+}
+
+Dynamics::Workspace Dynamics::makeWorkspace() const {
+  return Workspace(*impl_);
+}
+
+bool Dynamics::complete(Motion& motion, Workspace& workspace) const {
+  Workspace::Impl& memory = workspace.memoryFor(*impl_);
+  if (impl_->loops) return impl_->loops->complete(motion, *memory.loops);
+  requireLengths(motion, coordinates());
+  return true;
+}
+
+bool Dynamics::completeFromCloseBy(Motion& motion, Workspace& workspace) const {
+  Workspace::Impl& memory = workspace.memoryFor(*impl_);
+  if (impl_->loops) return impl_->loops->completeFromCloseBy(motion, *memory.loops);
+  requireLengths(motion, coordinates());
+  return true;
+}
+
+std::string Dynamics::whyOpen(const Motion& motion, Workspace& workspace) const {
+  compute(motion, workspace);
+  const LoopResults& found = workspace.results().loops;
+  const auto worst = std::max_element(
+      found.relative_residuals.begin(), found.relative_residuals.end(),
+      [](const auto& one, const auto& other) { return one.position < other.position; });
+  if (worst == found.relative_residuals.end() || worst->position <= kClosed) {
+    return "the position is singular: the closures do not determine how the passive joints move; "
+           "give the motion of all joints";
+  }
+  const auto closure = static_cast<std::size_t>(worst - found.relative_residuals.begin());
+  return "the loops cannot be closed: closure '" + impl_->closure_names[closure] +
+         "' stays open by " + numberText(found.residuals[closure].position) + " m or rad";
+}
+
+void Dynamics::compute(const Motion& motion, Workspace& workspace) const {
+  Workspace::Impl& memory = workspace.memoryFor(*impl_);
+  if (impl_->chain) impl_->chain->compute(motion, *memory.chain);
+  if (impl_->loops) impl_->loops->compute(motion, *memory.loops);
+}
+
+void Dynamics::compute(const Motion& motion, const Load& load, Workspace& workspace) const {
+  Workspace::Impl& memory = workspace.memoryFor(*impl_);
+  if (impl_->chain) impl_->chain->compute(motion, load, *memory.chain);
+  if (impl_->loops) impl_->loops->compute(motion, load, *memory.loops);
+}
+
+Dynamics::Workspace::Workspace(const Dynamics::Impl& plan) : impl_(new Impl) {
+  impl_->plan = &plan;
+  if (plan.chain) impl_->chain.emplace(plan.chain->makeWorkspace());
+  if (plan.loops) impl_->loops.emplace(plan.loops->makeWorkspace());
+}
+
+Dynamics::Workspace::Impl& Dynamics::Workspace::memoryFor(const Dynamics::Impl& plan) {
+  if (impl_->plan != &plan) throw MotionError("the workspace belongs to another Dynamics");
+  return *impl_;
+}
+
+Dynamics::Workspace::~Workspace() = default;
+Dynamics::Workspace::Workspace(Workspace&&) noexcept = default;
+Dynamics::Workspace& Dynamics::Workspace::operator=(Workspace&&) noexcept = default;
+
+const Results& Dynamics::Workspace::results() const {
+  return impl_->chain ? impl_->chain->results() : impl_->loops->results();
+}
+
+}  // namespace virtual_work_dynamics

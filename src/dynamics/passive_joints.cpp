@@ -1,0 +1,109 @@
+#include "virtual_work_dynamics/passive_joints.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace virtual_work_dynamics {
+namespace {
+
+// Angle, rad: a position that a search finds from another without turning any joint farther is on
+// the same branch. Except near singular positions, every way from one branch to another is longer.
+constexpr double kFar = 0.3;
+// Number of shortest pieces of a way that may end where the loops cannot be closed, as happens at
+// singular positions, before the rest of the way is given up.
+constexpr int kMostFailures = 4;
+constexpr double kTurn = 6.283185307179586476925286766559;
+
+bool wraps(const Mechanism& mechanism, const Joint& wanted) {
+  const auto& joints = mechanism.joints();
+  return wanted.type == JointType::kContinuous &&
+         std::none_of(joints.begin(), joints.end(), [&](const Joint& joint) {
+           return joint.mimics && joint.coordinate == wanted.coordinate;
+         });
+}
+
+}  // namespace
+
+// The most halvings of a way; they bring whole turns between two positions down to a tenth of kFar.
+constexpr int PassiveJoints::kHalvings;
+constexpr int PassiveJoints::kMostSearches;
+
+PassiveJoints::PassiveJoints(const Mechanism& mechanism, const Dynamics& dynamics)
+    : completed_(dynamics.coordinates()), before_(dynamics.assembly()), closed_(before_) {
+  for (std::size_t i = 0; i < mechanism.coordinates().size(); ++i) {
+    const Joint& joint = mechanism.joints()[static_cast<std::size_t>(mechanism.coordinates()[i])];
+    const auto index = static_cast<Eigen::Index>(i);
+    if (joint.type != JointType::kPrismatic) turning_.push_back(index);
+    if (!dynamics.actuated()[i]) continue;
+    given_.push_back(index);
+    wraps_.push_back(wraps(mechanism, joint));
+  }
+  targets_.fill(closed_);
+}
+
+bool PassiveJoints::complete(Motion& motion, const Dynamics& dynamics,
+                             Dynamics::Workspace& workspace) {
+  if (!dynamics.closed()) return true;
+  before_ = closed_;
+  setNearest(motion);
+  searches_ = failures_ = 0;
+  bool closes = follow(motion, kHalvings, dynamics, workspace);
+  // Searches from where the way ends, as the caller wants to know how far the loops stay open at
+  // the position itself. Where they close after all, the way there led through a gap.
+  if (givenUp()) closes = search(motion, targets_[kHalvings], dynamics, workspace);
+  closed_ = closes ? completed_.q : before_;
+  // Given positions stay as they are, with their whole turns.
+  for (const Eigen::Index i : given_) completed_.q[i] = motion.q[i];
+  motion = completed_;
+  return closes;
+}
+
+// Takes the given positions without the whole turns by which drivers wrap: the way back over a
+// whole turn may pass singular positions.
+void PassiveJoints::setNearest(const Motion& motion) {
+  Eigen::VectorXd& nearest = targets_[kHalvings];
+  nearest = closed_;
+  for (std::size_t i = 0; i < given_.size(); ++i) {
+    double& position = nearest[given_[i]];
+    const double turns = wraps_[i] ? std::round((motion.q[given_[i]] - position) / kTurn) : 0;
+    position = motion.q[given_[i]] - kTurn * turns;
+  }
+}
+
+// Moves the given joints to the target and takes the passive joints along.
+bool PassiveJoints::follow(const Motion& motion, int halvings, const Dynamics& dynamics,
+                           Dynamics::Workspace& workspace) {
+  const auto place = static_cast<std::size_t>(halvings);
+  if (givenUp()) return false;
+  const bool closes = search(motion, targets_[place], dynamics, workspace);
+  if (halvings > 0 && (!closes || turnsFar(closed_, completed_.q))) {
+    targets_[place - 1] = (closed_ + targets_[place]) / 2;
+    follow(motion, halvings - 1, dynamics, workspace);  // a position in between may be singular
+    targets_[place - 1] = targets_[place];
+    return follow(motion, halvings - 1, dynamics, workspace);
+  }
+  if (closes) closed_ = completed_.q;
+  if (!closes) ++failures_;
+  return closes;
+}
+
+// Searches for `target` from the position that was found last.
+bool PassiveJoints::search(const Motion& motion, const Eigen::VectorXd& target,
+                           const Dynamics& dynamics, Dynamics::Workspace& workspace) {
+  ++searches_;
+  completed_ = motion;
+  completed_.q = closed_;
+  for (const Eigen::Index i : given_) completed_.q[i] = target[i];
+  return dynamics.completeFromCloseBy(completed_, workspace);
+}
+
+bool PassiveJoints::givenUp() const {
+  return failures_ >= kMostFailures || searches_ >= kMostSearches - 1;
+}
+
+bool PassiveJoints::turnsFar(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const {
+  return std::any_of(turning_.begin(), turning_.end(),
+                     [&](Eigen::Index i) { return std::abs(to[i] - from[i]) > kFar; });
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,119 @@
+#include "dynamics/sample_rows.h"
+
+#include <string>
+#include <vector>
+
+#include "base/worker_threads.h"
+#include "dynamics/compiled_dynamics.h"
+#include "tree/sample_block.h"
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+
+struct SampleRows::Chain {
+  Chain(const InverseDynamics& dynamics, std::size_t capacity, int threads)
+      : block(dynamics, capacity, threads), row(dynamics.makeWorkspace()) {}
+
+  SampleBlock block;
+  Workspace row;
+};
+
+struct SampleRows::Loops {
+  Loops(const ClosedLoopDynamics& of, std::size_t capacity, int threads)
+      : dynamics(of), workers(threads) {
+    for (int i = 0; i < threads; ++i) {
+      workspaces.push_back(dynamics.makeWorkspace());
+      motions.emplace_back(dynamics.coordinates());
+    }
+    results.assign(capacity, workspaces.front().results());
+  }
+
+  void compute(const MotionTable& table, std::size_t first, std::size_t count) {
+    if (count > results.size()) {
+      throw MotionError("block: " + std::to_string(count) + " rows are more than its capacity, " +
+                        std::to_string(results.size()));
+    }
+    for (const Eigen::MatrixXd* columns :
+         {&table.positions, &table.velocities, &table.accelerations}) {
+      if (columns->cols() != dynamics.coordinates() ||
+          static_cast<std::size_t>(columns->rows()) < first + count) {
+        throw MotionError("motion: a table of " + std::to_string(first + count) + " rows and " +
+                          std::to_string(dynamics.coordinates()) + " coordinates is needed");
+      }
+    }
+    struct Job {
+      Loops& all;
+      const MotionTable& table;
+      std::size_t first, count;
+    } job{*this, table, first, count};
+    workers.run(
+        [](void* context, int index) {
+          const Job& of = *static_cast<Job*>(context);
+          of.all.computeShare(of.table, of.first, of.count, static_cast<std::size_t>(index));
+        },
+        &job);
+    computed = count;
+  }
+
+  void computeShare(const MotionTable& table, std::size_t first, std::size_t count,
+                    std::size_t thread) {
+    const std::size_t threads = workspaces.size();
+    const std::size_t end = count * (thread + 1) / threads;
+    for (std::size_t i = count * thread / threads; i < end; ++i) {
+      takeRow(table, first + i, motions[thread]);
+      dynamics.compute(motions[thread], workspaces[thread]);
+      results[i] = workspaces[thread].results();
+    }
+  }
+
+  const ClosedLoopDynamics& dynamics;
+  WorkerThreads workers;
+  std::vector<ClosedLoopDynamics::Workspace> workspaces;  // by thread
+  std::vector<Motion> motions;                            // by thread
+  std::vector<Results> results;                           // by row
+  std::size_t computed = 0;
+};
+
+SampleRows::SampleRows(const Dynamics& dynamics, std::size_t capacity, int threads) {
+  if (threads < 1) {
+    throw Error("blocks: " + std::to_string(threads) + " threads; at least 1 is needed");
+  }
+  const Dynamics::Impl& plan = *dynamics.impl_;
+  if (plan.chain) chain_ = std::make_unique<Chain>(*plan.chain, capacity, threads);
+  if (plan.loops) loops_ = std::make_unique<Loops>(*plan.loops, capacity, threads);
+}
+
+SampleRows::~SampleRows() = default;
+SampleRows::SampleRows(SampleRows&&) noexcept = default;
+SampleRows& SampleRows::operator=(SampleRows&&) noexcept = default;
+
+std::size_t SampleRows::capacity() const {
+  return chain_ ? chain_->block.capacity() : loops_->results.size();
+}
+
+void SampleRows::compute(const MotionTable& table, std::size_t first, std::size_t count) {
+  if (chain_) chain_->block.compute(table, first, count);
+  if (loops_) loops_->compute(table, first, count);
+}
+
+const Results& SampleRows::read(std::size_t index) {
+  if (chain_) {
+    chain_->block.read(index, chain_->row);
+    return chain_->row.results();
+  }
+  if (index >= loops_->computed) {
+    throw MotionError("block: there is no sample " + std::to_string(index) + ", it has " +
+                      std::to_string(loops_->computed));
+  }
+  return loops_->results[index];
+}
+
+void takeRow(const MotionTable& table, std::size_t row, Motion& motion) {
+  if (motion.q.size() == 0) return;  // a table without columns has no rows
+  const auto index = static_cast<Eigen::Index>(row);
+  motion.q = table.positions.row(index);
+  motion.qd = table.velocities.row(index);
+  motion.qdd = table.accelerations.row(index);
+}
+
+}  // namespace virtual_work_dynamics

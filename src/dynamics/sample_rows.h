@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "virtual_work_dynamics/dynamics.h"
+#include "virtual_work_dynamics/motion_table.h"
+
+namespace virtual_work_dynamics {
+
+/// Computes rows of a MotionTable a block at a time and hands the results out row by row: in an
+/// open chain several samples in each vector instruction, with closed loops one after the other, in
+/// both cases divided among threads.
+class SampleRows {
+ public:
+  /// @param dynamics must outlive it.
+  /// @param capacity the most rows of a block.
+  /// @throws Error when `threads` is less than 1.
+  SampleRows(const Dynamics& dynamics, std::size_t capacity, int threads = 1);
+  ~SampleRows();
+  SampleRows(SampleRows&&) noexcept;
+  SampleRows& operator=(SampleRows&&) noexcept;
+
+  std::size_t capacity() const;
+
+  /// Computes rows [first, first + count) of `table`, whose joints are the generalized coordinates
+  /// in their order and which has velocities and accelerations. Does not allocate.
+  /// @throws MotionError when the table differs from that, has fewer rows, or when count is more
+  ///   than capacity().
+  void compute(const MotionTable& table, std::size_t first, std::size_t count);
+
+  /// Results of row `index` of the last block; valid until another one is read or computed. Does
+  /// not allocate.
+  /// @throws MotionError when there is no such row.
+  const Results& read(std::size_t index);
+
+ private:
+  struct Chain;
+  struct Loops;
+  std::unique_ptr<Chain> chain_;  // exactly one of the two is set
+  std::unique_ptr<Loops> loops_;
+};
+
+/// Copies row `row` of a table of all coordinates, with velocities and accelerations, into
+/// `motion`. Does not allocate when `motion` has the lengths already.
+void takeRow(const MotionTable& table, std::size_t row, Motion& motion);
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,186 @@
+#include <algorithm>
+#include <limits>
+
+#include "loops/compiled_loops.h"
+
+namespace virtual_work_dynamics {
+
+ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compiled)
+    : plan(compiled),
+      solvers(plan.mechanism, plan.loops, plan.groups, plan.kinematics, plan.length, plan.closures),
+      first_(plan.first_pass->makeWorkspace()),
+      second_(plan.second_pass->makeWorkspace()),
+      child_axes_(*plan.child_axes),
+      root_axes_(*plan.root_axes),
+      tree_reactions_(plan.mechanism.joints().size()),
+      closures_(plan.closures),
+      rest_(plan.assembly.size()) {
+  first_load_.wrenches.resize(plan.own_wrenches + 2 * plan.springs.size());
+  second_load_.wrenches.resize(plan.tree.applied_wrenches.size());
+  const auto actuated_closures = static_cast<Eigen::Index>(plan.actuated_closures.size());
+  results.effort.setZero(plan.assembly.size() + actuated_closures);
+  results.child_axes.resize(child_axes_.size());
+  results.root_axes.resize(root_axes_.size());
+  if (plan.request.poses) results.poses.resize(root_axes_.size());
+  if (plan.request.twists) results.twists.resize(root_axes_.size());
+  LoopResults& loops = results.loops;
+  effort_freedoms_.resize(static_cast<std::size_t>(results.effort.size()));
+  loops.effort_determined.assign(effort_freedoms_.size(), true);
+  loops.child_axes_determined.assign(child_axes_.size(), kAllComponents);
+  loops.root_axes_determined.assign(root_axes_.size(), kAllComponents);
+  loops.effort_exists = loops.effort_determined;
+  loops.child_axes_exist = loops.child_axes_determined;
+  loops.root_axes_exist = loops.root_axes_determined;
+  loops.closure_conditions.assign(plan.closures, 1);
+  loops.residuals.resize(plan.closures);
+  loops.relative_residuals.resize(plan.closures);
+  loops.actuated_positions.setZero(actuated_closures);
+  loops.actuated_velocities.setZero(actuated_closures);
+  loops.tree_wrenches.resize(second_load_.wrenches.size());
+}
+
+void ClosedLoopDynamics::Workspace::Impl::compute(const Motion& motion, const Load& load) {
+  push(motion, load);
+  solvers.residuals.set(solvers.kinematics, plan.static_motion ? rest_ : motion);
+  results.loops.residuals = solvers.residuals.values();
+  results.loops.relative_residuals = solvers.residuals.relative();
+  setActuatedClosures();
+  solve();
+  react(motion);
+  setFlags();
+  setDeterminacy();
+  setExistence();
+}
+
+// Computes the efforts of the open tree, which closures and actuators have to balance.
+void ClosedLoopDynamics::Workspace::Impl::push(const Motion& motion, const Load& load) {
+  solvers.kinematics.setPosition(motion.q);
+  std::copy(load.wrenches.begin(), load.wrenches.end(), first_load_.wrenches.begin());
+  for (std::size_t i = 0; i < plan.springs.size(); ++i) {
+    const Eigen::Vector3d force = plan.springs.force(i, solvers.kinematics);
+    const std::size_t end = plan.own_wrenches + 2 * i;
+    first_load_.wrenches[end] = {force, Eigen::Vector3d::Zero()};
+    first_load_.wrenches[end + 1] = {-force, Eigen::Vector3d::Zero()};
+  }
+  plan.first_pass->compute(motion, first_load_, first_);
+  for (std::size_t i = 0; i < plan.reaction_joints.size(); ++i) {
+    tree_reactions_[static_cast<std::size_t>(plan.reaction_joints[i])] = first_.rootAxes()[i];
+  }
+}
+
+void ClosedLoopDynamics::Workspace::Impl::setActuatedClosures() {
+  for (std::size_t i = 0; i < plan.actuated_closures.size(); ++i) {
+    const auto place = static_cast<Eigen::Index>(i);
+    const std::size_t closure = plan.loops.actuated_closures[i];
+    results.loops.actuated_positions[place] = solvers.kinematics.freePosition(closure);
+    results.loops.actuated_velocities[place] = solvers.kinematics.freeVelocity(closure);
+  }
+}
+
+// Solves (3.1) for motions that are known: S^T tau + A^T lambda = tau_tree.
+void ClosedLoopDynamics::Workspace::Impl::solve() {
+  for (std::size_t i = 0; i < plan.loops.actuated.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    results.effort[row] = plan.loops.actuated[i] ? first_.effort()[row] : 0;
+  }
+  for (LoopForces& group : solvers.forces) {
+    group.setPosition();
+    group.solve(first_.effort(), tree_reactions_);
+    const LoopForces::State& solution = group.solution();
+    for (const LoopUnknowns::Effort& actuator : group.efforts()) {
+      results.effort[static_cast<Eigen::Index>(actuator.index)] =
+          actuator.unit * solution.x[actuator.unknown];
+    }
+    for (std::size_t c = 0; c < solution.closures.size(); ++c) {
+      closures_[group.group().closures[c]] = solution.closures[c];
+    }
+  }
+}
+
+// Computes reactions by (3.8) with the closures' wrenches applied to both of their links.
+void ClosedLoopDynamics::Workspace::Impl::react(const Motion& motion) {
+  const LoopKinematics& kinematics = solvers.kinematics;
+  std::vector<Wrench>& load = second_load_.wrenches;
+  std::copy(first_load_.wrenches.begin(), first_load_.wrenches.end(), load.begin());
+  for (std::size_t c = 0; c < closures_.size(); ++c) {
+    const ClosureWrench& wrench = closures_[c];
+    const std::size_t child = first_load_.wrenches.size() + 2 * c;
+    const Eigen::Vector3d lever = kinematics.childOrigin(c) - kinematics.parentOrigin(c);
+    load[child] = {wrench.force, wrench.moment};
+    load[child + 1] = {-wrench.force, -(wrench.moment + lever.cross(wrench.force))};
+  }
+  results.loops.tree_wrenches = load;
+  plan.second_pass->compute(motion, second_load_, second_);
+  child_axes_.setValues(kinematics, second_.childAxes(), closures_, results.child_axes);
+  root_axes_.setValues(kinematics, second_.rootAxes(), closures_, results.root_axes);
+  if (plan.request.poses) root_axes_.setPoses(kinematics, second_.poses(), results.poses);
+  if (plan.request.twists) root_axes_.setTwists(kinematics, second_.twists(), results.twists);
+}
+
+void ClosedLoopDynamics::Workspace::Impl::setFlags() {
+  const LoopKinematics& kinematics = solvers.kinematics;
+  child_axes_.reset();
+  root_axes_.reset();
+  std::fill(effort_freedoms_.begin(), effort_freedoms_.end(), 0);
+  for (std::size_t g = 0; g < solvers.forces.size(); ++g) {
+    LoopForces& group = solvers.forces[g];
+    for (Eigen::Index i = 0; i < group.directions(); ++i) {
+      const LoopForces::State& change = group.direction(i);
+      child_axes_.addChange(kinematics, g, group, change);
+      root_axes_.addChange(kinematics, g, group, change);
+      for (const std::size_t j : change.touched_efforts) {
+        const LoopUnknowns::Effort& actuator = group.efforts()[j];
+        const double open = change.x[actuator.unknown] / group.leastChange();
+        effort_freedoms_[actuator.index] += open * open;
+      }
+    }
+  }
+  child_axes_.setFlags(results.loops.child_axes_determined);
+  root_axes_.setFlags(results.loops.root_axes_determined);
+  for (std::size_t i = 0; i < effort_freedoms_.size(); ++i) {
+    results.loops.effort_determined[i] = effort_freedoms_[i] <= 1;
+  }
+}
+
+void ClosedLoopDynamics::Workspace::Impl::setDeterminacy() {
+  // Coordinates in no loop are actuated: each is an unknown of its own.
+  Determinacy& determinacy = results.loops.determinacy;
+  determinacy = {};
+  determinacy.rank = static_cast<int>(plan.assembly.size());
+  determinacy.gap = std::numeric_limits<double>::infinity();
+  determinacy.condition = 1;
+  for (const LoopForces& group : solvers.forces) {
+    determinacy.rank += static_cast<int>(group.rank() - group.coordinates());
+    determinacy.free_motions += static_cast<int>(group.coordinates() - group.rank());
+    determinacy.redundancy += static_cast<int>(group.unknowns() - group.rank());
+    determinacy.redundant_constraints += static_cast<int>(group.redundantConstraints());
+    determinacy.gap = std::min(determinacy.gap, group.gap());
+    determinacy.condition = std::max(determinacy.condition, group.condition());
+    for (const std::size_t c : group.group().closures) {
+      results.loops.closure_conditions[c] = group.condition();
+    }
+  }
+}
+
+// This rule holds everywhere: in a singular position a result has a value when it is determined
+// there, or when it is not determined in regular positions either, so that the scene's policy
+// chooses it.
+void ClosedLoopDynamics::Workspace::Impl::setExistence() {
+  LoopResults& loops = results.loops;
+  const bool regular = !results.singular();
+  const auto set = [&](const std::vector<Determined>& now, const std::vector<Determined>& usual,
+                       std::vector<Determined>& exist) {
+    for (std::size_t i = 0; i < usual.size(); ++i) {
+      for (std::size_t j = 0; j < usual[i].size(); ++j) {
+        exist[i][j] = regular || now[i][j] || !usual[i][j];
+      }
+    }
+  };
+  set(loops.child_axes_determined, plan.child_axes_usual, loops.child_axes_exist);
+  set(loops.root_axes_determined, plan.root_axes_usual, loops.root_axes_exist);
+  for (std::size_t i = 0; i < plan.effort_usual.size(); ++i) {
+    loops.effort_exists[i] = regular || loops.effort_determined[i] || !plan.effort_usual[i];
+  }
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "loops/completion.h"
+#include "loops/forces.h"
+#include "loops/groups.h"
+#include "loops/kinematics.h"
+#include "loops/point_springs.h"
+#include "loops/reactions.h"
+#include "loops/residuals.h"
+#include "scene/resolved_loops.h"
+#include "virtual_work_dynamics/closed_loop_dynamics.h"
+#include "virtual_work_dynamics/inverse_dynamics.h"
+
+namespace virtual_work_dynamics {
+
+/// The solvers of all groups of loops, at one position. Serves one thread.
+struct LoopSolvers {
+  /// `mechanism`, `loops` and `groups` must outlive it.
+  /// @param start where they begin; copied
+  /// @param length of the loops, m
+  /// @param closures their number
+  LoopSolvers(const Mechanism& mechanism, const LoopScene& loops,
+              const std::vector<LoopGroup>& groups, const LoopKinematics& start, double length,
+              std::size_t closures);
+  LoopSolvers(const LoopSolvers&) = delete;  // forces refer to kinematics
+
+  LoopKinematics kinematics;
+  LoopCompletion completion;
+  std::vector<LoopForces> forces;  // by group
+  LoopResiduals residuals;
+};
+
+/// The compiled form of a ClosedLoopDynamics; it does not change after construction.
+struct ClosedLoopDynamics::Impl {
+  Impl(const Mechanism& mechanism, const Scene& scene, const Request& wanted);
+  Impl(const Impl&) = delete;  // solvers refer to it
+
+  Request request;
+  Mechanism mechanism;
+  bool static_motion;
+  LoopScene loops;
+  PointSprings springs;
+  Scene bare_tree;  // without closures and springs
+  Scene tree;
+  std::size_t own_wrenches;  // number of the scene's own, the tree's first
+  Load own_load;             // values of the scene's own wrenches
+  std::size_t closures;
+  std::vector<std::string> actuated_closures;
+  LoopKinematics kinematics;  // at the assembly
+  std::vector<LoopGroup> groups;
+  double length = 1;
+  Eigen::VectorXd assembly;
+  std::unique_ptr<LoopReactions> child_axes, root_axes;  // to be copied
+  // The first pass gives efforts of the tree without closures, the second reactions with them.
+  std::unique_ptr<InverseDynamics> first_pass, second_pass;
+  std::vector<int> reaction_joints;  // of the first pass
+  // Results that are determined in regular positions; see LoopResults::effort_exists.
+  std::vector<bool> effort_usual;
+  std::vector<Determined> child_axes_usual, root_axes_usual;
+
+ private:
+  void close(const Scene& scene);
+  void setUsual();
+};
+
+/// The scratch memory of one thread.
+struct ClosedLoopDynamics::Workspace::Impl {
+  explicit Impl(const ClosedLoopDynamics::Impl& compiled);
+
+  void compute(const Motion& motion, const Load& load);
+
+  const ClosedLoopDynamics::Impl& plan;
+  LoopSolvers solvers;
+  Results results;
+
+ private:
+  void push(const Motion& motion, const Load& load);
+  void solve();
+  void react(const Motion& motion);
+  void setActuatedClosures();
+  void setFlags();
+  void setExistence();
+  void setDeterminacy();
+
+  virtual_work_dynamics::Workspace first_, second_;  // of the two passes
+  LoopReactions child_axes_, root_axes_;
+  Load first_load_, second_load_;
+  std::vector<Wrench> tree_reactions_;   // by joint
+  std::vector<ClosureWrench> closures_;  // by closure
+  std::vector<double> effort_freedoms_;  // sums of squared changes over leastChange()
+  Motion rest_;
+};
+
+}  // namespace virtual_work_dynamics

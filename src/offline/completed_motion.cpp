@@ -1,0 +1,121 @@
+#include "offline/completed_motion.h"
+
+#include <algorithm>
+#include <iostream>
+#include <sstream>
+
+#include "dynamics/given_joints.h"
+#include "dynamics/sample_rows.h"
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+using Names = std::vector<std::string>;
+
+std::string joined(const Names& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+// Chooses all coordinates, or the actuated ones when no passive joint is given.
+JointChoice choiceOf(const std::string& path, const Mechanism& mechanism,
+                     const Dynamics& dynamics) {
+  return [&path, &mechanism, &dynamics](const Names& header) {
+    const Names& all = mechanism.coordinateNames();
+    const GivenJoints rule(mechanism, dynamics);
+    // The file's reader names missing actuated joints.
+    std::vector<bool> given = dynamics.actuated();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (std::find(header.begin(), header.end(), all[i]) != header.end()) given[i] = true;
+    }
+    if (const auto problem = rule.problem(given)) throw FileError(path + ": " + *problem);
+    Names wanted;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (given[i]) wanted.push_back(all[i]);
+    }
+    return wanted;
+  };
+}
+
+// Widens the table to columns of all coordinates; new columns are zero.
+void widen(const Mechanism& mechanism, MotionTable& table) {
+  const Names& all = mechanism.coordinateNames();
+  for (Eigen::MatrixXd* columns : {&table.positions, &table.velocities, &table.accelerations}) {
+    const Eigen::MatrixXd given = *columns;
+    columns->setZero(static_cast<Eigen::Index>(table.times.size()),
+                     static_cast<Eigen::Index>(all.size()));
+    for (std::size_t i = 0; i < table.joints.size(); ++i) {
+      const auto place = std::find(all.begin(), all.end(), table.joints[i]) - all.begin();
+      columns->col(place) = given.col(static_cast<Eigen::Index>(i));
+    }
+  }
+  table.joints = all;
+}
+
+struct Level {
+  const char* name;
+  const char* unit;
+  double ClosureResidual::*residual;
+};
+
+constexpr Level kLevels[] = {{"positions", "m or rad", &ClosureResidual::position},
+                             {"velocities", "m/s or rad/s", &ClosureResidual::velocity},
+                             {"accelerations", "m/s^2 or rad/s^2", &ClosureResidual::acceleration}};
+
+}  // namespace
+
+CompletedMotion::CompletedMotion(const std::string& path, const Mechanism& mechanism,
+                                 const Scene& scene, const Dynamics& dynamics, double tolerance)
+    : closures_(dynamics.closureNames()),
+      tolerance_(tolerance),
+      file_(readMotion(path, mechanism, choiceOf(path, mechanism, dynamics))),
+      row_(dynamics.coordinates()),
+      passive_(mechanism, dynamics) {
+  positions_follow_ = file_.table.joints.size() < mechanism.coordinateNames().size();
+  if (dynamics.closuresDetermine() && !scene.static_motion) {
+    velocities_follow_ = positions_follow_ || !file_.table.hasVelocities();
+    accelerations_follow_ = positions_follow_ || !file_.table.hasAccelerations();
+  }
+  completeDerivatives(mechanism, scene, file_);
+  if (positions_follow_) widen(mechanism, file_.table);
+  Names follow;
+  if (positions_follow_) follow.push_back("positions");
+  if (velocities_follow_) follow.push_back("velocities");
+  if (accelerations_follow_) follow.push_back("accelerations");
+  if (!follow.empty()) {
+    std::cerr << "note: " << path
+              << ": of passive joints, computed from the closures: " << joined(follow) << "\n";
+  }
+}
+
+void CompletedMotion::complete(std::size_t row, const Dynamics& dynamics,
+                               Dynamics::Workspace& workspace) {
+  if (!completes()) return;
+  MotionTable& table = file_.table;
+  takeRow(table, row, row_);
+  const bool closes = positions_follow_ ? passive_.complete(row_, dynamics, workspace)
+                                        : dynamics.complete(row_, workspace);
+  if (!closes) throw FileError(file_.at(row) + ": " + dynamics.whyOpen(row_, workspace));
+  const auto index = static_cast<Eigen::Index>(row);
+  if (positions_follow_) table.positions.row(index) = row_.q;
+  if (velocities_follow_) table.velocities.row(index) = row_.qd;
+  if (accelerations_follow_) table.accelerations.row(index) = row_.qdd;
+}
+
+void CompletedMotion::check(std::size_t row, const Results& computed) const {
+  for (std::size_t i = 0; i < closures_.size(); ++i) {
+    for (const Level& level : kLevels) {
+      const double relative = computed.loops.relative_residuals[i].*level.residual;
+      if (relative <= tolerance_) continue;
+      std::ostringstream text;
+      text << file_.at(row) << ": the " << level.name << " violate closure '" << closures_[i]
+           << "' by " << computed.loops.residuals[i].*level.residual << " " << level.unit << ", "
+           << relative << " relative; the tolerance is " << tolerance_;
+      throw FileError(text.str());
+    }
+  }
+}
+
+}  // namespace virtual_work_dynamics

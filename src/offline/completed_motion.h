@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "offline/motion_file.h"
+#include "virtual_work_dynamics/dynamics.h"
+#include "virtual_work_dynamics/passive_joints.h"
+
+namespace virtual_work_dynamics {
+
+/// The recorded motion of all coordinates of a mechanism. A file that gives all joints is taken as
+/// it is and checked against the loops, if there are any. One that gives only the actuated joints
+/// is completed by the closures, row by row.
+class CompletedMotion {
+ public:
+  /// Reads the file. Derivatives that it lacks are estimated for the joints that it gives, and
+  /// follow from the closures for the others.
+  /// @param tolerance for relative residuals of the loops
+  /// @throws FileError naming joints that are missing.
+  CompletedMotion(const std::string& path, const Mechanism& mechanism, const Scene& scene,
+                  const Dynamics& dynamics, double tolerance);
+
+  /// The motion of all coordinates; rows that are not completed yet lack what follows from the
+  /// closures.
+  const MotionFile& file() const { return file_; }
+
+  /// Whether anything in its rows follows from the closures.
+  bool completes() const {
+    return positions_follow_ || velocities_follow_ || accelerations_follow_;
+  }
+  /// Completes a row of file(). Positions that it lacks are searched for from those of the row
+  /// completed before; for the first row, from the assembly.
+  /// @throws FileError naming line, closure and amount when the loops cannot be closed.
+  void complete(std::size_t row, const Dynamics& dynamics, Dynamics::Workspace& workspace);
+  /// Checks that a row closes the loops.
+  /// @throws FileError naming line, closure and amount when the computed row violates a loop.
+  void check(std::size_t row, const Results& computed) const;
+
+ private:
+  std::vector<std::string> closures_;
+  double tolerance_;
+  MotionFile file_;
+  // Whether the passive joints' positions, velocities and accelerations follow from the closures.
+  bool positions_follow_ = false, velocities_follow_ = false, accelerations_follow_ = false;
+  Motion row_;
+  PassiveJoints passive_;
+};
+
+}  // namespace virtual_work_dynamics

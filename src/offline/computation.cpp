@@ -1,0 +1,70 @@
+#include "offline/computation.h"
+
+#include <algorithm>
+#include <future>
+
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+// Rows that a thread computes between two hand-overs.
+constexpr std::size_t kRowsAtOnce = 512;
+constexpr std::size_t kClosedRowsAtOnce = 64;
+
+// Limits threads to the number of rows.
+int usefulThreads(int threads, std::size_t rows) {
+  const std::size_t most = std::max<std::size_t>(1, rows);
+  return static_cast<int>(std::min(static_cast<std::size_t>(threads), most));
+}
+
+SampleRows samplesOf(const Dynamics& dynamics, std::size_t rows, int wanted) {
+  const int threads = usefulThreads(wanted, rows);
+  const std::size_t at_once = dynamics.closed() ? kClosedRowsAtOnce : kRowsAtOnce;
+  return SampleRows(dynamics, at_once * static_cast<std::size_t>(threads), threads);
+}
+
+}  // namespace
+
+Computation::Computation(const Dynamics& dynamics, CompletedMotion& motion, int threads)
+    : dynamics_(dynamics),
+      motion_(motion),
+      ahead_(threads > 1 && motion.completes()),
+      samples_(samplesOf(dynamics, rows(), ahead_ ? threads - 1 : threads)),
+      workspace_(dynamics.makeWorkspace()) {}
+
+void Computation::run(const Take& take) {
+  Motion row(dynamics_.coordinates());
+  Block now = complete(0);
+  while (now.count > 0 || now.open) {
+    std::future<Block> next;
+    if (!now.open) {
+      next = std::async(ahead_ ? std::launch::async : std::launch::deferred,
+                        [&] { return complete(now.start + now.count); });
+    }
+    samples_.compute(motion_.file().table, now.start, now.count);
+    for (std::size_t i = 0; i < now.count; ++i) {
+      const Results& results = samples_.read(i);
+      motion_.check(now.start + i, results);
+      takeRow(motion_.file().table, now.start + i, row);
+      take(now.start + i, row, results);
+    }
+    if (now.open) std::rethrow_exception(now.open);
+    now = next.get();
+  }
+}
+
+Computation::Block Computation::complete(std::size_t start) {
+  Block block{start, 0, nullptr};
+  const std::size_t wanted = std::min(samples_.capacity(), rows() - start);
+  try {
+    for (; block.count < wanted; ++block.count) {
+      motion_.complete(start + block.count, dynamics_, workspace_);
+    }
+  } catch (const FileError&) {
+    block.open = std::current_exception();  // rethrown when the rows before it were checked
+  }
+  return block;
+}
+
+}  // namespace virtual_work_dynamics

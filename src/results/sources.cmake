@@ -1,0 +1,1 @@
+vwd_core(results.cpp)

@@ -1,0 +1,352 @@
+#include "ros/outputs.h"
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <geometry_msgs/WrenchStamped.h>
+#include <sensor_msgs/JointState.h>
+#include <sensor_msgs/MultiDOFJointState.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "ros/determinacy_message.h"
+#include "ros/message_copies.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+using Names = std::vector<std::string>;
+
+void addOnce(const std::string& name, Names& names) {
+  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+}
+
+std::size_t placeOf(const std::string& name, const Names& names) {
+  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+std::vector<std::size_t> placesOf(const Names& wanted, const Names& names) {
+  std::vector<std::size_t> places;
+  for (const std::string& name : wanted) places.push_back(placeOf(name, names));
+  return places;
+}
+
+ros::Time timeOf(std::int64_t stamp_ns) {
+  ros::Time stamp;
+  stamp.fromNSec(static_cast<std::uint64_t>(stamp_ns));
+  return stamp;
+}
+
+template <typename Message>
+ros::AdvertiseOptions advertised(const std::string& topic, std::uint32_t queue) {
+  return ros::AdvertiseOptions::create<Message>(topic, queue, {}, {}, ros::VoidConstPtr(), nullptr);
+}
+
+// --- ~effort: names, the positions and velocities used, efforts
+
+class EffortMessage : public MessageOf<sensor_msgs::JointState> {
+ public:
+  EffortMessage(const Dynamics& plan, const std::string& frame) : names_(plan.effortNames()) {
+    message_.header.frame_id = frame;
+    message_.name = names_;
+    for (auto* values : {&message_.position, &message_.velocity, &message_.effort}) {
+      values->resize(names_.size());
+    }
+  }
+
+  void fill(const OutputSample& sample) override {
+    message_.header.stamp = timeOf(sample.stamp_ns);
+    const bool as_before = allExist(sample.results) && message_.name.size() == names_.size();
+    if (!as_before) message_.name.clear();
+    message_.position.clear();
+    message_.velocity.clear();
+    message_.effort.clear();
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (!sample.results.effortExists(i)) continue;
+      if (!as_before) message_.name.push_back(names_[i]);
+      const auto index = static_cast<Eigen::Index>(i);
+      const Eigen::Index closure = index - sample.motion.q.size();
+      const LoopResults& loops = sample.results.loops;
+      message_.position.push_back(closure < 0 ? sample.motion.q[index]
+                                              : loops.actuated_positions[closure]);
+      message_.velocity.push_back(closure < 0 ? sample.motion.qd[index]
+                                              : loops.actuated_velocities[closure]);
+      message_.effort.push_back(sample.results.effort[index]);
+    }
+  }
+
+ private:
+  bool allExist(const Results& results) const {
+    const std::vector<bool>& exists = results.loops.effort_exists;
+    return std::find(exists.begin(), exists.end(), false) == exists.end();
+  }
+
+  const Names names_;  // all names; the message has those of existing results
+};
+
+class EffortOutput : public Output {
+ public:
+  explicit EffortOutput(std::string frame) : frame_(std::move(frame)) {}
+
+  std::string topic() const override { return "effort"; }
+  ros::AdvertiseOptions options(const std::string& topic, std::uint32_t queue) const override {
+    return advertised<sensor_msgs::JointState>(topic, queue);
+  }
+  void addTo(Request& request) const override { request.efforts = true; }
+  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan) const override {
+    return std::make_unique<EffortMessage>(plan, frame_);
+  }
+
+ private:
+  std::string frame_;
+};
+
+// --- ~reactions: every reaction in root axes (4.3), with the poses of the joint frames
+
+class ReactionsMessage : public MessageOf<sensor_msgs::MultiDOFJointState> {
+ public:
+  ReactionsMessage(const Dynamics& plan, const Names& reactions, const std::string& frame,
+                   bool twist)
+      : names_(reactions), places_(placesOf(reactions, plan.request().root_axes)), twist_(twist) {
+    message_.header.frame_id = frame;
+    message_.joint_names = names_;
+    resize(names_.size());
+  }
+
+  void fill(const OutputSample& sample) override {
+    message_.header.stamp = timeOf(sample.stamp_ns);
+    const auto count = static_cast<std::size_t>(std::count_if(
+        places_.begin(), places_.end(), [&](std::size_t i) { return exists(sample.results, i); }));
+    const bool as_before = count == names_.size() && message_.joint_names.size() == count;
+    if (!as_before) {
+      message_.joint_names.clear();
+      resize(count);
+    }
+    std::size_t to = 0;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      const std::size_t from = places_[i];
+      if (!exists(sample.results, from)) continue;
+      if (!as_before) message_.joint_names.push_back(names_[i]);
+      copyWrench(sample.results.root_axes[from], message_.wrench[to]);
+      copyPose(sample.results.poses[from], message_.transforms[to]);
+      if (twist_) copyTwist(sample.results.twists[from], message_.twist[to]);
+      ++to;
+    }
+  }
+
+ private:
+  static bool exists(const Results& results, std::size_t place) {
+    return results.rootAxesExist(place) == kAllComponents;
+  }
+  void resize(std::size_t count) {
+    message_.wrench.resize(count);
+    message_.transforms.resize(count);
+    message_.twist.resize(twist_ ? count : 0);
+  }
+
+  const Names names_;  // all names; the message has those of existing results
+  const std::vector<std::size_t> places_;
+  const bool twist_;
+};
+
+class ReactionsOutput : public Output {
+ public:
+  ReactionsOutput(Names reactions, std::string frame, bool twist)
+      : reactions_(std::move(reactions)), frame_(std::move(frame)), twist_(twist) {}
+
+  std::string topic() const override { return "reactions"; }
+  ros::AdvertiseOptions options(const std::string& topic, std::uint32_t queue) const override {
+    return advertised<sensor_msgs::MultiDOFJointState>(topic, queue);
+  }
+  void addTo(Request& request) const override {
+    for (const std::string& name : reactions_) addOnce(name, request.root_axes);
+    request.poses = true;
+    request.twists = request.twists || twist_;
+  }
+  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan) const override {
+    return std::make_unique<ReactionsMessage>(plan, reactions_, frame_, twist_);
+  }
+
+ private:
+  Names reactions_;
+  std::string frame_;
+  bool twist_;
+};
+
+// --- ~reaction/<name>: the wrench in the child link's or the closure's own frame
+
+class WrenchMessage : public MessageOf<geometry_msgs::WrenchStamped> {
+ public:
+  WrenchMessage(const Dynamics& plan, const std::string& reaction, const std::string& frame)
+      : place_(placeOf(reaction, plan.request().child_axes)) {
+    message_.header.frame_id = frame;
+  }
+
+  void fill(const OutputSample& sample) override {
+    message_.header.stamp = timeOf(sample.stamp_ns);
+    exists_ = sample.results.childAxesExist(place_) == kAllComponents;
+    copyWrench(sample.results.child_axes[place_], message_.wrench);
+  }
+
+ private:
+  const std::size_t place_;
+};
+
+class WrenchOutput : public Output {
+ public:
+  WrenchOutput(std::string reaction, const std::string& name, std::string frame)
+      : reaction_(std::move(reaction)), topic_("reaction/" + name), frame_(std::move(frame)) {}
+
+  std::string topic() const override { return topic_; }
+  ros::AdvertiseOptions options(const std::string& topic, std::uint32_t queue) const override {
+    return advertised<geometry_msgs::WrenchStamped>(topic, queue);
+  }
+  void addTo(Request& request) const override { addOnce(reaction_, request.child_axes); }
+  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan) const override {
+    return std::make_unique<WrenchMessage>(plan, reaction_, frame_);
+  }
+
+ private:
+  std::string reaction_, topic_, frame_;
+};
+
+// --- ~determinacy: what rigid-body mechanics determines, latched; published again when it changes
+
+class DeterminacyOutputMessage : public OutputMessage {
+ public:
+  DeterminacyOutputMessage(const Dynamics& plan, const Names& reactions,
+                           std::shared_ptr<DeterminacyMessage> message)
+      : root_places_(placesOf(reactions, plan.request().root_axes)),
+        child_places_(placesOf(reactions, plan.request().child_axes)),
+        message_(std::move(message)) {}
+
+  void fill(const OutputSample& sample) override {
+    changed_ = message_->update(sample.stamp_ns, sample.results.loops, root_places_, child_places_);
+  }
+  void publish(const ros::Publisher& topic) const override {
+    if (changed_) topic.publish(message_->message());
+  }
+
+ private:
+  const std::vector<std::size_t> root_places_, child_places_;
+  const std::shared_ptr<DeterminacyMessage> message_;
+  bool changed_ = false;
+};
+
+class DeterminacyOutput : public Output {
+ public:
+  DeterminacyOutput(const Mechanism& mechanism, const Dynamics& everything,
+                    const OutputSettings& settings)
+      : reactions_(settings.reactions),
+        message_(std::make_shared<DeterminacyMessage>(assembledDeterminacy(
+            mechanism, everything, settings.reactions, settings.condition_warn))) {}
+
+  std::string topic() const override { return "determinacy"; }
+  ros::AdvertiseOptions options(const std::string& topic, std::uint32_t queue) const override {
+    auto options = advertised<diagnostic_msgs::DiagnosticArray>(topic, queue);
+    options.latch = true;
+    return options;
+  }
+  void start(const ros::Publisher& topic) const override { topic.publish(message_->message()); }
+  void addTo(Request& request) const override {
+    request.efforts = true;
+    for (const std::string& name : reactions_) {
+      addOnce(name, request.child_axes);
+      addOnce(name, request.root_axes);
+    }
+  }
+  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan) const override {
+    return std::make_unique<DeterminacyOutputMessage>(plan, reactions_, message_);
+  }
+
+ private:
+  Names reactions_;
+  // One message for all plans, so that a new plan does not repeat it.
+  std::shared_ptr<DeterminacyMessage> message_;
+};
+
+// --- ~joint_trajectory: the input trajectory with the efforts filled in
+
+class TrajectoryMessage : public MessageOf<trajectory_msgs::JointTrajectory> {
+ public:
+  explicit TrajectoryMessage(Eigen::Index coordinates) : coordinates_(coordinates) {}
+
+  void begin(const trajectory_msgs::JointTrajectory& message,
+             const TrajectoryMotion& motion) override {
+    input_ = &message;
+    motion_ = &motion;
+    efforts_.resize(static_cast<Eigen::Index>(message.points.size()), coordinates_);
+    filled_ = 0;
+    exists_ = false;
+  }
+
+  void fill(const OutputSample& sample) override {
+    constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+    for (Eigen::Index i = 0; i < coordinates_; ++i) {
+      const bool exists = sample.results.effortExists(static_cast<std::size_t>(i));
+      efforts_(filled_, i) = exists ? sample.results.effort[i] : kNothing;
+    }
+    // The message is published complete or not at all.
+    exists_ = ++filled_ == efforts_.rows();
+    if (exists_) message_ = withEfforts(*input_, *motion_, efforts_);
+  }
+
+ private:
+  const Eigen::Index coordinates_;
+  const trajectory_msgs::JointTrajectory* input_ = nullptr;
+  const TrajectoryMotion* motion_ = nullptr;
+  Eigen::MatrixXd efforts_;  // by point
+  Eigen::Index filled_ = 0;
+};
+
+class TrajectoryOutput : public Output {
+ public:
+  std::string topic() const override { return "joint_trajectory"; }
+  ros::AdvertiseOptions options(const std::string& topic, std::uint32_t queue) const override {
+    return advertised<trajectory_msgs::JointTrajectory>(topic, queue);
+  }
+  bool ofTrajectories() const override { return true; }
+  void addTo(Request& request) const override { request.efforts = true; }
+  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan) const override {
+    return std::make_unique<TrajectoryMessage>(plan.coordinates());
+  }
+};
+
+// The frame whose axes and origin a reaction in child axes refers to: the child link's, or the
+// closure's own.
+std::string childFrame(const Mechanism& mechanism, const std::string& name) {
+  const int index = name == kGround ? -1 : mechanism.jointIndex(name);
+  if (index < 0 && name != kGround) return name;
+  return mechanism.links()[static_cast<std::size_t>(index + 1)].name;
+}
+
+}  // namespace
+
+Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
+                    const OutputSettings& settings) {
+  const std::string root_frame = settings.frame_prefix + mechanism.links().front().name;
+  Outputs outputs;
+  outputs.push_back(std::make_unique<EffortOutput>(root_frame));
+  if (!settings.reactions.empty()) {
+    outputs.push_back(
+        std::make_unique<ReactionsOutput>(settings.reactions, root_frame, settings.twist));
+  }
+  outputs.push_back(std::make_unique<TrajectoryOutput>());
+  for (std::size_t i = 0; i < settings.reactions.size(); ++i) {
+    const std::string& name = settings.reactions[i];
+    outputs.push_back(std::make_unique<WrenchOutput>(
+        name, settings.reaction_topics[i], settings.frame_prefix + childFrame(mechanism, name)));
+  }
+  if (everything.closed()) {
+    outputs.push_back(std::make_unique<DeterminacyOutput>(mechanism, everything, settings));
+  }
+  return outputs;
+}
+
+Request requestFor(const Outputs& outputs, const Audience& audience) {
+  Request request;
+  request.efforts = false;
+  for (const std::size_t i : audience) outputs[i]->addTo(request);
+  return request;
+}
+
+}  // namespace virtual_work_dynamics

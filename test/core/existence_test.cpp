@@ -1,0 +1,275 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "four_bar.h"
+#include "robot_builder.h"
+#include "slider_crank.h"
+#include "virtual_work_dynamics/dynamics.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+constexpr int kOrders = 20;  // of visits
+
+/// Which results of one sample exist.
+struct Existing {
+  explicit Existing(const Results& results)
+      : effort(results.loops.effort_exists),
+        child_axes(results.loops.child_axes_exist),
+        root_axes(results.loops.root_axes_exist) {}
+
+  std::vector<bool> effort;
+  std::vector<Determined> child_axes, root_axes;
+};
+
+void expectSame(const Existing& found, const Existing& expected) {
+  EXPECT_EQ(found.effort, expected.effort);
+  EXPECT_EQ(found.child_axes, expected.child_axes);
+  EXPECT_EQ(found.root_axes, expected.root_axes);
+}
+
+/// A mechanism with a singular position and regular ones, each a motion that closes its loops.
+struct Singular {
+  Mechanism mechanism;
+  Scene scene;
+  std::vector<std::string> names;  // of reactions
+  Motion position;
+  std::vector<Motion> regular;
+
+  Dynamics dynamics() const {
+    Request request;
+    request.child_axes = request.root_axes = names;
+    return Dynamics(mechanism, scene, request);
+  }
+};
+
+/// The slider drives; the arm is in no loop.
+Singular sliderCrankAtDeadCentre(double rod_mass) {
+  const SliderCrank slider_crank(rod_mass, true);
+  Scene scene = slider_crank.scene("joint_3");
+  scene.actuated->push_back("joint_4");
+  scene.gravity << 0, -9.81, 0;
+  Singular singular{slider_crank.mechanism(),
+                    scene,
+                    {kGround, "joint_1", "joint_2", "joint_3", "joint_4", "pin"},
+                    SliderCrank::motion(0, 3, 0, 4),
+                    {}};
+  for (const double angle : {0.7, -0.4, 1.2, 2.0, -1.9, 0.05}) {
+    singular.regular.push_back(SliderCrank::motion(angle, 3, 1, 4));
+  }
+  return singular;
+}
+
+/// A parallelogram whose links lie on each other along x at zero, its plane that of x and y.
+Singular parallelogramAtItsChangePoint() {
+  const double crank = 0.3, coupler = 0.8;
+  RobotBuilder builder(1);
+  const Matrix3l R = Matrix3l::Identity();
+  builder.add(JointType::kContinuous, 0, Vector3l::UnitZ(), R, Vector3l::Zero());
+  builder.add(JointType::kContinuous, 1, Vector3l::UnitZ(), R, Vector3l(crank, 0, 0));
+  builder.add(JointType::kContinuous, 2, Vector3l::UnitZ(), R, Vector3l(coupler, 0, 0));
+  Scene scene;
+  Closure pivot;
+  pivot.name = "pivot";
+  pivot.type = ClosureType::kRevolute;
+  pivot.parent = {"link_0", {coupler, 0, 0}, {0, 0, 0}};
+  pivot.child = {"link_3", {-crank, 0, 0}, {0, 0, 0}};
+  scene.closures = {pivot};
+  scene.actuated = std::vector<std::string>{"joint_1"};
+  scene.assembly = {{"joint_1", 1.0}, {"joint_2", -1.0}, {"joint_3", 1.0}};
+  const auto motionAt = [](double angle) {
+    Motion motion(3);
+    motion.q << angle, -angle, angle;
+    motion.qd << 2, -2, 2;
+    return motion;
+  };
+  Singular singular{
+      builder.build(), scene, {kGround, "joint_1", "joint_2", "joint_3", "pivot"}, motionAt(0), {}};
+  for (const double angle : {1.0, -0.3, 0.6, 2.0, -2.5, 0.1}) {
+    singular.regular.push_back(motionAt(angle));
+  }
+  return singular;
+}
+
+/// Its plane lies obliquely in the root link.
+Singular obliqueParallelogram() {
+  FourBar four_bar;
+  four_bar.lengths = {0.3L, 0.8L, 0.3L, 0.8L};
+  const FourBar::Cut cut = four_bar.cut('D');
+  const auto motionAt = [&](long double angle) {
+    return cut.motion({{{angle, 2, 0}, {0, 0, 0}, {angle, 2, 0}}});
+  };
+  Singular singular{cut.mechanism, cut.scene, {kGround, "A", "B", "C", "D"}, motionAt(0), {}};
+  singular.scene.assembly = {{"A", 1.0}, {"B", -1.0}, {"C", 1.0}};
+  for (const long double angle : {1.0L, -0.3L, 0.6L, 2.0L, -2.5L, 0.1L}) {
+    singular.regular.push_back(motionAt(angle));
+  }
+  return singular;
+}
+
+Singular assembledAtItsSingularPosition(Singular singular) {
+  singular.scene.assembly.clear();
+  for (std::size_t i = 0; i < singular.mechanism.coordinates().size(); ++i) {
+    singular.scene.assembly.push_back({singular.mechanism.coordinateNames()[i],
+                                       singular.position.q[static_cast<Eigen::Index>(i)]});
+  }
+  return singular;
+}
+
+std::vector<Singular> all() {
+  std::vector<Singular> all{sliderCrankAtDeadCentre(0), sliderCrankAtDeadCentre(1.5),
+                            parallelogramAtItsChangePoint(), obliqueParallelogram()};
+  for (std::size_t i = 0; i < 4; ++i) all.push_back(assembledAtItsSingularPosition(all[i]));
+  return all;
+}
+
+Existing existingAt(const Dynamics& dynamics, const Motion& motion) {
+  Dynamics::Workspace workspace = dynamics.makeWorkspace();
+  dynamics.compute(motion, workspace);
+  EXPECT_TRUE(workspace.results().finite());
+  return Existing(workspace.results());
+}
+
+TEST(Existence, DoesNotDependOnThePositionsMetBefore) {
+  std::mt19937 generator(5);
+  for (Singular& singular : all()) {
+    SCOPED_TRACE(singular.mechanism.name());
+    const Dynamics dynamics = singular.dynamics();
+    const Existing fresh = existingAt(dynamics, singular.position);
+    EXPECT_EQ(std::count(fresh.effort.begin(), fresh.effort.end(), false), 1);
+    for (int i = 0; i < kOrders; ++i) {
+      std::shuffle(singular.regular.begin(), singular.regular.end(), generator);
+      Dynamics::Workspace workspace = dynamics.makeWorkspace();
+      for (const Motion& regular : singular.regular) {
+        Motion completed = regular;
+        dynamics.complete(completed, workspace);
+        dynamics.compute(regular, workspace);
+        ASSERT_FALSE(workspace.results().singular());
+      }
+      dynamics.compute(singular.position, workspace);
+      ASSERT_TRUE(workspace.results().singular());
+      expectSame(Existing(workspace.results()), fresh);
+      expectSame(existingAt(dynamics, singular.position), fresh);
+    }
+  }
+}
+
+// Even where that position is singular.
+TEST(Existence, DoesNotDependOnWhereTheLoopsAreAssembled) {
+  for (const Singular& singular : {sliderCrankAtDeadCentre(0), sliderCrankAtDeadCentre(1.5),
+                                   parallelogramAtItsChangePoint(), obliqueParallelogram()}) {
+    SCOPED_TRACE(singular.mechanism.name());
+    const Existing expected = existingAt(singular.dynamics(), singular.position);
+    const Singular assembled = assembledAtItsSingularPosition(singular);
+    EXPECT_EQ(assembled.dynamics().assembly(), singular.position.q);
+    expectSame(existingAt(assembled.dynamics(), singular.position), expected);
+    Singular elsewhere = singular;
+    elsewhere.scene.assembly.clear();
+    const Motion& motion = singular.regular.back();
+    for (std::size_t i = 0; i < singular.mechanism.coordinates().size(); ++i) {
+      elsewhere.scene.assembly.push_back(
+          {singular.mechanism.coordinateNames()[i], motion.q[static_cast<Eigen::Index>(i)]});
+    }
+    expectSame(existingAt(elsewhere.dynamics(), singular.position), expected);
+  }
+}
+
+TEST(Existence, EverythingExistsInRegularPositions) {
+  for (const Singular& singular : all()) {
+    SCOPED_TRACE(singular.mechanism.name());
+    const Dynamics dynamics = singular.dynamics();
+    Dynamics::Workspace workspace = dynamics.makeWorkspace();
+    for (const Motion& regular : singular.regular) {
+      for (const Motion* motion : {&singular.position, &regular}) {
+        dynamics.compute(*motion, workspace);
+      }
+      const Existing found(workspace.results());
+      EXPECT_EQ(std::count(found.effort.begin(), found.effort.end(), false), 0);
+      const std::vector<Determined> everything(singular.names.size(), kAllComponents);
+      EXPECT_EQ(found.child_axes, everything);
+      EXPECT_EQ(found.root_axes, everything);
+      const LoopResults& loops = workspace.results().loops;
+      EXPECT_NE(loops.child_axes_determined, everything);  // but not all of it is determined
+    }
+  }
+}
+
+// The plane is that of x and y, and in these positions all axes are parallel to the root's.
+struct Expected {
+  std::vector<bool> effort;
+  std::vector<Determined> reactions;
+};
+
+void expectExisting(const Singular& singular, const Expected& expected) {
+  for (const Singular& assembled : {singular, assembledAtItsSingularPosition(singular)}) {
+    const Existing found = existingAt(assembled.dynamics(), assembled.position);
+    EXPECT_EQ(found.effort, expected.effort);
+    for (std::size_t i = 0; i < singular.names.size(); ++i) {
+      EXPECT_EQ(found.child_axes[i], expected.reactions[i]) << singular.names[i];
+      EXPECT_EQ(found.root_axes[i], expected.reactions[i]) << singular.names[i];
+    }
+  }
+}
+
+// fx fy fz tx ty tz. Out of the plane: fz, tx and ty, which are redundant in every position.
+constexpr Determined kNotAlongX{{false, true, true, true, true, true}};
+
+// The rod can push with any force, and so can the slider's motor: ground bears both.
+TEST(Existence, AtDeadCentreTheRodPushesWithAnyForce) {
+  expectExisting(sliderCrankAtDeadCentre(0), {{true, true, false, true},
+                                              {kAllComponents, kNotAlongX, kNotAlongX, kNotAlongX,
+                                               kAllComponents, kNotAlongX}});
+}
+
+// At rest, with the weight normal to the plane: the links can be stretched by any force.
+TEST(Existence, AtTheChangePointTheLinksAreStretchedByAnyForce) {
+  Singular singular = parallelogramAtItsChangePoint();
+  singular.position.qd.setZero();
+  expectExisting(singular, {{true, true, true},
+                            {kAllComponents, kNotAlongX, kNotAlongX, kNotAlongX, kNotAlongX}});
+}
+
+// In motion, the links want torques that nothing gives there: nothing in the plane has a value but
+// what ground bears in all, and the moment of the pivot, which turns freely.
+TEST(Existence, ALoadThatTheChangePointDoesNotBearLeavesMoreOpen) {
+  constexpr Determined kOutOfPlane{{false, false, true, true, true, false}};
+  constexpr Determined kPivot{{false, false, true, true, true, true}};
+  expectExisting(
+      parallelogramAtItsChangePoint(),
+      {{false, true, true}, {kAllComponents, kOutOfPlane, kOutOfPlane, kOutOfPlane, kPivot}});
+}
+
+// Values chosen by the policy exist in singular positions, too: a pivot that must bear nothing out
+// of the plane leaves that load to the others.
+TEST(Existence, RedundantComponentsKeepWhatThePolicyChooses) {
+  Singular singular = parallelogramAtItsChangePoint();
+  singular.scene.gravity << 0, 0, -9.81;
+  singular.scene.redundancy.policy = RedundancyPolicy::kZeroAt;
+  singular.scene.redundancy.zero_at = {"pivot"};
+  const Dynamics dynamics = singular.dynamics();
+  Dynamics::Workspace workspace = dynamics.makeWorkspace();
+  double weight = 0;
+  for (const Link& link : singular.mechanism.links()) {
+    if (link.parent_joint >= 0) weight += 9.81 * static_cast<double>(link.mass);
+  }
+  std::vector<Motion> motions = singular.regular;
+  motions.push_back(singular.position);
+  for (const Motion& motion : motions) {
+    dynamics.compute(motion, workspace);
+    const Results& results = workspace.results();
+    EXPECT_NEAR(results.root_axes[4].force.z(), 0, 1e-12 * weight);
+    EXPECT_NEAR(results.root_axes[1].force.z(), weight, 1e-12 * weight);
+    EXPECT_FALSE(results.loops.root_axes_determined[1][2]);
+    EXPECT_TRUE(results.rootAxesExist(1)[2]);
+    EXPECT_TRUE(results.rootAxesExist(4)[2]);
+  }
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,141 @@
+#include "dynamics/sample_rows.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "four_bar.h"
+#include "plain_results.h"
+#include "result_differences.h"
+#include "robot_builder.h"
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+constexpr std::size_t kRows = 47, kCapacity = 10;
+
+std::string messageOf(const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const MotionError& error) {
+    return error.what();
+  }
+  return "nothing thrown";
+}
+
+MotionTable tableOf(const std::vector<Motion>& motions) {
+  MotionTable table;
+  const auto rows = static_cast<Eigen::Index>(motions.size());
+  for (Eigen::MatrixXd* values : {&table.positions, &table.velocities, &table.accelerations}) {
+    values->resize(rows, motions.front().q.size());
+  }
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const Motion& motion = motions[static_cast<std::size_t>(row)];
+    table.times.push_back(0.01 * static_cast<double>(row));
+    table.positions.row(row) = motion.q;
+    table.velocities.row(row) = motion.qd;
+    table.accelerations.row(row) = motion.qdd;
+  }
+  return table;
+}
+
+/// A mechanism and rows of its motion.
+struct Recorded {
+  Mechanism mechanism;
+  Scene scene;
+  std::vector<Motion> motions;
+};
+
+Recorded openChain() {
+  RobotBuilder builder = chainOf(4);
+  std::vector<Motion> motions = builder.motions(kRows);
+  return {builder.build(), Scene(), std::move(motions)};
+}
+
+// Through its change point, in the middle of a block.
+Recorded closedLinkage() {
+  FourBar four_bar;
+  four_bar.lengths = {0.3L, 0.8L, 0.3L, 0.8L};
+  const FourBar::Cut cut = four_bar.cut('D');
+  Recorded recorded{cut.mechanism, cut.scene, {}};
+  recorded.scene.assembly = {{"A", 1.0}, {"B", -1.0}, {"C", 1.0}};
+  for (std::size_t n = 0; n < kRows; ++n) {
+    const long double angle = 0.04L * (static_cast<long double>(n) - 16);
+    recorded.motions.push_back(cut.motion({{{angle, 2, 1}, {0, 0, 0}, {angle, 2, 1}}}));
+  }
+  return recorded;
+}
+
+Request everythingOf(const Recorded& recorded) {
+  Request request;
+  request.child_axes = request.root_axes = requestedReactions(recorded.mechanism, recorded.scene);
+  request.poses = request.twists = true;
+  return request;
+}
+
+TEST(SampleRows, AreComputedLikeSingleSamples) {
+  for (const Recorded& recorded : {openChain(), closedLinkage()}) {
+    const Dynamics dynamics(recorded.mechanism, recorded.scene, everythingOf(recorded));
+    const MotionTable table = tableOf(recorded.motions);
+    for (const int threads : {1, 3}) {
+      SampleRows rows(dynamics, kCapacity, threads);
+      EXPECT_EQ(rows.capacity(), kCapacity);
+      Dynamics::Workspace expected = dynamics.makeWorkspace();
+      for (std::size_t first = 0; first < kRows; first += kCapacity) {
+        const std::size_t count = std::min(kCapacity, kRows - first);
+        rows.compute(table, first, count);
+        for (std::size_t i = 0; i < count; ++i) {
+          Motion motion(dynamics.coordinates());
+          takeRow(table, first + i, motion);
+          EXPECT_EQ(motion.q, recorded.motions[first + i].q);
+          EXPECT_EQ(motion.qd, recorded.motions[first + i].qd);
+          EXPECT_EQ(motion.qdd, recorded.motions[first + i].qdd);
+          dynamics.compute(motion, expected);
+          EXPECT_EQ(differences(rows.read(i), expected.results()), "") << first + i;
+        }
+      }
+    }
+  }
+}
+
+TEST(SampleRows, AreMovedWithTheirMemory) {
+  const Recorded recorded = closedLinkage();
+  const Dynamics dynamics(recorded.mechanism, recorded.scene, everythingOf(recorded));
+  SampleRows before(dynamics, kCapacity, 2);
+  SampleRows rows(std::move(before));
+  rows.compute(tableOf(recorded.motions), 3, 4);
+  Dynamics::Workspace expected = dynamics.makeWorkspace();
+  dynamics.compute(recorded.motions[5], expected);
+  EXPECT_EQ(differences(rows.read(2), expected.results()), "");
+}
+
+TEST(SampleRows, RefuseWhatDoesNotFit) {
+  for (const Recorded& recorded : {openChain(), closedLinkage()}) {
+    const Dynamics dynamics(recorded.mechanism, recorded.scene);
+    EXPECT_THROW(SampleRows(dynamics, kCapacity, 0), Error);
+    const MotionTable table = tableOf(recorded.motions);
+    SampleRows rows(dynamics, kCapacity, 2);
+    EXPECT_EQ(messageOf([&] { rows.read(0); }), "block: there is no sample 0, it has 0");
+    EXPECT_EQ(messageOf([&] { rows.compute(table, 0, kCapacity + 1); }),
+              "block: 11 rows are more than its capacity, 10");
+    EXPECT_NE(messageOf([&] { rows.compute(table, kRows - 4, 5); }), "nothing thrown");
+    for (Eigen::MatrixXd MotionTable::*missing :
+         {&MotionTable::positions, &MotionTable::velocities, &MotionTable::accelerations}) {
+      MotionTable narrow = table;
+      (narrow.*missing).conservativeResize(Eigen::NoChange, 2);
+      EXPECT_NE(messageOf([&] { rows.compute(narrow, 0, 4); }), "nothing thrown");
+      (narrow.*missing).resize(0, 0);
+      EXPECT_NE(messageOf([&] { rows.compute(narrow, 0, 4); }), "nothing thrown");
+    }
+    rows.compute(table, kRows - 4, 4);
+    EXPECT_EQ(messageOf([&] { rows.read(4); }), "block: there is no sample 4, it has 4");
+    rows.read(3);
+  }
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,111 @@
+#!/bin/bash
+# Installs the package and builds users of it, each in one of three ways.
+set -euo pipefail
+
+usage() {
+  cat <<END_OF_USAGE
+Usage: test/downstream/check.sh core|devel|install
+
+core     installs the core without ROS, moves it, and builds and runs test/downstream/core with it;
+         takes object files from the workspace of scripts/build.sh where they are there
+devel    builds and runs test/downstream/catkin with the devel space of scripts/build.sh
+install  the same with an install space, which it installs
+What is installed must hold nothing private: other headers than those of include/, libraries that
+public headers do not include, flags of warnings, folders of this machine. Works in build/downstream.
+END_OF_USAGE
+}
+
+repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+workspace=$repository/build/.catkin_ws
+folder=$repository/build/downstream/${1:-}
+python=(-DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3)
+
+fail() {
+  echo "check.sh: $*" >&2
+  exit 1
+}
+
+# nothing_private PREFIX: what is installed there, except for the environment of a catkin workspace.
+nothing_private() {
+  local prefix=$1 file
+  local private='urdfdom|tinyxml2|console_bridge|roscpp|_ros\b|pthread|threads|[ "]-W|_warnings|/src\b'
+  (cd "$repository/include" && find . -type f | sort) >"$folder/public"
+  (cd "$prefix/include" && find . -type f | sort) | diff "$folder/public" - ||
+    fail "other headers than those of include/"
+  find "$prefix" -name '*.cmake' >"$folder/exported"
+  while read -r file; do
+    if sed 's/#.*//' "$file" | grep -i -E "$private"; then
+      fail "private things in $file"
+    fi
+  done <"$folder/exported"
+  find "$prefix" -mindepth 2 -type f >"$folder/installed_files"
+  while read -r file; do
+    # The Config.cmake that catkin makes names the folder it is installed to. Counted: a pipe whose
+    # reader leaves at the first match fails.
+    if LC_ALL=C sed "s|$prefix||g" "$file" |
+        grep --text -c -F -e "$repository" -e "$(realpath -m "$workspace")" >"$folder/count"; then
+      fail "a folder of this machine in $file"
+    fi
+  done <"$folder/installed_files"
+}
+
+# user_of PREFIX SOURCE: configured, built and run; finds nothing but that.
+user_of() {
+  local prefix=$1 source=$2 build=$folder/user log=$folder/configure.log
+  CMAKE_PREFIX_PATH=$prefix${CMAKE_PREFIX_PATH:+:$CMAKE_PREFIX_PATH} \
+    cmake -S "$source" -B "$build" "${python[@]}" >"$log" 2>&1 || { cat "$log"; fail "not configured"; }
+  grep -F "virtual_work_dynamics of $prefix/" "$log" || fail "another than that of $prefix is found"
+  cmake --build "$build"
+}
+
+# run_below FOLDER PROGRAM ARGUMENT...
+run_below() {
+  local program
+  program=$(find "$1" -type f -name "$2" -perm -u+x)
+  echo "${program:?no $2 in $1}"
+  "$program" "${@:3}"
+}
+
+core() {
+  local build=$folder/build prefix=$folder/installed moved=$folder/elsewhere/moved version
+  cmake -S "$repository" -B "$build" -DVWD_CORE_ONLY=ON -DBUILD_TESTING=OFF \
+    -DCMAKE_INSTALL_PREFIX="$prefix" \
+    "-DCMAKE_CXX_COMPILER_LAUNCHER=$repository/test/downstream/reuse_object.sh;$workspace/build/virtual_work_dynamics"
+  cmake --build "$build" --target install -- -j"${JOBS:-$(nproc)}"
+  nothing_private "$prefix"
+  mkdir "$folder/elsewhere"
+  mv "$prefix" "$moved"
+  rm -r "$build"
+  user_of "$moved" "$repository/test/downstream/core"
+  run_below "$folder/user" downstream "$repository/urdf/composed_pendulum.urdf"
+  version=$(sed -n 's|.*<version>\(.*\)</version>.*|\1|p' "$repository/package.xml")
+  [[ $("$moved/bin/inverse_dynamics_offline" --version) == "inverse_dynamics_offline $version" ]]
+}
+
+# catkin_user PREFIX
+catkin_user() {
+  user_of "$1" "$repository/test/downstream/catkin"
+  run_below "$folder/user" downstream "$repository/urdf/composed_pendulum.urdf"
+  run_below "$folder/user" downstream_by_target
+}
+
+devel() {
+  catkin_user "$workspace/devel"
+}
+
+# Not by building the target `install`, which would build all the rest before.
+install() {
+  rm -rf "$workspace/install"
+  cmake -P "$workspace/build/cmake_install.cmake"
+  nothing_private "$workspace/install"
+  catkin_user "$workspace/install"
+}
+
+case "${1:-}" in
+  core | devel | install) ;;
+  -h | --help) usage; exit 0 ;;
+  *) usage >&2; exit 2 ;;
+esac
+rm -rf "$folder"
+mkdir -p "$folder"
+"$1"

@@ -1,0 +1,15 @@
+# every_public_header(<include folder>...): writes every_public_header.h, which includes every header of
+# the package that lies in these folders.
+function(every_public_header)
+  set(includes)
+  foreach(include_dir ${ARGN})
+    file(GLOB headers RELATIVE ${include_dir} ${include_dir}/virtual_work_dynamics/*.h)
+    foreach(header ${headers})
+      set(includes "${includes}#include \"${header}\"\n")
+    endforeach()
+  endforeach()
+  if(NOT includes)
+    message(FATAL_ERROR "no headers in ${ARGN}")
+  endif()
+  file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/every_public_header.h "#pragma once\n\n${includes}")
+endfunction()
