@@ -281,7 +281,8 @@ TEST(SampleRows, ComputeAndReadDoNotAllocate) {
     table.velocities.row(row) = motion.qd;
     table.accelerations.row(row) = motion.qdd;
   }
-  for (const Scene* scene : {&open, &cut.scene}) {
+  const Scene* const scenes[] = {&open, &cut.scene};
+  for (const Scene* scene : scenes) {
     for (const int threads : {1, 2}) {
       const Dynamics dynamics(cut.mechanism, *scene);
       SampleRows rows(dynamics, 20, threads);

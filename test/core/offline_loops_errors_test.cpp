@@ -56,10 +56,10 @@ TEST_F(OfflineLoops, ResidualsAreOfEachLevel) {
 TEST_F(OfflineLoops, APartOfThePassiveJointsIsNoMotion) {
   write("part.csv", "time,position.drive,position.wrist\n0,0,0\n");
   EXPECT_EQ(failure("--scene s.yaml --motion part.csv"),
-            "part.csv: positions of the passive joints wrist are given, but not of elbow: give "
-            "those of all joints, or of the actuated ones only");
+            "part.csv: the passive joints 'wrist' are given, but not 'elbow': give all joints, or "
+            "the actuated ones only");
   write("part.csv", "time,position.elbow\n0,0\n");
-  EXPECT_TRUE(contains(failure("--scene s.yaml --motion part.csv"), "but not of wrist"));
+  EXPECT_TRUE(contains(failure("--scene s.yaml --motion part.csv"), "but not 'wrist'"));
   write("none.csv", "time,position.door\n0,0\n");
   EXPECT_EQ(failure("--scene s.yaml --motion none.csv"),
             "none.csv: line 1: column 'position.drive' is missing");
