@@ -32,7 +32,7 @@ same as with what was left out, over 100 random states.
   --help          this text
 
 Times are medians of rounds in which all plans of a robot take turns on one core.
-same_numbers: yes, bit for bit but for signs of zeros; otherwise the largest difference, over the
+same_numbers: yes, bit for bit except for signs of zeros; otherwise the largest difference, over the
 largest number of the same kind in the same state.
 
 Exit status: 0 done, 1 something is wrong, 2 wrong usage.

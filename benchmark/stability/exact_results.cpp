@@ -10,7 +10,7 @@ namespace virtual_work_dynamics {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// What is smaller, relative to the terms it is the sum of, is zero but for the rounding of 113
+// What is smaller, relative to the terms it is the sum of, is zero except for the rounding of 113
 // bits.
 constexpr long double kZero113 = 0x1p-100L;
 
