@@ -16,6 +16,11 @@ namespace {
 
 // Resolution of times up to which estimates do not suffer, as a part of their mean spacing.
 constexpr double kFineTimes = 1e-6;
+// Times, and spacings of times, beyond those of recordings in seconds: 3000 years, and some hours
+// from row to row. Clocks that count nanoseconds, microseconds or milliseconds from 1970 on are
+// beyond them.
+constexpr double kLatestTime = 1e11;
+constexpr double kLongestSpacing = 1e4;
 
 // Lists the joints of columns, each once: "position.j", "velocity.j", "position.k" become "j, k".
 std::string jointsOfColumns(const std::vector<std::string>& columns) {
@@ -40,6 +45,13 @@ void checkTimes(const MotionFile& motion) {
   }
   const double latest = std::max(std::abs(times.front()), std::abs(times.back()));
   const double spacing = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  if (times.size() > 1 && (latest > kLatestTime || spacing > kLongestSpacing)) {
+    std::ostringstream text;
+    text << motion.path << ": times up to " << latest << " with " << spacing
+         << " from row to row cannot be seconds, and derivatives have to be estimated: are they "
+            "nanoseconds? Give seconds";
+    throw FileError(text.str());
+  }
   const double resolution = latest * std::numeric_limits<double>::epsilon();
   if (times.size() > 1 && resolution > kFineTimes * spacing) {
     std::ostringstream text;

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include "offline_tool.h"
 
@@ -151,6 +152,28 @@ TEST_F(OfflineToolErrors, EstimatingNeedsRowsAndTimesThatIncrease) {
   EXPECT_EQ(motion("# c\ntime,position.hinge\n0,1\n0.5,1\n# d\n0.5,1\n1,2\n"),
             "bad.csv: line 6: time 0.5 is not later than 0.5 in the row before, and derivatives "
             "have to be estimated");
+}
+
+// What recorders and tables of ROS stamps hold, counted from 1970 and from the start. Six rows.
+TEST_F(OfflineToolErrors, TimesThatCannotBeSecondsAreRefused) {
+  const auto rows = [](double start, double spacing) {
+    std::string text = "time,position.hinge\n";
+    for (int i = 0; i < 6; ++i) text += std::to_string(start + spacing * i) + ",0.1\n";
+    return text;
+  };
+  EXPECT_EQ(motion(rows(1.6e18, 1e7)),
+            "bad.csv: times up to 1.6e+18 with 1e+07 from row to row cannot be seconds, and "
+            "derivatives have to be estimated: are they nanoseconds? Give seconds");
+  const std::pair<double, double> clocks[] = {{0, 1e6}, {1.6e15, 1e3}, {1.6e12, 1}};
+  for (const auto& [start, spacing] : clocks) {
+    EXPECT_TRUE(contains(motion(rows(start, spacing)), "are they nanoseconds?")) << start;
+  }
+  // Slow recordings are not, and where nothing is estimated times have no part in the results.
+  write("slow.csv", rows(0, 3600));
+  EXPECT_EQ(run("--urdf p.urdf --motion slow.csv").exit_code, 0);
+  write("exact.csv",
+        "time,position.hinge,velocity.hinge,acceleration.hinge\n1.6e18,0,0,0\n1.7e18,0,0,0\n");
+  EXPECT_EQ(run("--urdf p.urdf --motion exact.csv").exit_code, 0);
 }
 
 TEST_F(OfflineToolErrors, BadRobotsAreNamed) {
