@@ -245,29 +245,41 @@ TEST(Existence, ALoadThatTheChangePointDoesNotBearLeavesMoreOpen) {
       {{false, true, true}, {kAllComponents, kOutOfPlane, kOutOfPlane, kOutOfPlane, kPivot}});
 }
 
-// Values chosen by the policy exist in singular positions, too: a pivot that must bear nothing out
-// of the plane leaves that load to the others.
+// Values chosen by the policy exist in singular positions, too, and equal those beside them: the
+// pivot bears its share of the weight, which is normal to the plane.
 TEST(Existence, RedundantComponentsKeepWhatThePolicyChooses) {
+  constexpr double kBeside = 1e-6;     // rad
+  constexpr double kTolerance = 1e-4;  // of the weight: what so small an angle may change
+  constexpr double kRounding = 1e-12;  // of the weight
   Singular singular = parallelogramAtItsChangePoint();
-  singular.scene.gravity << 0, 0, -9.81;
-  singular.scene.redundancy.policy = RedundancyPolicy::kZeroAt;
-  singular.scene.redundancy.zero_at = {"pivot"};
-  const Dynamics dynamics = singular.dynamics();
-  Dynamics::Workspace workspace = dynamics.makeWorkspace();
+  singular.scene.redundancy.policy = RedundancyPolicy::kStiffness;
+  singular.position.qd.setZero();
+  Motion beside = singular.position;
+  beside.q << kBeside, -kBeside, kBeside;
   double weight = 0;
   for (const Link& link : singular.mechanism.links()) {
     if (link.parent_joint >= 0) weight += 9.81 * static_cast<double>(link.mass);
   }
-  std::vector<Motion> motions = singular.regular;
-  motions.push_back(singular.position);
-  for (const Motion& motion : motions) {
-    dynamics.compute(motion, workspace);
-    const Results& results = workspace.results();
-    EXPECT_NEAR(results.root_axes[4].force.z(), 0, 1e-12 * weight);
-    EXPECT_NEAR(results.root_axes[1].force.z(), weight, 1e-12 * weight);
-    EXPECT_FALSE(results.loops.root_axes_determined[1][2]);
-    EXPECT_TRUE(results.rootAxesExist(1)[2]);
-    EXPECT_TRUE(results.rootAxesExist(4)[2]);
+  const Dynamics dynamics = singular.dynamics();
+  Dynamics::Workspace regular = dynamics.makeWorkspace(), workspace = dynamics.makeWorkspace();
+  dynamics.compute(beside, regular);
+  dynamics.compute(singular.position, workspace);
+  ASSERT_FALSE(regular.results().singular());
+  ASSERT_TRUE(workspace.results().singular());
+  const std::vector<Wrench>& near = regular.results().root_axes;
+  const std::vector<Wrench>& wrenches = workspace.results().root_axes;
+  EXPECT_GT(std::abs(wrenches[4].force.z()), 0.01 * weight);
+  EXPECT_NEAR(wrenches[1].force.z() + wrenches[4].force.z(), weight, kRounding * weight);
+  for (std::size_t i = 0; i < wrenches.size(); ++i) {
+    EXPECT_NEAR(wrenches[i].force.z(), near[i].force.z(), kTolerance * weight);
+    for (const int axis : {0, 1}) {
+      EXPECT_NEAR(wrenches[i].torque[axis], near[i].torque[axis], kTolerance * weight);
+    }
+    const Determined exist = workspace.results().rootAxesExist(i);
+    for (const std::size_t out_of_plane : {2, 3, 4}) EXPECT_TRUE(exist[out_of_plane]);
+    if (i > 0) {
+      EXPECT_FALSE(workspace.results().loops.root_axes_determined[i][2]);
+    }
   }
 }
 
