@@ -41,6 +41,7 @@ set(core_test_files
   test/core/joint_terms_test.cpp
   test/core/kernel_accuracy_test.cpp
   test/core/lagrange_dynamics_test.cpp
+  test/core/lagrange_load_test.cpp
   test/core/loop_conditions_test.cpp
   test/core/loop_kinematics_test.cpp
   test/core/loop_oracles_test.cpp

@@ -238,49 +238,6 @@ TEST(LagrangeDynamics, RandomTreesAreTheSameByBothRoutes) {
   }
 }
 
-template <typename Real>
-void expectReplacedWrenches(const Mechanism& mechanism) {
-  const Scene scene = pushed(mechanism);
-  Scene other = scene;
-  for (AppliedWrench& wrench : other.applied_wrenches) {
-    wrench.force *= -2;
-    wrench.torque *= 0.3;
-  }
-  const Request request = everything(mechanism);
-  LagrangeDynamics<Real> replaced(mechanism, scene, request), own(mechanism, scene, request),
-      compiled(mechanism, other, request);
-  const Motion motion = RandomRobot(1, 1).motion(mechanism);
-  own.compute(motion);
-  compiled.compute(motion);
-  const auto expectEqual = [](const LagrangeDynamics<Real>& found,
-                              const LagrangeDynamics<Real>& expected) {
-    EXPECT_EQ(found.effort(), expected.effort());
-    for (std::size_t i = 0; i < expected.childAxes().size(); ++i) {
-      EXPECT_EQ(found.childAxes()[i].force, expected.childAxes()[i].force);
-      EXPECT_EQ(found.childAxes()[i].torque, expected.childAxes()[i].torque);
-      EXPECT_EQ(found.rootAxes()[i].force, expected.rootAxes()[i].force);
-      EXPECT_EQ(found.rootAxes()[i].torque, expected.rootAxes()[i].torque);
-    }
-  };
-  Load load(other);
-  for (int i = 0; i < 2; ++i) {
-    replaced.compute(motion, load);
-    EXPECT_NE(replaced.effort(), own.effort());
-    expectEqual(replaced, compiled);
-    replaced.compute(motion);
-    expectEqual(replaced, own);
-  }
-  load.wrenches.pop_back();
-  EXPECT_THROW(replaced.compute(motion, load), SceneError);
-  EXPECT_THROW(replaced.compute(motion, Load()), SceneError);
-}
-
-TEST(LagrangeDynamics, ALoadReplacesTheAppliedWrenchesOfOneSample) {
-  const Mechanism mechanism = mixedTree().build();
-  expectReplacedWrenches<double>(mechanism);
-  expectReplacedWrenches<long double>(mechanism);
-}
-
 // The mobility moves no motor: terms of joints are part of efforts only.
 TEST(LagrangeDynamics, JointTermsMatchTheirClosedFormsAndLeaveReactionsAlone) {
   const Mechanism mechanism = mixedTree().build();
