@@ -59,8 +59,8 @@ struct LoopResults {
   /// constraints leave open have the value that the scene's policy chooses.
   std::vector<bool> effort_determined;
   std::vector<Determined> child_axes_determined, root_axes_determined;
-  /// Which results have a value at all: in a singular position, those that are determined, and
-  /// those that are not determined in regular positions either. Elsewhere every result has one.
+  /// Which results have a value at all. In singular positions: what is determined, and reactions of
+  /// which no more is open than in regular positions; see doc/closed_loops.md. Elsewhere: every one.
   std::vector<bool> effort_exists;
   std::vector<Determined> child_axes_exist, root_axes_exist;
 

@@ -36,6 +36,9 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
     chain.emplace(mechanism, scene, request, instruction_set);
     return;
   }
+  if (!isSupported(instruction_set)) {
+    throw Error("this machine or build has no " + toString(instruction_set) + " instructions");
+  }
   loops.emplace(mechanism, scene, request);
   tree = loops->tree();
   tree_request = virtual_work_dynamics::treeRequest(mechanism, request);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/input_checks.h"
+
 namespace virtual_work_dynamics {
 namespace {
 
@@ -43,6 +45,7 @@ PassiveJoints::PassiveJoints(const Mechanism& mechanism, const Dynamics& dynamic
 
 bool PassiveJoints::complete(Motion& motion, const Dynamics& dynamics,
                              Dynamics::Workspace& workspace) {
+  requireLengths(motion, dynamics.coordinates());
   if (!dynamics.closed()) return true;
   before_ = closed_;
   setNearest(motion);

@@ -35,8 +35,9 @@ struct SampleRows::Loops {
     }
     for (const Eigen::MatrixXd* columns :
          {&table.positions, &table.velocities, &table.accelerations}) {
-      if (columns->cols() != dynamics.coordinates() ||
-          static_cast<std::size_t>(columns->rows()) < first + count) {
+      if (dynamics.coordinates() > 0 &&  // a table without columns has no rows
+          (columns->cols() != dynamics.coordinates() ||
+           static_cast<std::size_t>(columns->rows()) < first + count)) {
         throw MotionError("motion: a table of " + std::to_string(first + count) + " rows and " +
                           std::to_string(dynamics.coordinates()) + " coordinates is needed");
       }

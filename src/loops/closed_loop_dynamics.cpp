@@ -1,5 +1,6 @@
 #include "virtual_work_dynamics/closed_loop_dynamics.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "loops/assembly.h"
@@ -90,6 +91,16 @@ void ClosedLoopDynamics::Impl::close(const Scene& scene) {
   requireHeld(mechanism, loops, assembly, solvers.completion, solvers.kinematics, solvers.forces);
 }
 
+std::vector<ClosedLoopDynamics::Impl::UsuallyOpen> ClosedLoopDynamics::Impl::usuallyOpen(
+    const std::vector<Determined>& determined, const std::vector<int>& ranks) {
+  std::vector<UsuallyOpen> usual;
+  for (std::size_t i = 0; i < determined.size(); ++i) {
+    const auto open = std::count(determined[i].begin(), determined[i].end(), false);
+    usual.push_back({determined[i], static_cast<int>(open), ranks[i]});
+  }
+  return usual;
+}
+
 // Finds the flags of a regular position once: what exists in a singular one must not depend on the
 // positions met before.
 void ClosedLoopDynamics::Impl::setUsual() {
@@ -102,9 +113,10 @@ void ClosedLoopDynamics::Impl::setUsual() {
     motion.q = assembly;
     workspace.compute(motion, own_load);
   }
-  effort_usual = workspace.results.loops.effort_determined;
-  child_axes_usual = workspace.results.loops.child_axes_determined;
-  root_axes_usual = workspace.results.loops.root_axes_determined;
+  workspace.setRanks();
+  const LoopResults& found = workspace.results.loops;
+  child_axes_usual = usuallyOpen(found.child_axes_determined, workspace.child_axes_ranks);
+  root_axes_usual = usuallyOpen(found.root_axes_determined, workspace.root_axes_ranks);
 }
 
 ClosedLoopDynamics::ClosedLoopDynamics(const Mechanism& mechanism, const Scene& scene,

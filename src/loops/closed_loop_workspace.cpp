@@ -28,6 +28,8 @@ ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compil
   loops.effort_determined.assign(effort_freedoms_.size(), true);
   loops.child_axes_determined.assign(child_axes_.size(), kAllComponents);
   loops.root_axes_determined.assign(root_axes_.size(), kAllComponents);
+  child_axes_ranks.resize(child_axes_.size());
+  root_axes_ranks.resize(root_axes_.size());
   loops.effort_exists = loops.effort_determined;
   loops.child_axes_exist = loops.child_axes_determined;
   loops.root_axes_exist = loops.root_axes_determined;
@@ -162,24 +164,51 @@ void ClosedLoopDynamics::Workspace::Impl::setDeterminacy() {
   }
 }
 
-// This rule holds everywhere: in a singular position a result has a value when it is determined
-// there, or when it is not determined in regular positions either, so that the scene's policy
-// chooses it.
+void ClosedLoopDynamics::Workspace::Impl::setRanks() {
+  child_axes_.resetSpans();
+  root_axes_.resetSpans();
+  for (std::size_t g = 0; g < solvers.forces.size(); ++g) {
+    LoopForces& group = solvers.forces[g];
+    for (Eigen::Index i = 0; i < group.directions(); ++i) {
+      const LoopForces::State& change = group.direction(i);
+      child_axes_.addSpan(solvers.kinematics, g, group, change);
+      root_axes_.addSpan(solvers.kinematics, g, group, change);
+    }
+  }
+  child_axes_.getRanks(child_axes_ranks);
+  root_axes_.getRanks(root_axes_ranks);
+}
+
+// The one rule: in a singular position a component of a reaction has a value when it is determined
+// there; when the position leaves no more of the wrench open than regular positions do; and when it
+// is one of as many components that regular positions leave open as there are dimensions, as what
+// the position opens then lies in the others. What is not determined in regular positions has the
+// value that the scene's policy chooses. An effort of loops that are singular must be determined.
 void ClosedLoopDynamics::Workspace::Impl::setExistence() {
   LoopResults& loops = results.loops;
-  const bool regular = !results.singular();
-  const auto set = [&](const std::vector<Determined>& now, const std::vector<Determined>& usual,
-                       std::vector<Determined>& exist) {
+  std::fill(loops.effort_exists.begin(), loops.effort_exists.end(), true);
+  std::fill(loops.child_axes_exist.begin(), loops.child_axes_exist.end(), kAllComponents);
+  std::fill(loops.root_axes_exist.begin(), loops.root_axes_exist.end(), kAllComponents);
+  if (!results.singular()) return;
+  setRanks();
+  using UsuallyOpen = ClosedLoopDynamics::Impl::UsuallyOpen;
+  const auto set = [](const std::vector<UsuallyOpen>& usual, const std::vector<int>& ranks,
+                      const std::vector<Determined>& now, std::vector<Determined>& exist) {
     for (std::size_t i = 0; i < usual.size(); ++i) {
-      for (std::size_t j = 0; j < usual[i].size(); ++j) {
-        exist[i][j] = regular || now[i][j] || !usual[i][j];
+      if (ranks[i] <= usual[i].dimensions) continue;
+      const bool separate = usual[i].components == usual[i].dimensions;
+      for (std::size_t j = 0; j < now[i].size(); ++j) {
+        exist[i][j] = now[i][j] || (separate && !usual[i].determined[j]);
       }
     }
   };
-  set(loops.child_axes_determined, plan.child_axes_usual, loops.child_axes_exist);
-  set(loops.root_axes_determined, plan.root_axes_usual, loops.root_axes_exist);
-  for (std::size_t i = 0; i < plan.effort_usual.size(); ++i) {
-    loops.effort_exists[i] = regular || loops.effort_determined[i] || !plan.effort_usual[i];
+  set(plan.child_axes_usual, child_axes_ranks, loops.child_axes_determined, loops.child_axes_exist);
+  set(plan.root_axes_usual, root_axes_ranks, loops.root_axes_determined, loops.root_axes_exist);
+  for (const LoopForces& group : solvers.forces) {
+    if (group.rank() == group.coordinates()) continue;
+    for (const LoopUnknowns::Effort& actuator : group.efforts()) {
+      loops.effort_exists[actuator.index] = loops.effort_determined[actuator.index];
+    }
   }
 }
 

@@ -60,13 +60,19 @@ struct ClosedLoopDynamics::Impl {
   // The first pass gives efforts of the tree without closures, the second reactions with them.
   std::unique_ptr<InverseDynamics> first_pass, second_pass;
   std::vector<int> reaction_joints;  // of the first pass
-  // Results that are determined in regular positions; see LoopResults::effort_exists.
-  std::vector<bool> effort_usual;
-  std::vector<Determined> child_axes_usual, root_axes_usual;
+  /// What regular positions leave open of a reaction, in some axes; see LoopResults::effort_exists.
+  struct UsuallyOpen {
+    Determined determined = kAllComponents;
+    int components = 0;  ///< how many are not determined
+    int dimensions = 0;  ///< of the changes of the wrench, whatever the axes
+  };
+  std::vector<UsuallyOpen> child_axes_usual, root_axes_usual;
 
  private:
   void close(const Scene& scene);
   void setUsual();
+  static std::vector<UsuallyOpen> usuallyOpen(const std::vector<Determined>& determined,
+                                              const std::vector<int>& ranks);
 };
 
 /// The scratch memory of one thread.
@@ -74,10 +80,14 @@ struct ClosedLoopDynamics::Workspace::Impl {
   explicit Impl(const ClosedLoopDynamics::Impl& compiled);
 
   void compute(const Motion& motion, const Load& load);
+  /// Sets the ranks below, of the sample computed last.
+  void setRanks();
 
   const ClosedLoopDynamics::Impl& plan;
   LoopSolvers solvers;
   Results results;
+  /// How many dimensions the changes of each reaction span that mechanics leaves open.
+  std::vector<int> child_axes_ranks, root_axes_ranks;
 
  private:
   void push(const Motion& motion, const Load& load);

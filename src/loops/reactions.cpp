@@ -1,5 +1,6 @@
 #include "loops/reactions.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "scene/closure_types.h"
@@ -8,6 +9,10 @@
 namespace virtual_work_dynamics {
 
 namespace {
+
+// Changes by less, of a unit vector, span nothing: their squares are just above rounding errors of
+// sums of squares.
+constexpr double kLeastSpan = 1e-6;
 
 void addSquares(const ClosureWrench& wrench, const LoopForces& forces,
                 std::array<double, 6>& sums) {
@@ -34,6 +39,7 @@ LoopReactions::LoopReactions(const Mechanism& mechanism, const Scene& scene, con
   }
   addChanges(groups);
   freedoms_.resize(names.size());
+  spans_.resize(names.size());
 }
 
 void LoopReactions::addItem(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
@@ -142,19 +148,52 @@ void LoopReactions::reset() {
   for (auto& freedom : freedoms_) freedom.fill(0);
 }
 
-void LoopReactions::addChange(const LoopKinematics& kinematics, std::size_t group,
-                              const LoopForces& forces, const LoopForces::State& change) {
+// Calls visit(item, wrench) for each item that the change touches.
+template <typename Visit>
+void LoopReactions::visitChanged(const LoopKinematics& kinematics, std::size_t group,
+                                 const LoopForces& forces, const LoopForces::State& change,
+                                 Visit visit) {
   ++calls_;
   for (const std::size_t closure : change.touched_closures) {
     for (const std::size_t i : changes_of_[group][closure]) {
       Change& item = changes_[group][i];
       if (item.counted == calls_) continue;
       item.counted = calls_;
-      const ClosureWrench wrench = reported(
-          kinematics, items_[item.item],
-          item.crossed ? forces.jointWrench(*item.crossed, change) : change.closures[item.closure]);
-      addSquares(wrench, forces, freedoms_[item.item]);
+      visit(item.item, reported(kinematics, items_[item.item],
+                                item.crossed ? forces.jointWrench(*item.crossed, change)
+                                             : change.closures[item.closure]));
     }
+  }
+}
+
+void LoopReactions::addChange(const LoopKinematics& kinematics, std::size_t group,
+                              const LoopForces& forces, const LoopForces::State& change) {
+  visitChanged(kinematics, group, forces, change,
+               [&](std::size_t item, const ClosureWrench& wrench) {
+                 addSquares(wrench, forces, freedoms_[item]);
+               });
+}
+
+void LoopReactions::resetSpans() {
+  for (auto& span : spans_) span.setZero();
+}
+
+void LoopReactions::addSpan(const LoopKinematics& kinematics, std::size_t group,
+                            const LoopForces& forces, const LoopForces::State& change) {
+  const double scale = std::min(1.0, kLeastSpan / (10 * forces.leastChange()));
+  visitChanged(kinematics, group, forces, change,
+               [&](std::size_t item, const ClosureWrench& wrench) {
+                 Eigen::Matrix<double, 6, 1> entries;
+                 entries << scale * wrench.force, scale / forces.length() * wrench.moment;
+                 spans_[item] += entries * entries.transpose();
+               });
+}
+
+void LoopReactions::getRanks(std::vector<int>& ranks) const {
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> squares(
+        spans_[i], Eigen::EigenvaluesOnly);
+    ranks[i] = static_cast<int>((squares.eigenvalues().array() > kLeastSpan * kLeastSpan).count());
   }
 }
 

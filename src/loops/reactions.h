@@ -46,6 +46,13 @@ class LoopReactions {
                  const LoopForces::State& change);
   void setFlags(std::vector<Determined>& determined) const;
 
+  /// Starts anew. How many dimensions the changes of each wrench span, whatever the axes, follows
+  /// from the same changes: call resetSpans(), then addSpan() with each of them, then getRanks().
+  void resetSpans();
+  void addSpan(const LoopKinematics& kinematics, std::size_t group, const LoopForces& forces,
+               const LoopForces::State& change);
+  void getRanks(std::vector<int>& ranks) const;
+
   std::size_t size() const { return items_.size(); }
 
  private:
@@ -60,8 +67,11 @@ class LoopReactions {
     std::size_t item;
     const LoopGroup::CrossedJoint* crossed;  ///< null for a closure
     std::size_t closure;                     ///< index into the group's
-    std::size_t counted = 0;                 ///< number of the addChange() that included it last
+    std::size_t counted = 0;                 ///< number of the change that was visited last
   };
+  template <typename Visit>
+  void visitChanged(const LoopKinematics& kinematics, std::size_t group, const LoopForces& forces,
+                    const LoopForces::State& change, Visit visit);
   void addItem(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
                const std::string& name);
   void addChanges(const std::vector<LoopGroup>& groups);
@@ -74,8 +84,9 @@ class LoopReactions {
   std::vector<std::vector<Change>> changes_;  // by group
   // changes_of_[g][c]: indices into changes_[g] of the items that closure c of group g affects.
   std::vector<std::vector<std::vector<std::size_t>>> changes_of_;
-  std::size_t calls_ = 0;                        // number of calls of addChange()
-  std::vector<std::array<double, 6>> freedoms_;  // sums of squared changes over leastChange()
+  std::size_t calls_ = 0;                           // number of changes visited
+  std::vector<std::array<double, 6>> freedoms_;     // sums of squared changes over leastChange()
+  std::vector<Eigen::Matrix<double, 6, 6>> spans_;  // sums of products of changes
 };
 
 }  // namespace virtual_work_dynamics

@@ -56,12 +56,13 @@ Output
 
 The result has the columns time, effort.<joint> (N m or N) and, for each reaction,
 reaction.<name>.{fx,fy,fz,tx,ty,tz}: force (N) and moment about the joint's origin (N m) that the
-parent link exerts on the child link. An empty cell is a value that overflowed.
+parent link exerts on the child link. An empty cell is a value that overflowed or
+does not exist.
 
 Where the scene closes loops, closures have effort and reaction columns like joints. Further columns
 are determined.effort.<joint>, determined.<name>.{fx,fy,fz,tx,ty,tz}: 1 where rigid-body mechanics
-determines the value, 0 where the scene's policy does; in singular positions such values are left
-empty. The columns residual.{position,velocity,acceleration}.<closure> say by how much the motion
+determines the value, 0 where the scene's policy does. In singular positions cells of results without
+a value are empty. The columns residual.{position,velocity,acceleration}.<closure> say by how much the motion
 violates the closure, in m or rad, m/s or rad/s, m/s^2 or rad/s^2.
 
 Exit status: 0 done, 1 something is wrong with the input or output, 2 wrong usage.

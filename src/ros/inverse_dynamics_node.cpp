@@ -225,7 +225,7 @@ void InverseDynamicsNode::respond(ActivePlan& plan,
       const Outcome outcome = samples_.computeNext(plan, trajectory_, i, at_once_);
       if (outcome != Outcome::kDone) {
         dropPoint(outcome, trajectory_, i);
-      } else if (at_once_ && plan.wantsSamples()) {
+      } else if (at_once_) {
         publishSample(plan);
       }
     }

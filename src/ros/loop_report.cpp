@@ -48,7 +48,8 @@ std::string count(std::size_t number, const char* one, const char* many) {
 
 }  // namespace
 
-Names loopLines(const Mechanism& mechanism, const Scene& scene, const Dynamics& everything) {
+Names loopLines(const Mechanism& mechanism, const Scene& scene, const Dynamics& everything,
+                double condition_warn) {
   Names actuated, passive;
   const Names& efforts = everything.effortNames();
   for (std::size_t i = 0; i < efforts.size(); ++i) {
@@ -56,7 +57,7 @@ Names loopLines(const Mechanism& mechanism, const Scene& scene, const Dynamics& 
     (carries ? actuated : passive).push_back(efforts[i]);
   }
   const DeterminacyMessage assembled = assembledDeterminacy(
-      mechanism, everything, requestedReactions(mechanism, scene), kCloseToSingular);
+      mechanism, everything, requestedReactions(mechanism, scene), condition_warn);
   const diagnostic_msgs::DiagnosticArray& found = assembled.message();
   std::string numbers;
   for (std::size_t i = 0; i < 4; ++i) {

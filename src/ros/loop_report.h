@@ -12,9 +12,10 @@
 namespace virtual_work_dynamics {
 
 /// Describes, in lines for the log, the closed loops in their assembled position.
+/// @param condition_warn larger conditions are close to a singular position
 /// @param everything Dynamics of all that the scene asks for, in both axes
 std::vector<std::string> loopLines(const Mechanism& mechanism, const Scene& scene,
-                                   const Dynamics& everything);
+                                   const Dynamics& everything, double condition_warn);
 
 /// Reports on /diagnostics how far motions violate the loops, what is determined and whether
 /// positions were singular. Serves one thread.

@@ -29,7 +29,8 @@ class OutputMessage {
 
   /// Begins a trajectory, whose points the next samples are; for outputs of trajectories.
   virtual void begin(const trajectory_msgs::JointTrajectory&, const TrajectoryMotion&) {}
-  /// Writes a sample. Allocates only when a result begins or ceases to exist, and for trajectories.
+  /// Writes a sample. Allocates only while or after some result does not exist, and for
+  /// trajectories.
   virtual void fill(const OutputSample& sample) = 0;
   /// Publishes what was written, unless there is nothing to publish.
   virtual void publish(const ros::Publisher& topic) const = 0;

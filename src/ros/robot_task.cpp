@@ -55,8 +55,9 @@ RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
   outputs = makeOutputs(mechanism, everything,
                         {reactions, reaction_topics, parameters.frame_prefix, parameters.twist,
                          parameters.loop_limits.condition});
-  plan_lines =
-      everything.closed() ? loopLines(mechanism, scene, everything) : everything.summary().lines();
+  plan_lines = everything.closed()
+                   ? loopLines(mechanism, scene, everything, parameters.loop_limits.condition)
+                   : everything.summary().lines();
 }
 
 std::vector<bool> RobotTask::passive() const {

@@ -52,7 +52,9 @@ void SampleComputation::computeBlock(ActivePlan& plan, const TrajectoryMotion& t
   const auto start = Clock::now();
   plan.points.compute(trajectory.table, first, count);
   const std::chrono::nanoseconds share = (Clock::now() - start) / count;
-  for (std::size_t i = 0; i < count; ++i) records_.counters.run_times.record(share.count());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!trajectory.isOpen(first + i)) records_.counters.run_times.record(share.count());
+  }
 }
 
 SampleComputation::Outcome SampleComputation::computeOne(ActivePlan& plan, std::int64_t stamp_ns,

@@ -200,6 +200,22 @@ TEST(Existence, EverythingExistsInRegularPositions) {
   }
 }
 
+// What a singular position opens is hidden in components that are open anyway where the plane lies
+// obliquely: a reaction that is incomplete in some axes must not seem complete in others.
+TEST(Existence, OfAWholeReactionDoesNotDependOnTheAxes) {
+  int incomplete = 0;
+  for (const Singular& singular : all()) {
+    SCOPED_TRACE(singular.mechanism.name());
+    const Existing found = existingAt(singular.dynamics(), singular.position);
+    for (std::size_t i = 0; i < singular.names.size(); ++i) {
+      EXPECT_EQ(found.child_axes[i] == kAllComponents, found.root_axes[i] == kAllComponents)
+          << singular.names[i];
+      incomplete += found.root_axes[i] != kAllComponents;
+    }
+  }
+  EXPECT_GE(incomplete, 20);
+}
+
 // The plane is that of x and y, and in these positions all axes are parallel to the root's.
 struct Expected {
   std::vector<bool> effort;

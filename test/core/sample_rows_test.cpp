@@ -137,5 +137,28 @@ TEST(SampleRows, RefuseWhatDoesNotFit) {
   }
 }
 
+// A table without columns has no rows, and yet as many instants as the caller says.
+TEST(SampleRows, MechanismsWithoutCoordinatesHaveSpringsToo) {
+  RobotBuilder builder(1);
+  builder.add(JointType::kFixed, 0, Vector3l::Zero(), Matrix3l::Identity(), Vector3l(1, 0, 0));
+  Scene scene;
+  PointSpring spring;
+  spring.name = "spring";
+  spring.link_a = "link_0";
+  spring.link_b = "link_1";
+  spring.stiffness = 100;
+  scene.springs = {spring};
+  Request request;
+  request.root_axes = {"joint_1"};
+  const Dynamics dynamics(builder.build(), scene, request);
+  ASSERT_TRUE(dynamics.closed());
+  Dynamics::Workspace workspace = dynamics.makeWorkspace();
+  dynamics.compute(Motion(0), workspace);
+  SampleRows rows(dynamics, 4);
+  rows.compute(MotionTable(), 0, 3);
+  EXPECT_EQ(rows.read(2).root_axes[0].force, workspace.results().root_axes[0].force);
+  EXPECT_NE(rows.read(2).root_axes[0].force.x(), 0);
+}
+
 }  // namespace
 }  // namespace virtual_work_dynamics

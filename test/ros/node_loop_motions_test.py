@@ -157,7 +157,7 @@ class LoopMotions(LoopTest):
         message.points = [trajectory_point(0, message.joint_names, (still.q, still.qd, still.qdd))]
         self.trajectories.publish(message)
         values = self.node.wait_for_count('dropped: passive joints', 1)
-        self.assertIn(''slider_joint' are given, but not 'rod_joint': give all joints, or the actuated ones only',
+        self.assertIn("'slider_joint' are given, but not 'rod_joint': give all joints, or the actuated ones only",
                       values['last drop'])
 
     def test_a_part_of_the_passive_joints_is_ignored(self):

@@ -164,7 +164,7 @@ BAD_PARAMETERS = {
     'condition_of_less_than_one': ({'condition_warn': 0.5}, ['~condition_warn: 0.5 is not greater']),
     'closure_on_an_unknown_link': (loop(child={'link': 'paw'}), ["'pin'", "'paw'"]),
     'closure_named_like_a_joint': (loop(name='hinge'), ["'hinge'"]),
-    'closure_named_like_a_link': (loop(name='arm'), ["closures: 'arm' is the name of a link"]),
+    'closure_named_like_a_link': (loop(name='arm'), ["closures: 'arm' is also the name of a link"]),
     'closure_that_cannot_be_assembled': (loop(parent={'link': 'base', 'xyz': [1, 0, 0]}),
                                          ["'pin' cannot be assembled", 'open by 1 m']),
     'actuated_joints_too_few': ({'scene': {'actuated': ['hinge']}}, ["'wrist'"]),
