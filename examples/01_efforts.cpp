@@ -40,7 +40,8 @@ int main(int argc, char** argv) try {
     law->evaluate(t, motion);
     dynamics.compute(motion, workspace);
     std::printf("\n%8d", t);
-    for (const double effort : workspace.results().effort) std::printf(" %14.9f", effort);
+    const Eigen::VectorXd& efforts = workspace.results().effort;
+    for (int i = 0; i < efforts.size(); ++i) std::printf(" %14.9f", efforts[i]);
   }
   std::printf("\n");
 } catch (const Error& error) {

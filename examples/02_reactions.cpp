@@ -15,8 +15,8 @@ using namespace virtual_work_dynamics;
 
 void print(const std::string& name, const char* axes, const Wrench& wrench) {
   std::printf("%-10s %-5s", name.c_str(), axes);
-  for (const double number : wrench.force) std::printf(" %12.6f", number);
-  for (const double number : wrench.torque) std::printf(" %12.6f", number);
+  for (int i = 0; i < 3; ++i) std::printf(" %12.6f", wrench.force[i]);
+  for (int i = 0; i < 3; ++i) std::printf(" %12.6f", wrench.torque[i]);
   std::printf("\n");
 }
 
@@ -25,9 +25,8 @@ int main(int argc, char** argv) try {
   const Mechanism robot = readUrdfFile(argc > 1 ? argv[1] : folder + "/urdf/six_axis_arm.urdf");
   Scene scene = readSceneFile(argc > 2 ? argv[2] : folder + "/config/six_axis_arm_scene.yaml");
 
-  // 1. Add what the world exerts on a link: 50 N along x of the root link, at the origin of the
-  // last
-  //    link's frame. A scene file says the same under the key applied_wrenches.
+  // 1. Add what the world exerts on a link: 50 N along x of the root link, 0.1 m along z of the last
+  //    link's frame. A scene file says that under the key applied_wrenches.
   AppliedWrench push;
   push.link = robot.links().back().name;
   push.at = {0, 0, 0.1};

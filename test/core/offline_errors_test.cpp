@@ -161,8 +161,8 @@ TEST_F(OfflineToolErrors, TimesThatCannotBeSecondsAreRefused) {
     for (int i = 0; i < 6; ++i) text += std::to_string(start + spacing * i) + ",0.1\n";
     return text;
   };
-  EXPECT_EQ(motion(rows(1.6e18, 1e7)),
-            "bad.csv: times up to 1.6e+18 with 1e+07 from row to row cannot be seconds, and "
+  EXPECT_EQ(motion(rows(1.6e18, 1.024e7)),
+            "bad.csv: times up to 1.6e+18 with 1.024e+07 from row to row cannot be seconds, and "
             "derivatives have to be estimated: are they nanoseconds? Give seconds");
   const std::pair<double, double> clocks[] = {{0, 1e6}, {1.6e15, 1e3}, {1.6e12, 1}};
   for (const auto& [start, spacing] : clocks) {
