@@ -25,8 +25,8 @@ int main(int argc, char** argv) try {
   const Mechanism robot = readUrdfFile(argc > 1 ? argv[1] : folder + "/urdf/six_axis_arm.urdf");
   Scene scene = readSceneFile(argc > 2 ? argv[2] : folder + "/config/six_axis_arm_scene.yaml");
 
-  // 1. Add what the world exerts on a link: 50 N along x of the root link, 0.1 m along z of the last
-  //    link's frame. A scene file says that under the key applied_wrenches.
+  // 1. Add what the world exerts on a link: 50 N along x of the root link, on the last link's z
+  //    axis. A scene file says that under the key applied_wrenches.
   AppliedWrench push;
   push.link = robot.links().back().name;
   push.at = {0, 0, 0.1};
