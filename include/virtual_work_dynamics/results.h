@@ -60,7 +60,7 @@ struct LoopResults {
   std::vector<bool> effort_determined;
   std::vector<Determined> child_axes_determined, root_axes_determined;
   /// Which results have a value at all. In singular positions: what is determined, and reactions of
-  /// which no more is open than in regular positions; see doc/closed_loops.md. Elsewhere: every one.
+  /// which no more is open than in regular positions; see doc/closed_loops.md. Elsewhere: all.
   std::vector<bool> effort_exists;
   std::vector<Determined> child_axes_exist, root_axes_exist;
 

@@ -78,11 +78,12 @@ TEST_F(ClosedLoopTree, LagrangesEquationsFindTheSame) {
     }
     for (std::size_t n = 0; n < names.size(); ++n) {
       const Wrench &child = results->childAxes(names[n]), &root = results->rootAxes(names[n]);
-      for (const auto& [found, expected] : {std::make_pair(&lagrange.childAxes()[n], &child),
-                                            std::make_pair(&lagrange.rootAxes()[n], &root)}) {
-        EXPECT_LE((found->force - expected->force).norm(), tolerance) << names[n];
-        EXPECT_LE((found->torque - expected->torque).norm(), tolerance) << names[n];
-      }
+      const auto expectNear = [&](const Wrench& found, const Wrench& expected) {
+        EXPECT_LE((found.force - expected.force).norm(), tolerance) << names[n];
+        EXPECT_LE((found.torque - expected.torque).norm(), tolerance) << names[n];
+      };
+      expectNear(lagrange.childAxes()[n], child);
+      expectNear(lagrange.rootAxes()[n], root);
     }
   }
   EXPECT_GE(compared, 100);
