@@ -2,6 +2,7 @@
 
 #include <locale.h>
 
+#include <algorithm>
 #include <cassert>
 #include <charconv>
 #include <cmath>
@@ -65,13 +66,27 @@ void appendNumber(std::string& text, double value) {
   // need not be tried.
   const bool subnormal = std::abs(value) < std::numeric_limits<double>::min();
   char buffer[32];
-  for (int digits = subnormal ? 1 : 15; digits <= 17; ++digits) {
-    const int length = std::snprintf(buffer, sizeof(buffer), "%.*g", digits, value);
-    if (digits == 17 || std::strtod(buffer, nullptr) == value) {
-      text.append(buffer, static_cast<std::size_t>(length));
-      return;
-    }
-  }
+  int digits = subnormal ? 1 : 15;
+  const auto print = [&] {
+    std::snprintf(buffer, sizeof(buffer), "%.*e", digits - 1, value);
+    return std::strtod(buffer, nullptr) == value;
+  };
+  while (!print() && digits < 17) ++digits;
+  // As to_chars() does: the shorter of both notations, the fixed one where they are equally long.
+  std::string scientific = buffer;
+  const std::size_t exponent_at = scientific.find('e');
+  std::size_t end = exponent_at;
+  while (scientific[end - 1] == '0' && scientific.find('.') < end) --end;
+  if (scientific[end - 1] == '.') --end;
+  scientific.erase(end, exponent_at - end);
+  const int exponent = std::atoi(buffer + exponent_at + 1);
+  const int significant =
+      static_cast<int>(std::count_if(scientific.begin(), scientific.begin() + static_cast<int>(end),
+                                     [](char c) { return c >= '0' && c <= '9'; }));
+  char fixed[400];
+  const int length =
+      std::snprintf(fixed, sizeof(fixed), "%.*f", std::max(0, significant - 1 - exponent), value);
+  text += static_cast<std::size_t>(length) <= scientific.size() ? fixed : scientific.c_str();
 }
 
 bool parseNumber(const std::string& text, double& value) {

@@ -231,5 +231,24 @@ INSTANTIATE_TEST_SUITE_P(Ways, NumberText,
                                              portable::parseNumber}),
                          [](const auto& way) { return way.param.name; });
 
+// Messages and files are the same whatever standard library wrote them.
+TEST(PortableNumberText, IsThatOfCharconv) {
+  const auto expectSame = [](double value) {
+    std::string text, portable_text;
+    appendNumber(text, value);
+    portable::appendNumber(portable_text, value);
+    EXPECT_EQ(portable_text, text);
+  };
+  for (int exponent = -30; exponent <= 30; ++exponent) {
+    for (int k = 1; k < 30; ++k) {
+      expectSame(k * std::pow(10.0, exponent));
+      expectSame(-k / 7.0 * std::pow(10.0, exponent));
+    }
+  }
+  for (const double value : {0.0, -0.0, 1e5, 0x1p60, 1e22, 1e23, 5e-324, 1.7976931348623157e308}) {
+    expectSame(value);
+  }
+}
+
 }  // namespace
 }  // namespace virtual_work_dynamics
