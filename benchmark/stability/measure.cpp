@@ -63,7 +63,9 @@ double neighbour(double value, bool up, InputNumbers numbers) {
 Motion movedByOneUlp(const Motion& motion, InputNumbers numbers, RandomNumbers& random) {
   Motion moved = motion;
   for (Eigen::VectorXd* values : {&moved.q, &moved.qd, &moved.qdd}) {
-    for (double& value : *values) value = neighbour(value, random.chance(0.5), numbers);
+    for (Eigen::Index i = 0; i < values->size(); ++i) {
+      (*values)[i] = neighbour((*values)[i], random.chance(0.5), numbers);
+    }
   }
   return moved;
 }

@@ -188,7 +188,9 @@ Mechanism withFloatGears(const Mechanism& mechanism) {
 Motion roundedToFloat(const Motion& motion) {
   Motion rounded = motion;
   for (Eigen::VectorXd* values : {&rounded.q, &rounded.qd, &rounded.qdd}) {
-    for (double& value : *values) value = nearestFloat(value);
+    for (Eigen::Index i = 0; i < values->size(); ++i) {
+      (*values)[i] = nearestFloat((*values)[i]);
+    }
   }
   return rounded;
 }
