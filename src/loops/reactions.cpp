@@ -54,7 +54,6 @@ void LoopReactions::addItem(const Mechanism& mechanism, const Scene& scene, cons
         !scene.include_active && std::find(actuated.begin(), actuated.end(), c) != actuated.end();
   }
   if (item.closure < 0) {
-    tree_names_.push_back(name);
     item.joint = mechanism.jointIndex(name);
     if (item.joint < 0 && name != kGround) {
       throw SceneError("reactions: there is no joint or closure '" + name + "'");

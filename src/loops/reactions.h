@@ -22,20 +22,17 @@ class LoopReactions {
                 const std::vector<LoopGroup>& groups, const std::vector<std::string>& names,
                 Axes axes);
 
-  /// The requested names that are not closures, in the request's order.
-  const std::vector<std::string>& treeNames() const { return tree_names_; }
-
   /// Sets the reactions.
-  /// @param tree by treeNames()
+  /// @param tree those of joints and ground, in the order of treeRequest()
   /// @param closures by closure
   void setValues(const LoopKinematics& kinematics, const std::vector<Wrench>& tree,
                  const std::vector<ClosureWrench>& closures, std::vector<Wrench>& values) const;
   /// Sets the poses of the joints' frames and of the closures' child frames.
-  /// @param tree by treeNames()
+  /// @param tree those of joints and ground, in the order of treeRequest()
   void setPoses(const LoopKinematics& kinematics, const std::vector<Pose>& tree,
                 std::vector<Pose>& poses) const;
   /// Sets their twists.
-  /// @param tree by treeNames()
+  /// @param tree those of joints and ground, in the order of treeRequest()
   void setTwists(const LoopKinematics& kinematics, const std::vector<Twist>& tree,
                  std::vector<Twist>& twists) const;
 
@@ -80,7 +77,6 @@ class LoopReactions {
 
   bool child_axes_;
   std::vector<Item> items_;
-  std::vector<std::string> tree_names_;
   std::vector<std::vector<Change>> changes_;  // by group
   // changes_of_[g][c]: indices into changes_[g] of the items that closure c of group g affects.
   std::vector<std::vector<std::vector<std::size_t>>> changes_of_;
