@@ -1,24 +1,52 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion_table.h"
+#include "virtual_work_dynamics/noise_settings.h"
 
 namespace virtual_work_dynamics {
 
-/// Fills in the velocities or accelerations that a recorded motion lacks. They are those of the
-/// estimator's polynomial (window and order are the defaults of EstimatorSettings) through the rows
-/// around each row, evaluated at the row itself, so without lag; at both ends the window stays
-/// inside of the table. What is given stays as it is; given velocities are fitted together with the
-/// positions. Tables shorter than the window are fitted with fewer rows and a lower order.
-/// Continuous joints may wrap at a full turn. Does nothing when nothing is missing. Allocates.
+/// How completeMotion() estimates.
+struct CompletionSettings {
+  NoiseSettings noise;
+  /// s: each row is estimated from the rows up to this time after it, as MotionEstimator would;
+  /// infinite: from all rows (zero phase).
+  double lag = std::numeric_limits<double>::infinity();
+  /// s: nothing is assumed of the motion across longer gaps, unless they are usual.
+  double max_gap = 0.25;
+  bool covariances = false;  ///< whether MotionTable::covariances is filled in
+};
+
+/// What completeMotion() found and did.
+struct CompletionReport {
+  bool estimated = false;                ///< false: nothing was missing
+  bool even_clock = false;               ///< times were taken as those of an even clock
+  std::size_t gaps = 0;                  ///< longer than max_gap
+  std::size_t one_sided = 0;             ///< rows near a gap or an end, with rows on one side only
+  std::vector<StreamQuality> qualities;  ///< of each joint of the table
+};
+
+/// Estimates the velocities or accelerations that a recorded motion lacks by a smoother for each
+/// joint: a Kalman filter forward and the adjoint of its innovations back (Bryson and Frazier
+/// 1963), in which a derivative of the motion (third to fifth, by likelihood) is white noise. The
+/// noises of positions, velocities and stamps and the density of the motion are those under which
+/// the rows are most likely (Schweppe 1965). Uneven stamps are taken as those of an even clock if
+/// that makes the positions likelier. Where accelerations are missing, positions and velocities
+/// become the smoothed ones as well; accelerations that are given stay, with the positions.
+/// Velocities that contradict the positions are not used. Continuous joints may wrap at a full
+/// turn. Does nothing when nothing is missing. Allocates.
 /// @param motion a table whose columns are generalized coordinates of `mechanism`.
+/// @param report receives what was found when not null.
 /// @throws MotionError for a joint that is not a generalized coordinate, shapes that disagree, too
 ///   few rows (accelerations need three, velocities two), or times that do not increase, naming the
 ///   row counted from 1.
-MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion);
+MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion,
+                           const CompletionSettings& settings = {},
+                           CompletionReport* report = nullptr);
 
 /// Index of the first time that is not later than the one before it; times.size() when all times
 /// increase.

@@ -13,9 +13,13 @@ struct MotionTable {
   Eigen::MatrixXd positions;      ///< rows x joints, rad or m
   Eigen::MatrixXd velocities;     ///< rows x joints, rad/s or m/s; 0 x 0: not given
   Eigen::MatrixXd accelerations;  ///< rows x joints, rad/s^2 or m/s^2; 0 x 0: not given
+  /// Covariances of (q, qd, qdd), see MotionCovariance: rows x joints, row after row; empty: not
+  /// known.
+  std::vector<Eigen::Matrix3d> covariances;
 
   bool hasVelocities() const { return velocities.size() > 0; }
   bool hasAccelerations() const { return accelerations.size() > 0; }
+  bool hasCovariances() const { return !covariances.empty(); }
 };
 
 }  // namespace virtual_work_dynamics

@@ -6,9 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "motion/polynomial_fit.h"
+#include "motion/recording.h"
 #include "virtual_work_dynamics/error.h"
-#include "virtual_work_dynamics/motion_estimator.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -77,47 +76,39 @@ void checkRows(const MotionTable& motion) {
   }
 }
 
-// Fits the rows around a row and gives the derivatives there.
-class CentredFit {
- public:
-  CentredFit(const MotionTable& given, Eigen::MatrixXd positions)
-      : given_(given),
-        positions_(std::move(positions)),
-        rows_(static_cast<Eigen::Index>(given.times.size())) {
-    const EstimatorSettings settings;
-    window_ = std::min(settings.window, static_cast<int>(rows_));
-    order_ = std::min(settings.order, window_ - 1);
-    times_.resize(static_cast<std::size_t>(window_));
+std::vector<RecordedStream> streamsOf(const Mechanism& mechanism, const MotionTable& motion) {
+  const Eigen::MatrixXd positions = unwrappedPositions(mechanism, motion);
+  std::vector<RecordedStream> streams(motion.joints.size());
+  for (std::size_t i = 0; i < streams.size(); ++i) {
+    const auto column = static_cast<Eigen::Index>(i);
+    const double* from = positions.col(column).data();
+    streams[i].positions.assign(from, from + positions.rows());
+    if (!motion.hasVelocities()) continue;
+    from = motion.velocities.col(column).data();
+    streams[i].velocities.assign(from, from + positions.rows());
   }
+  return streams;
+}
 
-  // Fits the window around a row, in which evaluate() then gives derivatives.
-  void moveTo(Eigen::Index row) {
-    start_ = std::clamp<Eigen::Index>(row - window_ / 2, 0, rows_ - window_);
-    for (std::size_t i = 0; i < times_.size(); ++i) {
-      times_[i] = given_.times[static_cast<std::size_t>(start_) + i] -
-                  given_.times[static_cast<std::size_t>(row)];
-    }
-    fit_.fit(times_.data(), window_, order_, given_.hasVelocities());
+/// Counts gaps, and the rows that are so near to a gap or an end that what they are estimated from
+/// lies on one side.
+void countOneSided(const Recording& recording, CompletionReport& report) {
+  // Most of the weight of a smoother lies within three time constants.
+  constexpr double kReach = 3 / 6.283185307179586;
+  double reach = 0;
+  for (const StreamQuality& quality : report.qualities)
+    reach = std::max(reach, kReach / quality.bandwidth);
+  const std::vector<double>& times = recording.times();
+  std::size_t first = 0;
+  for (std::size_t row = 1; row <= times.size(); ++row) {
+    const bool gap = row < times.size() && times[row] - times[row - 1] > recording.longestGap();
+    if (row < times.size() && !gap) continue;
+    report.gaps += gap ? 1 : 0;
+    for (std::size_t i = first; i < row; ++i)
+      if (times[i] < times[first] + reach || times[i] > times[row - 1] - reach) ++report.one_sided;
+    first = row;
   }
-
-  void evaluate(Eigen::Index column, double& velocity, double& acceleration) const {
-    const double* q = positions_.col(column).data() + start_;
-    const double* qd =
-        given_.hasVelocities() ? given_.velocities.col(column).data() + start_ : nullptr;
-    double position = 0;
-    fit_.evaluate(q, qd, position, velocity, acceleration);
-  }
-
- private:
-  const MotionTable& given_;
-  Eigen::MatrixXd positions_;
-  Eigen::Index rows_;
-  int window_ = 0;
-  int order_ = 0;
-  Eigen::Index start_ = 0;
-  std::vector<double> times_;
-  PolynomialFit fit_;
-};
+}
 
 }  // namespace
 
@@ -128,22 +119,41 @@ std::size_t firstTimeThatDoesNotIncrease(const std::vector<double>& times) {
   return times.size();
 }
 
-MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion) {
+MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion,
+                           const CompletionSettings& settings, CompletionReport* report) {
+  if (report != nullptr) *report = CompletionReport();
   checkShapes(mechanism, motion);
   const bool complete = motion.hasVelocities() && motion.hasAccelerations();
   if (complete || motion.positions.size() == 0) return motion;
   checkRows(motion);
-  CentredFit fit(motion, unwrappedPositions(mechanism, motion));
-  Eigen::MatrixXd velocities(motion.positions.rows(), motion.positions.cols());
-  Eigen::MatrixXd accelerations(motion.positions.rows(), motion.positions.cols());
-  for (Eigen::Index row = 0; row < motion.positions.rows(); ++row) {
-    fit.moveTo(row);
-    for (Eigen::Index column = 0; column < motion.positions.cols(); ++column) {
-      fit.evaluate(column, velocities(row, column), accelerations(row, column));
-    }
+  Recording recording(motion.times, streamsOf(mechanism, motion), settings);
+  recording.identify();
+  const bool given = motion.hasAccelerations();
+  motion.velocities.resize(motion.positions.rows(), motion.positions.cols());
+  if (!given) motion.accelerations.resize(motion.positions.rows(), motion.positions.cols());
+  const std::size_t joints = motion.joints.size();
+  if (settings.covariances)
+    motion.covariances.assign(motion.times.size() * joints, Eigen::Matrix3d::Zero());
+  for (std::size_t joint = 0; joint < joints; ++joint) {
+    const auto column = static_cast<Eigen::Index>(joint);
+    const auto take = [&](std::size_t row, const SmoothedSample& sample) {
+      const auto at = static_cast<Eigen::Index>(row);
+      motion.velocities(at, column) = sample.motion[1];
+      if (settings.covariances) motion.covariances[row * joints + joint] = sample.covariance;
+      if (given) return;
+      motion.positions(at, column) = sample.motion[0];
+      motion.accelerations(at, column) = sample.motion[2];
+    };
+    recording.smooth(joint, settings.covariances, take);
   }
-  if (!motion.hasVelocities()) motion.velocities = std::move(velocities);
-  if (!motion.hasAccelerations()) motion.accelerations = std::move(accelerations);
+  if (report != nullptr) {
+    *report = CompletionReport();
+    report->estimated = true;
+    report->even_clock = recording.evenClock();
+    for (std::size_t joint = 0; joint < joints; ++joint)
+      report->qualities.push_back(recording.quality(joint));
+    countOneSided(recording, *report);
+  }
   return motion;
 }
 

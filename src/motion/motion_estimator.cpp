@@ -1,7 +1,6 @@
 #include "virtual_work_dynamics/motion_estimator.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
@@ -10,81 +9,19 @@
 #include <string>
 #include <vector>
 
-#include "motion/polynomial_fit.h"
+#include "motion/coordinate_track.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr int kMaxWindow = PolynomialFit::kMaxWindow;
-/// Number of samples held of a coordinate, a power of two. They are more than a window, so that a
-/// coordinate that comes more often than the others still has samples around the common instant.
-constexpr int kHistory = 512;
-/// Number of sets of weights held; more groups of coordinates than that are fitted anew each time.
-constexpr std::size_t kMaxFits = 32;
-/// Longest jump that is unwrapped, rad: in a longer one a double does not resolve the turns well.
-constexpr double kLongestJump = 1e9;
+constexpr double kLongestLag = 1;  // s
+/// Samples that come too late one after the other before time is taken to have gone back.
+constexpr int kPatience = 20;
+/// A coordinate leads in place of another one when it comes so much more often.
+constexpr double kFaster = 0.7;
 
-struct Sample {
-  std::int64_t stamp;  // ns
-  double q;            // position as it came
-  double turns;        // 2 pi turns + q is the unwrapped position
-  double qd;
-  bool has_qd;
-};
-
-/// The last samples of a coordinate; the oldest makes room for the newest.
-class History {
- public:
-  explicit History(int capacity) : samples_(static_cast<std::size_t>(capacity)) {}
-
-  int size() const { return size_; }
-  bool full() const { return size_ == capacity(); }
-  void clear() { size_ = 0; }
-  void push(const Sample& sample) {
-    newest_ = (newest_ + 1) & (capacity() - 1);
-    samples_[static_cast<std::size_t>(newest_)] = sample;
-    if (!full()) ++size_;
-  }
-  /// The sample `age` samples older than the newest, 0 <= age < size().
-  const Sample& operator[](int age) const {
-    return samples_[static_cast<std::size_t>((newest_ - age) & (capacity() - 1))];
-  }
-
- private:
-  int capacity() const { return static_cast<int>(samples_.size()); }
-
-  std::vector<Sample> samples_;
-  int newest_ = -1;
-  int size_ = 0;
-};
-
-struct Coordinate {
-  Coordinate(bool is_continuous, int capacity) : continuous(is_continuous), history(capacity) {}
-
-  bool continuous;
-  bool needed = true;
-  bool fresh = false;  // refreshed since the last evaluate() or skip()
-  bool seen = false;   // whether any sample ever came
-  double latest = 0;
-  History history;
-};
-
-/// Stamps of a window relative to the instant, oldest first, ns.
-using Stamps = std::array<std::int64_t, kMaxWindow>;
-
-/// Weights and the window that they were computed for.
-struct Fit {
-  Stamps stamps{};
-  bool velocities = false;
-  bool valid = false;
-  std::uint64_t used = 0;  // the evaluation that used it last
-  PolynomialFit polynomial;
-};
-
-template <typename Value>
-void refuseSetting(const char* name, Value value, const std::string& range) {
+void refuse(const char* name, double value, const std::string& range) {
   std::ostringstream text;
   text << "motion estimator: " << name << " is " << value << ", must be " << range;
   throw MotionError(text.str());
@@ -92,30 +29,26 @@ void refuseSetting(const char* name, Value value, const std::string& range) {
 
 void checkSettings(const EstimatorSettings& settings) {
   if (!settings.estimate) return;
-  if (settings.order < 1 || settings.order > PolynomialFit::kMaxOrder)
-    refuseSetting("order", settings.order, "from 1 to " + std::to_string(PolynomialFit::kMaxOrder));
-  if (settings.window < settings.order + 1 || settings.window > kMaxWindow)
-    refuseSetting("window", settings.window,
-                  "from order + 1 = " + std::to_string(settings.order + 1) + " to " +
-                      std::to_string(kMaxWindow));
-  if (settings.lag < 0 || settings.lag >= settings.window)
-    refuseSetting("lag", settings.lag,
-                  "from 0 to window - 1 = " + std::to_string(settings.window - 1));
-  if (!std::isfinite(settings.max_gap) || settings.max_gap <= 0)
-    refuseSetting("max_gap", settings.max_gap, "a positive number of seconds");
+  if (!(settings.lag >= 0 && settings.lag <= kLongestLag))
+    refuse("lag", settings.lag, "from 0 to 1 s");
+  const auto positive = [](const char* name, double value) {
+    if (!std::isfinite(value) || value <= 0) refuse(name, value, "a positive number of seconds");
+  };
+  positive("max_gap", settings.max_gap);
+  positive("hold_after", settings.hold_after);
+  const auto known = [](const char* name, double value) {
+    if (std::isnan(value) || std::isinf(value)) refuse(name, value, "a finite number");
+  };
+  known("position_noise", settings.noise.position_noise);
+  known("velocity_noise", settings.noise.velocity_noise);
+  known("stamp_noise", settings.noise.stamp_noise);
+  known("bandwidth", settings.noise.bandwidth);
+  if (settings.noise.bandwidth == 0) refuse("bandwidth", 0, "positive");
 }
 
-/// Converts s to ns, at most the largest number of 64 bits.
+/// Converts s to ns, at most a number that may be doubled.
 std::int64_t nanoseconds(double seconds) {
-  constexpr double longest = 9.2e9;
-  if (!(seconds < longest)) return std::numeric_limits<std::int64_t>::max();
-  return std::llround(seconds * 1e9);
-}
-
-/// Number of whole turns by which a jump is taken back: zero unless it is longer than half a turn.
-double turnsIn(double jump) {
-  const double length = std::abs(jump);
-  return length > kPi && length < kLongestJump ? std::round(jump / (2 * kPi)) : 0;
+  return std::llround(std::min(seconds, 4e9) * 1e9);
 }
 
 }  // namespace
@@ -123,176 +56,131 @@ double turnsIn(double jump) {
 struct MotionEstimator::Impl {
   Impl(const Mechanism& mechanism, const EstimatorSettings& settings);
 
-  Verdict judge(std::int64_t stamp, const int* indices, int count);
+  struct Coordinate {
+    Coordinate(bool continuous, const EstimatorSettings& settings) : track(continuous, settings) {}
+
+    CoordinateTrack track;
+    bool needed = true;
+    bool seen = false;  // whether any sample ever came
+    bool rests = false;
+    bool held = false;  // in the latest motion
+    double latest = 0;
+    double rest = 0;
+  };
+
+  Coordinate& at(int index) { return coordinates[static_cast<std::size_t>(index)]; }
+  bool farBack(std::int64_t stamp, const int* indices, int count) const;
   void clear();
-  void markStale();
-  bool full() const;
-  bool commonInstant(std::int64_t& instant) const;
-  int windowAge(const History& history, std::int64_t instant) const;
-  const PolynomialFit& weights(bool velocities);
-  void fitAt(std::int64_t instant, Motion& motion);
-  void copyNewest(Motion& motion) const;
+  void chooseLead(int index);
+  bool settled(const Coordinate& coordinate) const;
+  bool nextInstant(std::int64_t& instant) const;
+  void checkSizes(const Motion& motion, const MotionCovariance* covariance) const;
+  Eigen::Vector3d motionOf(Coordinate& coordinate, std::int64_t instant,
+                           Eigen::Matrix3d* covariance);
 
-  const bool estimate;
-  const bool use_velocity;
-  const int window;
-  const int order;
-  const int lag;
-  const std::int64_t max_gap;  // ns
+  const EstimatorSettings settings;
+  const std::int64_t lag;         // ns
+  const std::int64_t max_gap;     // ns
+  const std::int64_t hold_after;  // ns
   std::vector<Coordinate> coordinates;
-  std::vector<Fit> fits;
-  std::uint64_t evaluation = 0;
+  int lead = -1;  // whose samples are the instants of motions
+  std::int64_t latest_instant = std::numeric_limits<std::int64_t>::min();
+  std::int64_t newest = std::numeric_limits<std::int64_t>::min();
   std::int64_t latest_gap = 0;  // ns
-
-  // One window, oldest sample first.
-  Stamps stamps{};
-  std::array<double, kMaxWindow> positions{};  // unwrapped, relative to the first
-  std::array<double, kMaxWindow> velocities{};
+  int gap_coordinate = 0;
+  int too_late = 0;  // samples in a row
 };
 
-MotionEstimator::Impl::Impl(const Mechanism& mechanism, const EstimatorSettings& settings)
-    : estimate(settings.estimate),
-      use_velocity(settings.use_velocity),
-      window(estimate ? settings.window : 1),
-      order(settings.order),
-      lag(estimate ? settings.lag : 0),
-      max_gap(estimate ? nanoseconds(settings.max_gap) : std::numeric_limits<std::int64_t>::max()) {
+MotionEstimator::Impl::Impl(const Mechanism& mechanism, const EstimatorSettings& the_settings)
+    : settings(the_settings),
+      lag(settings.estimate ? nanoseconds(settings.lag) : 0),
+      max_gap(nanoseconds(settings.max_gap)),
+      hold_after(nanoseconds(settings.hold_after)) {
   coordinates.reserve(mechanism.coordinates().size());
   for (const int joint : mechanism.coordinates()) {
     const JointType type = mechanism.joints()[static_cast<std::size_t>(joint)].type;
-    coordinates.emplace_back(estimate && type == JointType::kContinuous, estimate ? kHistory : 1);
+    coordinates.emplace_back(type == JointType::kContinuous, settings);
   }
-  if (estimate) fits.resize(std::min(coordinates.size(), kMaxFits));
 }
 
-/// Decides what to do with a message of this stamp. A stamp earlier than the sample of any
-/// coordinate in it means that time went back; an equal one is dropped even when others have a gap.
-MotionEstimator::Verdict MotionEstimator::Impl::judge(std::int64_t stamp, const int* indices,
-                                                      int count) {
-  bool equal = false;
-  latest_gap = 0;
+/// Whether a stamp is so much earlier than the samples of its joints that time has gone back.
+bool MotionEstimator::Impl::farBack(std::int64_t stamp, const int* indices, int count) const {
   for (int i = 0; i < count; ++i) {
-    const History& history = coordinates[static_cast<std::size_t>(indices[i])].history;
-    if (history.size() == 0) continue;
-    const std::int64_t newest = history[0].stamp;
-    if (stamp < newest) return Verdict::kRestartedBack;
-    equal = equal || stamp == newest;
-    latest_gap = std::max(latest_gap, stamp - newest);
+    const CoordinateTrack& track = coordinates[static_cast<std::size_t>(indices[i])].track;
+    if (!track.empty() && track.newest() - stamp > max_gap) return true;
   }
-  if (equal) return Verdict::kEqualStamp;
-  return latest_gap > max_gap ? Verdict::kRestartedGap : Verdict::kAccepted;
+  return false;
 }
 
 void MotionEstimator::Impl::clear() {
-  for (Coordinate& coordinate : coordinates) coordinate.history.clear();
-  markStale();
+  for (Coordinate& coordinate : coordinates) coordinate.track.clear();
+  lead = -1;
+  latest_instant = newest = std::numeric_limits<std::int64_t>::min();
+  too_late = 0;
 }
 
-void MotionEstimator::Impl::markStale() {
-  for (Coordinate& coordinate : coordinates) coordinate.fresh = false;
+/// Makes a coordinate that just came lead where none does, where the leading one has gone silent,
+/// or where it comes clearly more often.
+void MotionEstimator::Impl::chooseLead(int index) {
+  if (index == lead || !at(index).needed) return;
+  if (lead >= 0 && at(lead).needed) {
+    const CoordinateTrack& leading = at(lead).track;
+    const CoordinateTrack& other = at(index).track;
+    const bool silent = other.newest() - leading.newest() > hold_after;
+    const bool faster = other.stretch() > 2 * CoordinateTrack::kFewest &&
+                        other.interval() < kFaster * leading.interval();
+    if (!silent && !faster) return;
+  }
+  lead = index;
 }
 
-/// True when every coordinate that is needed is fresh and has a full window.
-bool MotionEstimator::Impl::full() const {
+/// Whether the coordinate may be evaluated: it has enough samples, or it comes so seldom that it is
+/// held, or it rests.
+bool MotionEstimator::Impl::settled(const Coordinate& coordinate) const {
+  const CoordinateTrack& track = coordinate.track;
+  if (track.empty()) return coordinate.rests;
+  if (!settings.estimate || track.stretch() >= CoordinateTrack::kFewest) return true;
+  return newest - track.stretchStart() > hold_after;
+}
+
+bool MotionEstimator::Impl::nextInstant(std::int64_t& instant) const {
+  if (lead < 0) return false;
   for (const Coordinate& coordinate : coordinates)
-    if (coordinate.needed && (!coordinate.fresh || coordinate.history.size() < window))
-      return false;
-  return !coordinates.empty();
+    if (coordinate.needed && !settled(coordinate)) return false;
+  const CoordinateTrack& track = coordinates[static_cast<std::size_t>(lead)].track;
+  if (settings.estimate && track.stretch() < CoordinateTrack::kFewest) return false;
+  return track.nextInstant(latest_instant, lag, instant);
 }
 
-/// Finds the instant at which every coordinate can be evaluated; to be called when full() only.
-/// @returns false when a coordinate began later than that.
-bool MotionEstimator::Impl::commonInstant(std::int64_t& instant) const {
-  instant = std::numeric_limits<std::int64_t>::max();
-  for (const Coordinate& coordinate : coordinates)
-    if (coordinate.needed) instant = std::min(instant, coordinate.history[lag].stamp);
-  if (!estimate) return true;
-  // A polynomial must not be evaluated outside of its samples. Where the history is too short, the
-  // instant moves into it; where it still grows, waiting helps.
-  const std::int64_t earliest = instant;
-  for (const Coordinate& coordinate : coordinates) {
-    if (!coordinate.needed) continue;
-    const History& history = coordinate.history;
-    if (history[window - 1].stamp > earliest && history.full())
-      instant = std::max(instant, history[history.size() - 1].stamp);
+Eigen::Vector3d MotionEstimator::Impl::motionOf(Coordinate& coordinate, std::int64_t instant,
+                                                Eigen::Matrix3d* covariance) {
+  const CoordinateTrack& track = coordinate.track;
+  if (covariance != nullptr) covariance->setZero();
+  coordinate.held = true;
+  if (track.empty()) return {coordinate.rest, 0, 0};
+  if (!settings.estimate) {
+    coordinate.held = instant - track.newest() > hold_after;
+    const double qd = coordinate.held ? 0 : track.newestVelocity();
+    return {track.newestPosition(), std::isnan(qd) ? 0 : qd, 0};
   }
-  for (const Coordinate& coordinate : coordinates) {
-    if (!coordinate.needed) continue;
-    const History& history = coordinate.history;
-    if (history[window - 1].stamp > instant && history[history.size() - 1].stamp > instant)
-      return false;
-  }
-  return true;
+  const bool few = track.stretch() < CoordinateTrack::kFewest && track.stretchStart() <= instant;
+  if (few || instant - track.newest() > hold_after) return {track.unwrappedPosition(), 0, 0};
+  coordinate.held = false;
+  return track.evaluate(instant, covariance);
 }
 
-/// Age of the newest sample of the window whose sample `lag` behind it is nearest to the instant.
-int MotionEstimator::Impl::windowAge(const History& history, std::int64_t instant) const {
-  int age = 0;
-  while (age + window < history.size() && history[age + lag].stamp > instant &&
-         history[age + lag].stamp - instant > std::abs(history[age + lag + 1].stamp - instant))
-    ++age;
-  return age;
-}
-
-/// Returns the weights for `stamps`, which are computed only if no set of weights held fits.
-const PolynomialFit& MotionEstimator::Impl::weights(bool with_velocities) {
-  Fit* spare = &fits.front();
-  for (Fit& fit : fits) {
-    if (fit.valid && fit.velocities == with_velocities &&
-        std::equal(stamps.begin(), stamps.begin() + window, fit.stamps.begin())) {
-      fit.used = evaluation;
-      return fit.polynomial;
-    }
-    if (spare->used == evaluation && fit.used != evaluation) spare = &fit;
-  }
-  std::array<double, kMaxWindow> times;
-  for (int i = 0; i < window; ++i)
-    times[static_cast<std::size_t>(i)] =
-        static_cast<double>(stamps[static_cast<std::size_t>(i)]) * 1e-9;
-  spare->valid = false;
-  spare->polynomial.fit(times.data(), window, order, with_velocities);
-  spare->stamps = stamps;
-  spare->velocities = with_velocities;
-  spare->valid = true;
-  spare->used = evaluation;
-  return spare->polynomial;
-}
-
-void MotionEstimator::Impl::fitAt(std::int64_t instant, Motion& motion) {
-  ++evaluation;
-  for (std::size_t c = 0; c < coordinates.size(); ++c) {
-    if (!coordinates[c].needed) continue;
-    const History& history = coordinates[c].history;
-    const int newest = windowAge(history, instant);
-    // Turns are relative to the first sample, too: however far a joint has turned, the differences
-    // that make the acceleration keep their digits.
-    const Sample& first = history[newest + window - 1];
-    bool all_velocities = use_velocity;
-    for (int i = 0; i < window; ++i) {
-      const Sample& sample = history[newest + window - 1 - i];
-      const auto at = static_cast<std::size_t>(i);
-      stamps[at] = sample.stamp - instant;
-      positions[at] = (sample.q - first.q) + 2 * kPi * (sample.turns - first.turns);
-      velocities[at] = sample.qd;
-      all_velocities = all_velocities && sample.has_qd;
-    }
-    const auto out = static_cast<Eigen::Index>(c);
-    weights(all_velocities)
-        .evaluate(positions.data(), velocities.data(), motion.q[out], motion.qd[out],
-                  motion.qdd[out]);
-    motion.q[out] += first.q + 2 * kPi * first.turns;
-  }
-}
-
-void MotionEstimator::Impl::copyNewest(Motion& motion) const {
-  for (std::size_t c = 0; c < coordinates.size(); ++c) {
-    if (!coordinates[c].needed) continue;
-    const Sample& newest = coordinates[c].history[0];
-    const auto out = static_cast<Eigen::Index>(c);
-    motion.q[out] = newest.q;
-    motion.qd[out] = newest.qd;
-    motion.qdd[out] = 0;
-  }
+void MotionEstimator::Impl::checkSizes(const Motion& motion,
+                                       const MotionCovariance* covariance) const {
+  const auto size = static_cast<Eigen::Index>(coordinates.size());
+  if (motion.q.size() != size || motion.qd.size() != size || motion.qdd.size() != size)
+    throw MotionError("motion estimator: the motion has " + std::to_string(motion.q.size()) +
+                      " positions, " + std::to_string(motion.qd.size()) + " velocities and " +
+                      std::to_string(motion.qdd.size()) + " accelerations, must have " +
+                      std::to_string(size) + " of each");
+  if (covariance != nullptr && covariance->coordinates.size() != coordinates.size())
+    throw MotionError("motion estimator: the covariance has " +
+                      std::to_string(covariance->coordinates.size()) + " entries, must have " +
+                      std::to_string(size));
 }
 
 MotionEstimator::MotionEstimator(const Mechanism& mechanism, const EstimatorSettings& settings) {
@@ -304,21 +192,50 @@ MotionEstimator::~MotionEstimator() = default;
 
 MotionEstimator::Verdict MotionEstimator::push(std::int64_t stamp_ns, const int* coordinates,
                                                const double* q, const double* qd, int count) {
-  const Verdict verdict = impl_->judge(stamp_ns, coordinates, count);
-  if (verdict == Verdict::kEqualStamp) return verdict;
-  if (verdict != Verdict::kAccepted) impl_->clear();
+  Impl& impl = *impl_;
+  Verdict verdict = Verdict::kAccepted;
+  impl.latest_gap = 0;
+  if (impl.farBack(stamp_ns, coordinates, count) || impl.too_late >= kPatience) {
+    impl.clear();
+    verdict = Verdict::kRestartedBack;
+  }
+  int equal = 0;
+  int late = 0;
+  bool reordered = false;
   for (int i = 0; i < count; ++i) {
-    Coordinate& coordinate = impl_->coordinates[static_cast<std::size_t>(coordinates[i])];
-    History& history = coordinate.history;
-    double turns = 0;
-    if (coordinate.continuous && history.size() > 0)
-      turns = history[0].turns - turnsIn(q[i] - history[0].q);
-    history.push({stamp_ns, q[i], turns, qd ? qd[i] : 0, qd != nullptr});
+    Impl::Coordinate& coordinate = impl.at(coordinates[i]);
+    CoordinateTrack& track = coordinate.track;
+    const std::int64_t gap = track.empty() ? 0 : stamp_ns - track.newest();
+    const double velocity = qd != nullptr ? qd[i] : std::numeric_limits<double>::quiet_NaN();
+    switch (track.push(stamp_ns, q[i], velocity)) {
+      case CoordinateTrack::Verdict::kEqualStamp:
+        ++equal;
+        continue;
+      case CoordinateTrack::Verdict::kTooLate:
+        ++late;
+        continue;
+      case CoordinateTrack::Verdict::kInserted:
+        reordered = true;
+        continue;
+      case CoordinateTrack::Verdict::kAfterGap:
+        if (gap > impl.latest_gap) {
+          impl.latest_gap = gap;
+          impl.gap_coordinate = coordinates[i];
+        }
+        if (verdict == Verdict::kAccepted) verdict = Verdict::kAfterGap;
+        break;
+      case CoordinateTrack::Verdict::kTaken:
+        break;
+    }
     coordinate.latest = q[i];
     coordinate.seen = true;
-    coordinate.fresh = true;
+    impl.newest = std::max(impl.newest, stamp_ns);
+    impl.chooseLead(coordinates[i]);
   }
-  return verdict;
+  impl.too_late = late > 0 ? impl.too_late + 1 : 0;
+  if (equal == count) return Verdict::kEqualStamp;
+  if (equal + late == count) return Verdict::kTooLate;
+  return reordered && verdict == Verdict::kAccepted ? Verdict::kReordered : verdict;
 }
 
 void MotionEstimator::waitFor(const std::vector<bool>& coordinates) {
@@ -328,38 +245,49 @@ void MotionEstimator::waitFor(const std::vector<bool>& coordinates) {
                       std::to_string(impl_->coordinates.size()));
   for (std::size_t i = 0; i < coordinates.size(); ++i)
     impl_->coordinates[i].needed = coordinates[i];
+  if (impl_->lead >= 0 && !impl_->at(impl_->lead).needed) impl_->lead = -1;
+}
+
+void MotionEstimator::setRest(int coordinate, double position) {
+  impl_->at(coordinate).rests = true;
+  impl_->at(coordinate).rest = position;
 }
 
 std::int64_t MotionEstimator::latestGap() const {
   return impl_->latest_gap;
 }
 
-bool MotionEstimator::ready() const {
-  std::int64_t instant = 0;
-  return impl_->full() && impl_->commonInstant(instant);
+int MotionEstimator::latestGapCoordinate() const {
+  return impl_->gap_coordinate;
 }
 
-std::int64_t MotionEstimator::evaluate(Motion& motion) {
+bool MotionEstimator::ready() const {
   std::int64_t instant = 0;
-  if (!impl_->full() || !impl_->commonInstant(instant))
+  return impl_->nextInstant(instant);
+}
+
+std::int64_t MotionEstimator::evaluate(Motion& motion, MotionCovariance* covariance) {
+  std::int64_t instant = 0;
+  if (!impl_->nextInstant(instant))
     throw MotionError("motion estimator: asked for a motion before it was ready");
-  const auto size = static_cast<Eigen::Index>(impl_->coordinates.size());
-  if (motion.q.size() != size || motion.qd.size() != size || motion.qdd.size() != size)
-    throw MotionError("motion estimator: the motion has " + std::to_string(motion.q.size()) +
-                      " positions, " + std::to_string(motion.qd.size()) + " velocities and " +
-                      std::to_string(motion.qdd.size()) + " accelerations, must have " +
-                      std::to_string(size) + " of each");
-  if (impl_->estimate) {
-    impl_->fitAt(instant, motion);
-  } else {
-    impl_->copyNewest(motion);
+  impl_->checkSizes(motion, covariance);
+  for (std::size_t i = 0; i < impl_->coordinates.size(); ++i) {
+    if (!impl_->coordinates[i].needed) continue;
+    const Eigen::Vector3d state =
+        impl_->motionOf(impl_->coordinates[i], instant,
+                        covariance != nullptr ? &covariance->coordinates[i] : nullptr);
+    const auto out = static_cast<Eigen::Index>(i);
+    motion.q[out] = state[0];
+    motion.qd[out] = state[1];
+    motion.qdd[out] = state[2];
   }
-  impl_->markStale();
+  impl_->latest_instant = instant;
   return instant;
 }
 
 void MotionEstimator::skip() {
-  impl_->markStale();
+  std::int64_t instant = 0;
+  while (impl_->nextInstant(instant)) impl_->latest_instant = instant;
 }
 
 void MotionEstimator::reset() {
@@ -367,14 +295,28 @@ void MotionEstimator::reset() {
 }
 
 bool MotionEstimator::latestPosition(int coordinate, double& q) const {
-  const Coordinate& from = impl_->coordinates[static_cast<std::size_t>(coordinate)];
+  const Impl::Coordinate& from = impl_->at(coordinate);
   if (!from.seen) return false;
   q = from.latest;
   return true;
 }
 
-bool MotionEstimator::stale(int coordinate) const {
-  return !impl_->coordinates[static_cast<std::size_t>(coordinate)].fresh;
+bool MotionEstimator::held(int coordinate) const {
+  return impl_->at(coordinate).held;
+}
+
+double MotionEstimator::age(int coordinate) const {
+  const CoordinateTrack& track = impl_->at(coordinate).track;
+  if (track.empty()) return std::numeric_limits<double>::infinity();
+  return static_cast<double>(impl_->newest - track.newest()) * 1e-9;
+}
+
+StreamQuality MotionEstimator::quality(int coordinate) const {
+  return impl_->at(coordinate).track.quality();
+}
+
+bool MotionEstimator::contradictory(int coordinate) const {
+  return impl_->at(coordinate).track.contradictory();
 }
 
 }  // namespace virtual_work_dynamics

@@ -1,7 +1,14 @@
 vwd_core(
+  coordinate_track.cpp
   motion_completion.cpp
   motion_csv.cpp
   motion_estimator.cpp
   motion_law.cpp
-  polynomial_fit.cpp
-  spline.cpp)
+  recording.cpp
+  sample_blocks.cpp
+  sample_clock.cpp
+  simplex_search.cpp
+  spline.cpp
+  stream_identification.cpp
+  stream_smoother.cpp
+  velocity_judge.cpp)

@@ -1,0 +1,384 @@
+#include "motion/coordinate_track.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "motion/sample_blocks.h"
+#include "motion/velocity_judge.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+/// Samples kept, a power of two.
+constexpr int kCapacity = 1024;
+/// Samples that a late one may be put before.
+constexpr int kMostLate = 64;
+/// Longest jump that is unwrapped, rad: in a longer one a double does not resolve the turns well.
+constexpr double kLongestJump = 1e9;
+
+/// Time constant before anything is learnt, s and intervals.
+constexpr double kFirstTime = 0.02;
+constexpr double kFirstIntervals = 3;
+/// A model is no stiffer than this, so that a motion that begins is not overlooked.
+constexpr double kLongestTime = 1.0;  // s
+/// Shortest time constant that a surprise leads to, s and intervals; less has to be learnt.
+constexpr double kQuickTime = 0.004;
+constexpr double kQuickIntervals = 0.5;
+
+/// Mean square of innovations over their variance that the model cannot have foreseen, the factor
+/// by which the density of the motion then grows, and the samples that the mean goes over.
+constexpr double kSurprising = 6;
+constexpr double kBoost = 10;
+constexpr double kSurpriseSamples = 6;
+
+/// Blocks that the model is found from: their time, s, and how many of them.
+constexpr double kBlockTime = 0.004;
+constexpr std::size_t kBlocks = 768;
+/// Samples before the time between them is known well enough to size the blocks.
+constexpr int kIntervalSamples = 12;
+/// Steps of the identification for each second that samples are apart: a part of the time that
+/// depends neither on the rate nor on what is found.
+constexpr double kStepsPerSecond = 40000;
+constexpr double kMostSteps = 800;
+/// A joint moves when it moves by so many deviations of its positions.
+constexpr double kMovingSteps = 30;
+constexpr double kTwoPi = 2 * kPi;
+/// Steps that jump to and fro: how long they are at least, rad or m, and by how little the position
+/// before the last one differs.
+constexpr double kLongJump = 0.01;
+constexpr double kReturn = 0.2;
+
+double turnsIn(double jump) {
+  const double length = std::abs(jump);
+  return length > kPi && length < kLongestJump ? std::round(jump / kTwoPi) : 0;
+}
+
+double secondsBetween(std::int64_t from, std::int64_t to) {
+  return static_cast<double>(to - from) * 1e-9;
+}
+
+}  // namespace
+
+CoordinateTrack::CoordinateTrack(bool continuous, const EstimatorSettings& settings)
+    : continuous_(continuous),
+      noise_(settings.noise),
+      max_gap_(std::llround(settings.max_gap * 1e9)),
+      entries_(settings.estimate ? kCapacity : 1),
+      least_position_(leastNoise({})),
+      wanted_blocks_(StreamIdentification::kFewest) {
+  if (!settings.estimate) return;
+  blocks_.resize(kBlocks);
+  identification_.reserve(kBlocks);
+}
+
+void CoordinateTrack::clear() {
+  size_ = 0;
+  stretch_ = 0;
+  summed_ = 0;
+  block_count_ = 0;
+  new_blocks_ = 0;
+  jumps_ = 0;
+}
+
+/// Whole turns of the unwrapped position after a sample that follows `before`.
+double CoordinateTrack::turnsAfter(const Entry& before, double q) const {
+  return continuous_ ? before.turns - turnsIn(q - before.q) : before.turns;
+}
+
+double CoordinateTrack::moved(const Entry& from, const Entry& to) {
+  return (to.q - from.q) + kTwoPi * (to.turns - from.turns);
+}
+
+CoordinateTrack::Verdict CoordinateTrack::push(std::int64_t stamp, double q, double qd) {
+  if (size_ > 0 && stamp <= newest()) return insert(stamp, q, qd);
+  const bool gap = size_ > 0 && capacity() > 1 && stamp - newest() > max_gap_;
+  const bool first = size_ == 0 || gap;
+  if (!first) noteInterval(stamp);
+  double turns = size_ > 0 ? turnsAfter(entry(0), q) : 0;
+  newest_ = (newest_ + 1) & (capacity() - 1);
+  size_ = std::min(size_ + 1, capacity());
+  Entry& now = entry(0);
+  now.stamp = stamp;
+  now.q = q;
+  now.turns = turns;
+  now.qd = qd;
+  if (capacity() == 1) return gap ? Verdict::kAfterGap : Verdict::kTaken;
+  if (first) {
+    startStretch(stamp);
+    begin(now);
+  } else {
+    stretch_ = std::min(stretch_ + 1, capacity());
+    noteStep(entry(1), now);
+    follow(entry(1), now, true);
+    identify();
+  }
+  record(stamp, q + kTwoPi * turns, qd);
+  return gap ? Verdict::kAfterGap : Verdict::kTaken;
+}
+
+void CoordinateTrack::startStretch(std::int64_t stamp) {
+  stretch_ = 1;
+  stretch_start_ = stamp;
+  summed_ = 0;
+}
+
+/// Puts a late sample in its place, and filters those after it again.
+CoordinateTrack::Verdict CoordinateTrack::insert(std::int64_t stamp, double q, double qd) {
+  int age = 0;  // of the sample that it comes after
+  while (age < size_ && entry(age).stamp > stamp) ++age;
+  if (age < size_ && entry(age).stamp == stamp) return Verdict::kEqualStamp;
+  // Before the first of a stretch there is a gap, which this sample does not fill alone.
+  if (age >= std::min({size_, stretch_, kMostLate, capacity() - 1})) return Verdict::kTooLate;
+  newest_ = (newest_ + 1) & (capacity() - 1);
+  size_ = std::min(size_ + 1, capacity());
+  stretch_ = std::min(stretch_ + 1, capacity());
+  for (int i = 0; i < age; ++i) entry(i) = entry(i + 1);
+  Entry& place = entry(age);
+  const Entry& before = entry(age + 1);
+  place.stamp = stamp;
+  place.q = q;
+  place.turns = turnsAfter(before, q);
+  place.qd = qd;
+  for (int i = age; i >= 0; --i) follow(entry(i + 1), entry(i), false);
+  return Verdict::kInserted;
+}
+
+/// The model before anything is learnt.
+StreamModel CoordinateTrack::firstModel() const {
+  StreamKnowledge knowledge;
+  knowledge.least_position = least_position_;
+  knowledge.position_noise = noise_.position_noise;
+  knowledge.stamp_noise = noise_.stamp_noise;
+  knowledge.use_velocities = false;
+  const double interval = std::isfinite(interval_) ? interval_ : kFirstTime / kFirstIntervals;
+  knowledge.time_constant = noise_.bandwidth > 0 ? 1 / (kTwoPi * noise_.bandwidth)
+                                                 : std::max(kFirstTime, kFirstIntervals * interval);
+  return unlearnt(knowledge, interval);
+}
+
+void CoordinateTrack::begin(Entry& entry) {
+  if (!learnt_) model_ = firstModel();
+  entry.first = true;
+  entry.has_velocity = false;
+  const double interval = std::isfinite(interval_) ? interval_ : kFirstTime / kFirstIntervals;
+  entry.filtered = firstState<kOrder>(model_, interval);
+  surprise_ = 1;
+}
+
+/// Takes the filter from the sample before to this one. @param judge whether the innovation may
+/// change the model.
+void CoordinateTrack::follow(const Entry& before, Entry& entry, bool judge) {
+  entry.first = false;
+  entry.filtered = before.filtered;
+  StreamState<kOrder>& state = entry.filtered;
+  predict<kOrder>(secondsBetween(before.stamp, entry.stamp), model_.density, state);
+  state.x[0] -= moved(before, entry);
+  entry.position = update<kOrder>(0, -state.x[0], model_.variance(state.x[1]), state);
+  entry.has_velocity = model_.usesVelocities() && std::isfinite(entry.qd);
+  if (entry.has_velocity)
+    entry.velocity = update<kOrder>(1, entry.qd - state.x[1], model_.velocity_variance, state);
+  if (judge && stretch_ > kFewest) adapt(entry.position.normalizedSquare(), state);
+}
+
+/// Makes the model follow more quickly when innovations are much larger than it foresees: the joint
+/// moves faster than it did when the model was learnt.
+void CoordinateTrack::adapt(double normalized_square, StreamState<kOrder>& state) {
+  surprise_ += (std::min(normalized_square, 100.0) - surprise_) / kSurpriseSamples;
+  if (surprise_ < kSurprising || noise_.bandwidth > 0) return;
+  surprise_ = 1;
+  const double quickest = std::max(kQuickTime, kQuickIntervals * interval_);
+  const double most = densityFor(quickest, model_.position_variance, kOrder, interval_);
+  const double factor = std::min(kBoost, most / model_.density);
+  if (factor <= 1) return;
+  model_.density *= factor;
+  // The covariance that a filter of this density settles at.
+  for (int i = 0; i < kOrder; ++i) {
+    const double scale = std::pow(factor, (i + 0.5) / (2 * kOrder));
+    state.P.row(i) *= scale;
+    state.P.col(i) *= scale;
+  }
+  wanted_blocks_ = std::min(wanted_blocks_, StreamIdentification::kFewest);
+}
+
+void CoordinateTrack::noteInterval(std::int64_t stamp) {
+  const double dt = secondsBetween(newest(), stamp);
+  // The mean of the first few, then a slow average.
+  const double weight = 1 / std::min(64.0, static_cast<double>(stretch_));
+  interval_ = std::isfinite(interval_) ? interval_ + weight * (dt - interval_) : dt;
+}
+
+/// Learns from a step how finely positions are resolved, and whether they jump to and fro.
+void CoordinateTrack::noteStep(const Entry& before, const Entry& now) {
+  const double step = std::abs(moved(before, now));
+  const double rounding = leastNoise({before.q, now.q});
+  if (step > 0 && (least_position_ <= leastNoise({}) || rounding < least_position_)) {
+    least_position_ = rounding;
+    const double variance = rounding * rounding;
+    if (!learnt_) {
+      model_ = firstModel();
+    } else if (model_.position_variance < variance) {
+      model_.position_variance = variance;
+    }
+  }
+  if (stretch_ < 3) return;
+  const bool jump = step > kLongJump && std::abs(moved(entry(2), now)) < kReturn * step;
+  jumps_ = jump ? std::min(jumps_ + 1, 2 * kManyJumps) : std::max(jumps_ - 1, 0);
+}
+
+bool CoordinateTrack::nextInstant(std::int64_t after, std::int64_t lag,
+                                  std::int64_t& instant) const {
+  bool found = false;
+  for (int age = 0; age < size_; ++age) {
+    const std::int64_t stamp = entry(age).stamp;
+    if (stamp <= after) break;
+    if (newest() - stamp < lag && age + 1 < capacity()) continue;
+    instant = stamp;
+    found = true;
+  }
+  return found;
+}
+
+double CoordinateTrack::unwrappedPosition() const {
+  return entry(0).q + kTwoPi * entry(0).turns;
+}
+
+Eigen::Vector3d CoordinateTrack::evaluate(std::int64_t instant, Eigen::Matrix3d* covariance) const {
+  const bool with_covariance = covariance != nullptr;
+  StreamAdjoint<kOrder> adjoint;
+  int age = 0;
+  while (age + 1 < size_ && entry(age).stamp > instant) {
+    const Entry& later = entry(age);
+    const Entry& before = entry(age + 1);
+    if (later.first) {
+      // The instant is in the gap before this stretch, or before the gap.
+      adjoint = StreamAdjoint<kOrder>();
+    } else {
+      if (later.has_velocity) adjoint.backOver(1, later.velocity, with_covariance);
+      adjoint.backOver(0, later.position, with_covariance);
+      adjoint.backBy(secondsBetween(std::max(before.stamp, instant), later.stamp), with_covariance);
+    }
+    ++age;
+  }
+  const Entry& base = entry(age);
+  StreamState<kOrder> state = base.filtered;
+  if (instant > base.stamp)
+    predict<kOrder>(secondsBetween(base.stamp, instant), model_.density, state);
+  if (with_covariance) {
+    const Eigen::Matrix4d all = state.P - state.P * adjoint.Lambda * state.P;
+    *covariance = all.topLeftCorner<3, 3>();
+  }
+  Eigen::Vector3d motion = (state.x + state.P * adjoint.r).head<3>();
+  motion[0] += base.q + kTwoPi * base.turns;
+  return motion;
+}
+
+StreamQuality CoordinateTrack::quality() const {
+  StreamQuality quality;
+  quality.interval = std::isfinite(interval_) ? interval_ : 0;
+  quality.position_noise = std::sqrt(model_.position_variance);
+  quality.velocity_noise = model_.usesVelocities() ? std::sqrt(model_.velocity_variance) : -1;
+  quality.stamp_noise = std::sqrt(model_.stamp_variance);
+  if (quality.interval > 0)
+    quality.bandwidth = 1 / (kTwoPi * timeConstant(model_, kOrder, quality.interval));
+  quality.velocity_ratio = velocity_ratio_;
+  return quality;
+}
+
+/// Adds a sample to the block that is being filled.
+void CoordinateTrack::record(std::int64_t stamp, double q, double qd) {
+  if (block_size_ == 0) {
+    if (stretch_ < kIntervalSamples) return;
+    block_size_ = blockSize(kBlockTime, interval_);
+    block_interval_ = interval_;
+    record_start_ = stamp;
+  }
+  // Another rate: the blocks would be of another length.
+  if (interval_ > 1.5 * block_interval_ || interval_ < block_interval_ / 1.5) {
+    block_size_ = 0;
+    block_count_ = new_blocks_ = 0;
+    summed_ = 0;
+    return;
+  }
+  if (summed_ == 0) {
+    block_start_ = stamp;
+    block_position_ = q;
+    sum_ = {0, 0, 0};
+  }
+  sum_.time += secondsBetween(block_start_, stamp);
+  sum_.position += q - block_position_;
+  sum_.velocity += qd;
+  if (++summed_ < block_size_) return;
+  blocks_[next_block_] = {secondsBetween(record_start_, block_start_) + sum_.time / block_size_,
+                          block_position_ + sum_.position / block_size_,
+                          sum_.velocity / block_size_};
+  next_block_ = (next_block_ + 1) % blocks_.size();
+  block_count_ = std::min(block_count_ + 1, blocks_.size());
+  ++new_blocks_;
+  summed_ = 0;
+}
+
+/// Goes on with finding the model by as much as is due with one sample.
+void CoordinateTrack::identify() {
+  if (identification_.running()) {
+    const double steps = std::min(kStepsPerSecond * interval_, kMostSteps);
+    if (identification_.advance(1 + static_cast<int>(steps))) useIdentified();
+  } else if (new_blocks_ >= wanted_blocks_ && block_count_ >= StreamIdentification::kFewest) {
+    startIdentification();
+  }
+}
+
+void CoordinateTrack::startIdentification() {
+  std::vector<StreamBlock>& blocks = identification_.blocks();
+  blocks.clear();
+  const std::size_t oldest = (next_block_ + blocks_.size() - block_count_) % blocks_.size();
+  for (std::size_t i = 0; i < block_count_; ++i)
+    blocks.push_back(blocks_[(oldest + i) % blocks_.size()]);
+  new_blocks_ = 0;
+  wanted_blocks_ = std::min(std::max(block_count_, StreamIdentification::kFewest), kBlocks / 2);
+  double least = blocks[0].position;
+  double most = least;
+  for (const StreamBlock& block : blocks) {
+    least = std::min(least, block.position);
+    most = std::max(most, block.position);
+  }
+  if (most == least) {
+    // There is nothing to learn; a motion that begins shall not wait behind the rest.
+    block_count_ = std::min(block_count_, StreamIdentification::kFewest);
+    wanted_blocks_ = StreamIdentification::kFewest / 2;
+    return;
+  }
+  const double interval = block_interval_ * block_size_;
+  const VelocityJudgement judgement = judgeVelocities(blocks, interval, least_position_);
+  if (judgement.moved) {
+    velocities_proven_ = judgement.agree;
+    velocity_ratio_ = judgement.agree ? 1 : judgement.ratio;
+  }
+  StreamKnowledge knowledge;
+  knowledge.order = kOrder;
+  knowledge.least_position = least_position_;
+  knowledge.position_noise = noise_.position_noise;
+  knowledge.velocity_noise = noise_.velocity_noise;
+  knowledge.stamp_noise = noise_.stamp_noise;
+  knowledge.use_velocities = noise_.use_velocity && velocities_proven_;
+  knowledge.longest_gap = std::max(static_cast<double>(max_gap_) * 1e-9, 2.5 * interval);
+  if (noise_.bandwidth > 0) {
+    knowledge.time_constant = 1 / (kTwoPi * noise_.bandwidth);
+  } else if (most - least <
+             kMovingSteps * std::max(least_position_, std::sqrt(model_.position_variance))) {
+    // At rest noise can be learnt, but not how fast the joint will move.
+    knowledge.time_constant = std::max(timeConstant(model_, kOrder, interval_), 1e-9);
+  }
+  identification_.start(knowledge, interval, block_size_, learnt_ ? &model_ : nullptr);
+}
+
+void CoordinateTrack::useIdentified() {
+  model_ = identification_.model();
+  const double least = densityFor(kLongestTime, model_.position_variance, kOrder, interval_);
+  if (!(noise_.bandwidth > 0)) model_.density = std::max(model_.density, least);
+  learnt_ = true;
+  surprise_ = 1;
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "motion/stream_filter.h"
+#include "motion/stream_identification.h"
+#include "virtual_work_dynamics/motion_estimator.h"
+
+namespace virtual_work_dynamics {
+
+/// The latest samples of one coordinate with the states of its filter: takes samples as they come,
+/// learns their noises, and gives the motion at instants that they surround (fixed lag). Does not
+/// allocate after construction.
+class CoordinateTrack {
+ public:
+  enum class Verdict {
+    kTaken,
+    kInserted,    ///< it came late, and took its place among the others
+    kTooLate,     ///< dropped: its place is no longer kept
+    kEqualStamp,  ///< dropped: there is a sample of this stamp
+    kAfterGap     ///< taken as the first of a new stretch
+  };
+
+  /// Fewest samples of a stretch that derivatives can be estimated from.
+  static constexpr int kFewest = 4;
+
+  CoordinateTrack(bool continuous, const EstimatorSettings& settings);
+
+  /// @param qd NaN: not given.
+  Verdict push(std::int64_t stamp, double q, double qd);
+  void clear();
+
+  bool empty() const { return size_ == 0; }
+  std::int64_t newest() const { return entry(0).stamp; }
+  double newestPosition() const { return entry(0).q; }
+  double newestVelocity() const { return entry(0).qd; }
+  /// Usual time between samples, s; infinite before there are two.
+  double interval() const { return interval_; }
+  /// Samples since the latest gap, at most the number that are kept.
+  int stretch() const { return stretch_; }
+  /// First stamp of the latest stretch.
+  std::int64_t stretchStart() const { return stretch_start_; }
+
+  /// Finds the earliest sample later than `after` that is at least `lag` ns older than the newest.
+  bool nextInstant(std::int64_t after, std::int64_t lag, std::int64_t& instant) const;
+
+  /// Estimates the motion at an instant: position (unwrapped), velocity, acceleration, and their
+  /// covariance if not null. To be called with samples only.
+  Eigen::Vector3d evaluate(std::int64_t instant, Eigen::Matrix3d* covariance) const;
+  /// The newest position, unwrapped.
+  double unwrappedPosition() const;
+
+  /// What the samples were found to be.
+  StreamQuality quality() const;
+  /// Whether the positions jump to and fro, as those of two publishers that contradict each other.
+  bool contradictory() const { return jumps_ >= kManyJumps; }
+
+ private:
+  static constexpr int kOrder = 4;
+  static constexpr int kManyJumps = 20;
+
+  struct Entry {
+    std::int64_t stamp = 0;  // ns
+    double q = 0;            // position as it came
+    double turns = 0;        // 2 pi turns + q is the unwrapped position
+    double qd = 0;           // NaN: not given
+    bool first = false;      // of a stretch
+    bool has_velocity = false;
+    StreamUpdate<kOrder> position;
+    StreamUpdate<kOrder> velocity;
+    StreamState<kOrder> filtered;  // after this sample, position relative to it
+  };
+
+  const Entry& entry(int age) const {
+    return entries_[static_cast<std::size_t>((newest_ - age) & (capacity() - 1))];
+  }
+  Entry& entry(int age) {
+    return entries_[static_cast<std::size_t>((newest_ - age) & (capacity() - 1))];
+  }
+  int capacity() const { return static_cast<int>(entries_.size()); }
+  double turnsAfter(const Entry& before, double q) const;
+  static double moved(const Entry& from, const Entry& to);
+  void begin(Entry& entry);
+  void follow(const Entry& before, Entry& entry, bool judge);
+  Verdict insert(std::int64_t stamp, double q, double qd);
+  void noteStep(const Entry& before, const Entry& now);
+  void noteInterval(std::int64_t stamp);
+  void adapt(double normalized_square, StreamState<kOrder>& state);
+  void startStretch(std::int64_t stamp);
+  StreamModel firstModel() const;
+
+  void record(std::int64_t stamp, double q, double qd);
+  void identify();
+  void startIdentification();
+  void useIdentified();
+
+  const bool continuous_;
+  const NoiseSettings noise_;
+  const std::int64_t max_gap_;
+  std::vector<Entry> entries_;  // a ring; the oldest makes room for the newest
+  int newest_ = -1;
+  int size_ = 0;
+  int stretch_ = 0;
+  std::int64_t stretch_start_ = 0;
+  double interval_ = std::numeric_limits<double>::infinity();
+  int jumps_ = 0;
+
+  StreamModel model_;
+  double least_position_;  // standard deviation that no sample can be better than
+  double surprise_ = 1;    // mean square of the latest innovations over their variances
+  bool learnt_ = false;    // whether model_ is from the samples
+  bool velocities_proven_ = false;
+  double velocity_ratio_ = 1;
+
+  // Means of samples from which the model is found: a ring as well.
+  std::vector<StreamBlock> blocks_;
+  std::size_t next_block_ = 0;
+  std::size_t block_count_ = 0;
+  std::size_t new_blocks_ = 0;  // since the identification before
+  std::size_t wanted_blocks_ = 0;
+  int block_size_ = 0;         // samples in a block; 0: not known yet
+  double block_interval_ = 0;  // s
+  StreamBlock sum_{0, 0, 0};   // of the block that is being filled, relative to its first sample
+  int summed_ = 0;
+  std::int64_t block_start_ = 0;
+  std::int64_t record_start_ = 0;
+  double block_position_ = 0;
+  StreamIdentification identification_;
+};
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "motion/stream_identification.h"
+#include "motion/stream_smoother.h"
+#include "virtual_work_dynamics/motion_completion.h"
+
+namespace virtual_work_dynamics {
+
+/// One coordinate of a recording: its samples, and the model that was found for them.
+struct RecordedStream {
+  std::vector<double> positions;   ///< unwrapped, rad or m
+  std::vector<double> velocities;  ///< rad/s or m/s; empty: not given
+  bool still = false;              ///< whether all positions are the same
+  double velocity_ratio = 1;       ///< not 1: velocities contradict the positions
+  StreamKnowledge knowledge;
+  StreamModel model;
+};
+
+/// The streams of a recording with the clock that they share: finds models, then smooths.
+class Recording {
+ public:
+  /// @param times s, increasing.   @param streams as many samples each.
+  Recording(std::vector<double> times, std::vector<RecordedStream> streams,
+            const CompletionSettings& settings);
+
+  /// Finds clock, orders and noises.
+  void identify();
+  void smooth(std::size_t stream, bool covariance,
+              const std::function<void(std::size_t row, const SmoothedSample&)>& take) const;
+
+  bool evenClock() const { return even_clock_; }
+  double interval() const { return interval_; }
+  double longestGap() const { return longest_gap_; }
+  const std::vector<double>& times() const { return times_; }
+  StreamQuality quality(std::size_t stream) const;
+
+ private:
+  std::vector<StreamBlock> samples(const RecordedStream& stream,
+                                   const std::vector<double>& times) const;
+  void prepare(RecordedStream& stream) const;
+  double identify(RecordedStream& stream, const std::vector<double>& times, bool even) const;
+  void chooseClock();
+  void chooseOrder(RecordedStream& stream) const;
+
+  std::vector<double> times_;
+  std::vector<RecordedStream> streams_;
+  const CompletionSettings settings_;
+  double interval_;
+  double longest_gap_;
+  int block_;  // samples averaged to a block that models are found from
+  bool even_clock_ = false;
+};
+
+}  // namespace virtual_work_dynamics

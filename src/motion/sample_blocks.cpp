@@ -1,0 +1,73 @@
+#include "motion/sample_blocks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace virtual_work_dynamics {
+namespace {
+
+/// Positions are good to so many units of their last digit, at best.
+constexpr double kLastDigits = std::numeric_limits<double>::epsilon() / 4;
+constexpr double kLeast = 1e-18;  // rad or m: less than any encoder or number resolves near zero
+/// Time constant of a model that follows its samples, in intervals.
+constexpr double kFollowing = 0.2;
+
+}  // namespace
+
+int blockSize(double block_time, double interval) {
+  return std::max(1, static_cast<int>(std::lround(std::min(block_time / interval, 1e6))));
+}
+
+std::vector<StreamBlock> averaged(const std::vector<StreamBlock>& samples, int size) {
+  if (size == 1) return samples;
+  const auto count = static_cast<std::size_t>(size);
+  std::vector<StreamBlock> blocks;
+  blocks.reserve(samples.size() / count);
+  for (std::size_t first = 0; first + count <= samples.size(); first += count) {
+    // Means of differences from the first sample keep the digits of far positions.
+    StreamBlock sum{0, 0, 0};
+    for (std::size_t i = first; i < first + count; ++i) {
+      sum.time += samples[i].time - samples[first].time;
+      sum.position += samples[i].position - samples[first].position;
+      sum.velocity += samples[i].velocity;
+    }
+    blocks.push_back({samples[first].time + sum.time / size,
+                      samples[first].position + sum.position / size, sum.velocity / size});
+  }
+  return blocks;
+}
+
+double leastNoise(const std::vector<double>& positions) {
+  double step = std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (std::size_t i = 1; i < positions.size(); ++i) {
+    const double difference = std::abs(positions[i] - positions[i - 1]);
+    if (difference > 0) step = std::min(step, difference);
+    most = std::max(most, std::abs(positions[i]));
+  }
+  const double rounding = std::isfinite(step) ? step / std::sqrt(12) : 0;
+  return std::max({rounding, kLastDigits * most, kLeast});
+}
+
+StreamModel unlearnt(const StreamKnowledge& knowledge, double interval) {
+  const double noise = knowledge.position_noise >= 0
+                           ? std::max(knowledge.position_noise, knowledge.least_position)
+                           : knowledge.least_position;
+  const double time_constant =
+      knowledge.time_constant >= 0 ? knowledge.time_constant : kFollowing * interval;
+  StreamModel model;
+  model.position_variance = noise * noise;
+  model.density = densityFor(time_constant, model.position_variance, knowledge.order, interval);
+  model.stamp_variance =
+      knowledge.stamp_noise > 0 ? knowledge.stamp_noise * knowledge.stamp_noise : 0;
+  model.velocity_variance = -1;
+  if (!knowledge.use_velocities) return model;
+  const double velocity_noise =
+      knowledge.velocity_noise >= 0 ? knowledge.velocity_noise : noise / interval;
+  model.velocity_variance = std::max(velocity_noise * velocity_noise, 1e-300);
+  return model;
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,235 @@
+#include "motion/stream_identification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace virtual_work_dynamics {
+namespace {
+
+/// Blocks after a start whose innovations say more of the start than of the model.
+constexpr int kUnjudged = 5;
+/// Time constants that make sense, in intervals: below, everything is followed.
+constexpr double kShortestTime = 0.1;
+constexpr double kLongestTime = 3.0;  // s
+constexpr double kGridFactor = 3;
+/// The search ends when all parameters are known to this logarithm: a twentieth changes estimates
+/// by far less than their error.
+constexpr double kTolerance = 0.05;
+constexpr int kMostValues = 160;
+/// Noise of stamps below which they are taken as true, in intervals.
+constexpr double kLeastStampNoise = 1e-4;
+constexpr double kTiny = 1e-150;
+
+double logarithm(double value) {
+  return std::log(std::max(value, kTiny));
+}
+
+}  // namespace
+
+/// Standard deviation of a block: differences of fourth order leave little of a smooth motion, and
+/// their median little of its jumps.
+double StreamIdentification::positionNoiseFromDifferences() const {
+  // Variance of (1, -4, 6, -4, 1) of white noise is 70; mean magnitude sqrt(2/pi) of deviation.
+  double sum = 0;
+  for (std::size_t i = 4; i < blocks_.size(); ++i) {
+    const double origin = blocks_[i - 2].position;
+    sum += std::abs((blocks_[i].position - origin) - 4 * (blocks_[i - 1].position - origin) -
+                    4 * (blocks_[i - 3].position - origin) + (blocks_[i - 4].position - origin));
+  }
+  return sum / static_cast<double>(blocks_.size() - 4) / std::sqrt(70 * 2 / 3.14159265358979);
+}
+
+/// Logarithm of a parameter that is known beforehand; NaN where it has to be found.
+double StreamIdentification::fixedValue(int parameter) const {
+  const double block = std::sqrt(samples_);  // noise of a block is less than that of a sample
+  const double values[] = {knowledge_.time_constant, knowledge_.position_noise / block,
+                           knowledge_.velocity_noise / block, knowledge_.stamp_noise / block};
+  const double value = values[parameter];
+  return value >= 0 ? logarithm(value) : std::numeric_limits<double>::quiet_NaN();
+}
+
+SimplexSearch::Point StreamIdentification::firstGuess(const StreamModel* guess) const {
+  SimplexSearch::Point point{};
+  if (guess != nullptr) {
+    const double samples = samples_;
+    point[kTime] = logarithm(timeConstant(*guess, knowledge_.order, interval_ / samples_));
+    point[kPosition] = 0.5 * logarithm(guess->position_variance / samples);
+    point[kVelocity] = guess->usesVelocities() ? 0.5 * logarithm(guess->velocity_variance / samples)
+                                               : point[kPosition] - std::log(interval_);
+    point[kStamp] = 0.5 * logarithm(guess->stamp_variance / samples);
+    point[kStamp] = std::max(point[kStamp], logarithm(3 * kLeastStampNoise * interval_));
+  } else {
+    point[kPosition] = logarithm(
+        std::max(positionNoiseFromDifferences(), knowledge_.least_position / std::sqrt(samples_)));
+    point[kVelocity] = point[kPosition] - std::log(interval_);
+    point[kStamp] = logarithm(0.01 * interval_);
+    point[kTime] = logarithm(interval_);
+  }
+  for (int i = 0; i < 4; ++i)
+    if (!std::isnan(fixedValue(i))) point[static_cast<std::size_t>(i)] = fixedValue(i);
+  return point;
+}
+
+void StreamIdentification::start(const StreamKnowledge& knowledge, double interval, int samples,
+                                 const StreamModel* guess) {
+  knowledge_ = knowledge;
+  interval_ = interval;
+  samples_ = samples;
+  running_ = true;
+  dimensions_ = 0;
+  for (int i = 0; i < 4; ++i) {
+    if (!std::isnan(fixedValue(i)) || (i == kVelocity && !knowledge.use_velocities)) continue;
+    searched_[static_cast<std::size_t>(dimensions_++)] = i;
+  }
+  const SimplexSearch::Point first = firstGuess(guess);
+  best_value_ = std::numeric_limits<double>::infinity();
+  searching_ = guess != nullptr || knowledge.time_constant >= 0;
+  best_ = first;
+  if (searching_) {
+    beginSearch(first);
+  } else {
+    grid_time_ = logarithm(interval);
+    candidate_ = first;
+  }
+  beginCandidate();
+}
+
+void StreamIdentification::beginSearch(const SimplexSearch::Point& from) {
+  SimplexSearch::Point first{};
+  SimplexSearch::Point steps{};
+  constexpr double kSteps[] = {0.5, 0.7, -1, 2};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(dimensions_); ++i) {
+    first[i] = from[static_cast<std::size_t>(searched_[i])];
+    steps[i] = kSteps[searched_[i]];
+  }
+  best_ = from;
+  searching_ = true;
+  search_.start(first, steps, dimensions_, kTolerance, kMostValues);
+  candidate_ = whole(search_.asked());
+}
+
+/// All four parameters, of those that are searched.
+SimplexSearch::Point StreamIdentification::whole(const SimplexSearch::Point& searched) const {
+  SimplexSearch::Point point = best_;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(dimensions_); ++i)
+    point[static_cast<std::size_t>(searched_[i])] = searched[i];
+  return point;
+}
+
+/// The model of blocks at a point, held within what makes sense.
+StreamModel StreamIdentification::modelAt(const SimplexSearch::Point& point) const {
+  StreamModel model;
+  const double time = std::clamp(std::exp(point[kTime]), kShortestTime * interval_,
+                                 std::max(kLongestTime, 10 * interval_));
+  const double position = std::max(
+      {std::exp(point[kPosition]), knowledge_.least_position / std::sqrt(samples_), kTiny});
+  model.position_variance = position * position;
+  model.density = densityFor(time, model.position_variance, knowledge_.order, interval_);
+  model.velocity_variance =
+      knowledge_.use_velocities ? std::max(std::exp(2 * point[kVelocity]), kTiny) : -1;
+  model.stamp_variance = !(point[kStamp] > logarithm(kTiny)) ? 0 : std::exp(2 * point[kStamp]);
+  return model;
+}
+
+/// What leads a search back to where modelAt() does not hold it.
+double StreamIdentification::penalty(const SimplexSearch::Point& point) const {
+  const auto below = [](double value, double bound) { return std::max(0.0, bound - value); };
+  const double shortest = logarithm(kShortestTime * interval_);
+  const double longest = logarithm(std::max(kLongestTime, 10 * interval_));
+  const double least = logarithm(knowledge_.least_position / std::sqrt(samples_));
+  double distance =
+      below(point[kTime], shortest) + below(longest, point[kTime]) + below(point[kPosition], least);
+  if (std::isnan(fixedValue(kStamp)))
+    distance += below(point[kStamp], logarithm(kLeastStampNoise * interval_));
+  return 10 * distance * distance;
+}
+
+void StreamIdentification::beginCandidate() {
+  candidate_model_ = modelAt(candidate_);
+  next_ = 0;
+  since_start_ = 0;
+  sum_ = 0;
+}
+
+template <int N>
+double StreamIdentification::stepOf(StreamState<N>& state) {
+  const StreamBlock& block = blocks_[next_];
+  const double dt = next_ > 0 ? block.time - blocks_[next_ - 1].time : 0;
+  if (next_ == 0 || dt > knowledge_.longest_gap) {
+    state = firstState<N>(candidate_model_, interval_);
+    since_start_ = 0;
+    return 0;
+  }
+  predict<N>(dt, candidate_model_.density, state);
+  // Positions count from the latest block, so that far turns cost no digits.
+  const double moved = block.position - blocks_[next_ - 1].position;
+  state.x[0] -= moved;
+  StreamUpdate<N> done = update<N>(0, -state.x[0], candidate_model_.variance(state.x[1]), state);
+  double value = done.normalizedSquare() - std::log(done.precision);
+  if (candidate_model_.usesVelocities() && !std::isnan(block.velocity)) {
+    done = update<N>(1, block.velocity - state.x[1], candidate_model_.velocity_variance, state);
+    value += done.normalizedSquare() - std::log(done.precision);
+  }
+  return ++since_start_ < kUnjudged ? 0 : value;
+}
+
+double StreamIdentification::step() {
+  switch (knowledge_.order) {
+    case 3:
+      return stepOf(state3_);
+    case 5:
+      return stepOf(state5_);
+    default:
+      return stepOf(state4_);
+  }
+}
+
+bool StreamIdentification::advance(int steps) {
+  if (!running_) return false;
+  for (int i = 0; i < steps; ++i) {
+    sum_ += step();
+    if (++next_ < blocks_.size()) continue;
+    endCandidate();
+    if (!running_) return true;
+    beginCandidate();
+  }
+  return false;
+}
+
+void StreamIdentification::finish() {
+  while (running_) advance(1 << 20);
+}
+
+/// Notes the value of a candidate and chooses the next one.
+void StreamIdentification::endCandidate() {
+  double value = sum_ + penalty(candidate_);
+  if (!std::isfinite(value)) value = std::numeric_limits<double>::max();
+  if (searching_) {
+    search_.tell(value);
+    if (!search_.finished()) {
+      candidate_ = whole(search_.asked());
+      return;
+    }
+    best_ = whole(search_.best());
+    value_ = search_.bestValue();
+    model_ = modelAt(best_);
+    model_.position_variance *= samples_;
+    model_.stamp_variance *= samples_;
+    if (model_.usesVelocities()) model_.velocity_variance *= samples_;
+    running_ = false;
+    return;
+  }
+  if (value < best_value_) {
+    best_value_ = value;
+    best_ = candidate_;
+  }
+  grid_time_ += std::log(kGridFactor);
+  if (grid_time_ < std::log(std::max(kLongestTime, 10 * interval_))) {
+    candidate_[kTime] = grid_time_;
+  } else {
+    beginSearch(best_);
+  }
+}
+
+}  // namespace virtual_work_dynamics
