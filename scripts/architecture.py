@@ -32,6 +32,7 @@ KNOWS_ROS = {"ros", "programs"}
 HEADERS_WITHOUT_SOURCE = {
     "error": "base",
     "motion": "motion",
+    "motion_covariance": "motion",
     "motion_table": "motion",
     "notation": "results",
     "plan_summary": "tree",

@@ -99,6 +99,7 @@ class Dynamics {
 
  private:
   friend class SampleRows;
+  friend class Deviations;
   struct Impl;
   std::unique_ptr<const Impl> impl_;
 };

@@ -104,6 +104,15 @@ struct Redundancy {
   std::optional<double> length;  ///< m, makes moments comparable with forces; none: automatic
 };
 
+/// How well the description is known: relative standard deviations, independent for each link, from
+/// 0 to below 1.
+struct Tolerances {
+  double mass = 0;     ///< of a link's mass
+  double inertia = 0;  ///< of a link's moments of inertia about its centre of mass, all alike
+
+  bool any() const { return mass > 0 || inertia > 0; }
+};
+
 /// Which reactions a scene asks for.
 enum class ReactionSelection {
   kAll,  ///< every movable joint, mimic joints included, and every closure
@@ -125,6 +134,7 @@ struct Scene {
   std::vector<JointTerms> joints;  ///< terms of some joints, each once
   /// True: damping and friction of the description count for joints whose terms do not give them.
   bool use_urdf_dynamics = false;
+  Tolerances tolerances;  ///< see Deviations
 
   std::vector<Closure> closures;  ///< empty: an open chain
   std::vector<PointSpring> springs;

@@ -1,5 +1,6 @@
 #include "virtual_work_dynamics/scene_reader.h"
 
+#include "base/number_text.h"
 #include "base/text_file.h"
 #include "scene/closure_reader.h"
 #include "scene/yaml_values.h"
@@ -10,8 +11,10 @@ namespace virtual_work_dynamics {
 namespace {
 
 const Names kSceneKeys = {"gravity",        "motion",           "reactions", "include_active",
-                          "strict_inertia", "applied_wrenches", "joints",    "use_urdf_dynamics"};
+                          "strict_inertia", "applied_wrenches", "joints",    "use_urdf_dynamics",
+                          "tolerances"};
 const Names kWrenchKeys = {"link", "at", "axes", "force", "torque"};
+const Names kToleranceKeys = {"mass", "inertia"};
 const Names kJointKeys = {"name",    "stiffness",        "rest",         "damping",
                           "coulomb", "coulomb_velocity", "rotor_inertia"};
 
@@ -62,6 +65,19 @@ JointTerms readJointTerms(const YAML::Node& node, const std::string& where) {
   return terms;
 }
 
+Tolerances readTolerances(const YAML::Node& node, const std::string& where) {
+  Tolerances tolerances;
+  readMap(node, where, kToleranceKeys, [&](const auto& key, const auto& value, const auto& path) {
+    const double number = readNumber(value, path);
+    if (!(number >= 0 && number < 1)) {
+      failAt(path, numberText(number) + " is not from 0 to below 1");
+    }
+    if (key == "mass") tolerances.mass = number;
+    if (key == "inertia") tolerances.inertia = number;
+  });
+  return tolerances;
+}
+
 void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
   if (readLoopEntry(key, value, scene)) return;
   if (!contains(kSceneKeys, key)) failAt(key, "unknown key");
@@ -72,6 +88,7 @@ void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
   if (key == "strict_inertia") scene.strict_inertia = readBool(value, key);
   if (key == "applied_wrenches") scene.applied_wrenches = readList(value, key, readAppliedWrench);
   if (key == "joints") scene.joints = readList(value, key, readJointTerms);
+  if (key == "tolerances") scene.tolerances = readTolerances(value, key);
   if (key == "use_urdf_dynamics") scene.use_urdf_dynamics = readBool(value, key);
 }
 

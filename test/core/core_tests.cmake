@@ -32,6 +32,9 @@ set(core_test_files
   test/core/closed_loop_refusals_test.cpp
   test/core/closed_loop_singular_test.cpp
   test/core/closed_loop_tree_test.cpp
+  test/core/description_deviations_test.cpp
+  test/core/deviations_allocation_test.cpp
+  test/core/deviations_test.cpp
   test/core/dynamics_test.cpp
   test/core/dynamics_use_test.cpp
   test/core/error_bound_test.cpp

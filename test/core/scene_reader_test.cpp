@@ -116,6 +116,19 @@ TEST(SceneReader, RefusesASecondDocument) {
   std::remove(path.c_str());
 }
 
+TEST(SceneReader, TolerancesAreFromZeroToBelowOne) {
+  EXPECT_FALSE(read("").tolerances.any());
+  const Scene scene = read("tolerances: {mass: 0.03, inertia: '0.1'}");
+  EXPECT_EQ(scene.tolerances.mass, 0.03);
+  EXPECT_EQ(scene.tolerances.inertia, 0.1);
+  EXPECT_TRUE(read("tolerances: {inertia: 0.1}").tolerances.any());
+  for (const char* wrong : {"mass: -0.1", "mass: 1", "inertia: .nan", "mass: .inf", "inertia: 1.5",
+                            "inertia: much", "length: 0.1"}) {
+    EXPECT_THROW(read(std::string("tolerances: {") + wrong + "}"), SceneError) << wrong;
+  }
+  EXPECT_THROW(read("tolerances: 0.1"), SceneError);
+}
+
 TEST(Scene, RequestedReactionsAreInDepthFirstOrderGroundFirst) {
   const Mechanism mechanism = readUrdf(pendulumUrdf());
   EXPECT_EQ(requestedReactions(mechanism, read("")),

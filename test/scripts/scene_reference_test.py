@@ -21,6 +21,7 @@ MAPS = {
     "kSceneKeys": ("",),
     "kWrenchKeys": ("applied_wrenches",),
     "kJointKeys": ("joints",),
+    "kToleranceKeys": ("tolerances",),
     "kClosureKeys": ("closures",),
     "kFrameKeys": ("closures.parent", "closures.child"),
     "kSpringKeys": ("springs",),
@@ -30,6 +31,7 @@ MAPS = {
 NAMED_NUMBERS = {"position": "assembly", "stiffness": "redundancy.stiffness",
                  "weight": "redundancy.effort_weights"}
 STRUCTS = {"": "Scene", "applied_wrenches": "AppliedWrench", "joints": "JointTerms",
+           "tolerances": "Tolerances",
            "closures.parent": "LinkFrame", "closures.child": "LinkFrame", "springs": "PointSpring",
            "redundancy": "Redundancy"}
 # Members that have other names, or other values, than their keys.
@@ -37,6 +39,7 @@ MEMBERS = {"motion": "static_motion"}
 VALUES = {"motion": {False: "full", True: "static"}}
 # Which tables of the page stand for which maps: the heading, or the line before a table in it.
 TABLES = {"Top level": [""], "applied_wrenches": ["applied_wrenches"], "joints": ["joints"],
+          "tolerances": ["tolerances"],
           "closures": ["closures", ("closures.parent", "closures.child")], "springs": ["springs"],
           "assembly": ["assembly"],
           "redundancy": ["redundancy", "redundancy.stiffness", "redundancy.effort_weights"]}

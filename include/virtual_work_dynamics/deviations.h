@@ -1,0 +1,113 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "virtual_work_dynamics/dynamics.h"
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/motion.h"
+#include "virtual_work_dynamics/motion_covariance.h"
+#include "virtual_work_dynamics/request.h"
+#include "virtual_work_dynamics/results.h"
+#include "virtual_work_dynamics/scene.h"
+
+namespace virtual_work_dynamics {
+
+/// Standard deviations of the results of one sample, in the order of the Request. A result has none
+/// (NaN) where it does not exist, where rigid-body mechanics does not determine it, and where the
+/// covariance is not finite.
+struct StandardDeviations {
+  Eigen::VectorXd effort;          ///< as Results::effort, N m or N; at least zero
+  std::vector<Wrench> child_axes;  ///< of each component, N and N m
+  std::vector<Wrench> root_axes;   ///< of each component, N and N m
+};
+
+/// What is uncertain of the motion of a coordinate.
+enum class MotionLevel { kPosition, kVelocity, kAcceleration };
+constexpr int kMotionLevels = 3;
+
+/// Propagates what is not known of a sample's motion, and of a scene's masses and inertias, to its
+/// efforts and reactions, each share for itself.
+///
+/// The share of the motion is J C J^T. The columns of J are differences between the sample and
+/// others in which one position, velocity or acceleration is shifted, 3 n + 1 samples for n
+/// coordinates. Each is shifted by its own standard deviation, so that what is not linear within
+/// it, as dry friction where a joint turns back, counts as far as the noise reaches; velocities are
+/// shifted towards zero. Positions are shifted by 1e-6 to 1e-3 rad or m and velocities by at least
+/// 1e-6 of themselves or 1e-6 rad/s or m/s, so that neither tiny deviations lose digits nor large
+/// ones leave the position; the differences are divided by the shifts.
+///
+/// In closed loops a motion has only as many independent coordinates as the closures leave. Where
+/// the closures determine the passive joints, the actuated ones are shifted, and the others follow.
+/// Otherwise independent coordinates are chosen, actuated ones first. The covariances of the
+/// coordinates that follow are not used: their noise is what the others' noise makes of it, as a
+/// motion must close the loops.
+///
+/// Results are linear in masses and in moments of inertia: the share of the description is the root
+/// of the sum of squares of what each link's mass and inertia contribute, times their tolerance.
+/// The centre of mass and the moments' proportions count as known.
+///
+/// Immutable: one instance may serve any number of threads, each with a workspace of its own.
+class Deviations {
+ public:
+  class Workspace;
+
+  /// Compiles plans for what is requested; poses and twists are ignored.
+  /// @throws SceneError as Dynamics does, and for tolerances that are not from 0 to below 1.
+  Deviations(const Mechanism& mechanism, const Scene& scene, const Request& request);
+  ~Deviations();
+  Deviations(Deviations&&) noexcept;
+  Deviations& operator=(Deviations&&) noexcept;
+
+  /// Number of generalized coordinates.
+  Eigen::Index coordinates() const;
+  /// Whether the scene has tolerances, and so the description a share.
+  bool hasTolerances() const;
+  /// Whether a coordinate is shifted by itself; the others follow from the closures.
+  const std::vector<bool>& independent() const;
+
+  /// Memory for the computations. Allocates, so that they do not.
+  Workspace makeWorkspace() const;
+
+  /// Computes the share of the motion. Does not allocate.
+  /// @param motion of all coordinates, as Dynamics::compute() takes it
+  /// @throws MotionError when a vector of `motion` or the covariance has the wrong length, or the
+  ///   workspace is another plan's.
+  void computeMotion(const Motion& motion, const MotionCovariance& covariance,
+                     Workspace& workspace) const;
+  /// Computes the share of the description, which is zero without tolerances. Does not allocate.
+  /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is
+  ///   another plan's.
+  void computeDescription(const Motion& motion, Workspace& workspace) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<const Impl> impl_;
+};
+
+/// Results and scratch memory of one thread's computations; made by Deviations::makeWorkspace(),
+/// whose maker must outlive it.
+class Deviations::Workspace {
+ public:
+  ~Workspace();
+  Workspace(Workspace&&) noexcept;
+  Workspace& operator=(Workspace&&) noexcept;
+
+  /// The share of the motion, as computed last.
+  const StandardDeviations& motion() const;
+  /// The share of the description, as computed last.
+  const StandardDeviations& description() const;
+  /// The part of each effort's variance that each level of each coordinate's motion would make by
+  /// itself: rows are efforts, columns kMotionLevels * coordinate + level. Of the motion computed
+  /// last.
+  const Eigen::MatrixXd& effortParts() const;
+
+ private:
+  friend class Deviations;
+  struct Impl;
+  explicit Workspace(const Deviations::Impl& plan);
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,155 @@
+#include "dynamics/shifted_samples.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace virtual_work_dynamics {
+namespace {
+
+std::size_t packWidth(InstructionSet instruction_set) {
+  switch (instruction_set) {
+    case InstructionSet::kAvx512:
+      return 8;
+    case InstructionSet::kAvx2:
+      return 4;
+    default:
+      return 2;
+  }
+}
+
+std::size_t wholePacks(std::size_t samples, std::size_t width) {
+  return (samples + width - 1) / width * width;
+}
+
+// The vector of a motion that a level is in.
+Eigen::VectorXd& vectorOf(Motion& motion, Eigen::Index level) {
+  return level == 0 ? motion.q : level == 1 ? motion.qd : motion.qdd;
+}
+
+}  // namespace
+
+void markKnown(const Results& results, std::vector<bool>& known) {
+  const LoopResults& loops = results.loops;
+  std::size_t index = 0;
+  for (std::size_t i = 0; i < loops.effort_determined.size(); ++i) {
+    known[index++] = loops.effort_determined[i] && results.effortExists(i);
+  }
+  const auto mark = [&](const std::vector<Determined>& determined,
+                        const std::vector<Determined>& exist) {
+    for (std::size_t i = 0; i < determined.size(); ++i) {
+      for (std::size_t j = 0; j < determined[i].size(); ++j) {
+        known[index++] = determined[i][j] && exist[i][j];
+      }
+    }
+  };
+  mark(loops.child_axes_determined, loops.child_axes_exist);
+  mark(loops.root_axes_determined, loops.root_axes_exist);
+}
+
+ShiftedChain::ShiftedChain(const InverseDynamics& dynamics, int levels)
+    : block_(dynamics, 1, dynamics.instructionSet()),
+      coordinates_(block_.coordinates()),
+      samples_(wholePacks(1 + static_cast<std::size_t>(levels) * coordinates_,
+                          packWidth(dynamics.instructionSet()))),
+      inputs_(3 * coordinates_ * samples_) {
+  const ResultNumbers numbers(dynamics.makeWorkspace().results());
+  outputs_.resize(numbers.all() * samples_);
+  double* next = outputs_.data();
+  const auto array = [&](std::size_t width) {
+    double* const here = width == 0 ? nullptr : next;
+    next += width * samples_;
+    return here;
+  };
+  results_.effort = array(numbers.efforts);
+  results_.child_axes = array(6 * numbers.child_axes);
+  results_.root_axes = array(6 * numbers.root_axes);
+}
+
+void ShiftedChain::compute(const Motion& motion, const Eigen::MatrixXd& shifts) {
+  const Eigen::VectorXd* const levels[] = {&motion.q, &motion.qd, &motion.qdd};
+  const std::size_t size = coordinates_ * samples_;
+  for (std::size_t level = 0; level < 3; ++level) {
+    double* const array = inputs_.data() + level * size;
+    const bool is_shifted = static_cast<Eigen::Index>(level) < shifts.cols();
+    for (std::size_t i = 0; i < coordinates_; ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      const double value = (*levels[level])[row];
+      double* const samples = array + i * samples_;
+      std::fill(samples, samples + samples_, value);
+      if (!is_shifted) continue;
+      samples[1 + level * coordinates_ + i] = value + shifts(row, static_cast<Eigen::Index>(level));
+    }
+  }
+  const double* const inputs = inputs_.data();
+  block_.compute(BlockLayout::kStructureOfArrays,
+                 {samples_, inputs, inputs + size, inputs + 2 * size}, results_);
+}
+
+ShiftedLoops::ShiftedLoops(const ClosedLoopDynamics& dynamics, const std::vector<bool>& independent,
+                           int levels)
+    : dynamics_(dynamics),
+      independent_(independent),
+      workspace_(dynamics.makeWorkspace()),
+      numbers_(workspace_.results()),
+      samples_(1 + static_cast<std::size_t>(levels) * independent.size()),
+      base_(dynamics.coordinates()),
+      shifted_(dynamics.coordinates()),
+      values_(numbers_.all() * samples_),
+      known_(numbers_.all()) {}
+
+void ShiftedLoops::compute(const Motion& motion, const Eigen::MatrixXd& shifts) {
+  base_ = motion;
+  // What the motion violates of the closures must not count as a shift.
+  if (!dynamics_.complete(base_, independent_, workspace_)) {
+    std::fill(known_.begin(), known_.end(), false);
+    return;
+  }
+  shifted_ = base_;
+  computeSample(0);
+  markKnown(workspace_.results(), known_);
+  std::size_t sample = 1;
+  for (Eigen::Index level = 0; level < shifts.cols(); ++level) {
+    for (Eigen::Index i = 0; i < shifts.rows(); ++i, ++sample) {
+      if (!independent_[static_cast<std::size_t>(i)]) {
+        copyBase(sample);
+        continue;
+      }
+      shifted_ = base_;
+      vectorOf(shifted_, level)[i] += shifts(i, level);
+      if (!computeSample(sample)) std::fill(known_.begin(), known_.end(), false);
+    }
+  }
+}
+
+bool ShiftedLoops::computeSample(std::size_t sample) {
+  if (!dynamics_.complete(shifted_, independent_, workspace_)) return false;
+  dynamics_.compute(shifted_, workspace_);
+  forEachNumber(workspace_.results(), [&](std::size_t number, double value) {
+    values_[number * samples_ + sample] = value;
+  });
+  return true;
+}
+
+void ShiftedLoops::copyBase(std::size_t sample) {
+  for (std::size_t number = 0; number < numbers_.all(); ++number) {
+    values_[number * samples_ + sample] = values_[number * samples_];
+  }
+}
+
+std::vector<bool> independentCoordinates(const ClosedLoopDynamics& dynamics) {
+  ClosedLoopDynamics::Workspace workspace = dynamics.makeWorkspace();
+  std::vector<bool> given(dynamics.actuated().size(), true);
+  for (const bool actuated : {false, true}) {
+    for (std::size_t i = given.size(); i-- > 0;) {
+      if (dynamics.actuated()[i] != actuated) continue;
+      // At rest the rates are found if and only if what is not given is determined.
+      given[i] = false;
+      Motion motion(dynamics.coordinates());
+      motion.q = dynamics.assembly();
+      given[i] = !dynamics.complete(motion, given, workspace);
+    }
+  }
+  return given;
+}
+
+}  // namespace virtual_work_dynamics
