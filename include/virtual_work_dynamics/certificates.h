@@ -15,7 +15,8 @@ namespace virtual_work_dynamics {
 
 /// By how much efforts and reactions of one sample miss laws that hold for the mechanism as a
 /// whole, relative to the sum of the magnitudes of all terms: some 1e-15 when they are right, at
-/// any scale. Zero where there is nothing to compare.
+/// any scale. Zero where there is nothing to compare. They judge the arithmetic, not the motion and
+/// the description that it starts from: see Deviations for these.
 struct Certificates {
   double power = 0;          ///< efforts * velocities against the rate of change of energy
   double ground_force = 0;   ///< ground's force against the rate of change of momentum

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "virtual_work_dynamics/dynamics.h"
@@ -62,6 +63,8 @@ class Deviations {
 
   /// Number of generalized coordinates.
   Eigen::Index coordinates() const;
+  /// Names of what has an effort, as Dynamics::effortNames().
+  const std::vector<std::string>& effortNames() const;
   /// Whether the scene has tolerances, and so the description a share.
   bool hasTolerances() const;
   /// Whether a coordinate is shifted by itself; the others follow from the closures.

@@ -184,6 +184,10 @@ Eigen::Index Deviations::coordinates() const {
   return impl_->dynamics.coordinates();
 }
 
+const std::vector<std::string>& Deviations::effortNames() const {
+  return impl_->dynamics.effortNames();
+}
+
 bool Deviations::hasTolerances() const {
   return impl_->has_tolerances;
 }

@@ -1,5 +1,6 @@
 #include "dynamics/sample_rows.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -115,6 +116,12 @@ void takeRow(const MotionTable& table, std::size_t row, Motion& motion) {
   motion.q = table.positions.row(index);
   motion.qd = table.velocities.row(index);
   motion.qdd = table.accelerations.row(index);
+}
+
+void takeCovariance(const MotionTable& table, std::size_t row, MotionCovariance& covariance) {
+  const std::size_t joints = covariance.coordinates.size();
+  std::copy_n(table.covariances.begin() + static_cast<std::ptrdiff_t>(row * joints), joints,
+              covariance.coordinates.begin());
 }
 
 }  // namespace virtual_work_dynamics

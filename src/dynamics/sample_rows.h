@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "virtual_work_dynamics/dynamics.h"
+#include "virtual_work_dynamics/motion_covariance.h"
 #include "virtual_work_dynamics/motion_table.h"
 
 namespace virtual_work_dynamics {
@@ -44,5 +45,9 @@ class SampleRows {
 /// Copies row `row` of a table of all coordinates, with velocities and accelerations, into
 /// `motion`. Does not allocate when `motion` has the lengths already.
 void takeRow(const MotionTable& table, std::size_t row, Motion& motion);
+
+/// Copies the covariances of row `row` of a table that has them into `covariance`, which has the
+/// length already.
+void takeCovariance(const MotionTable& table, std::size_t row, MotionCovariance& covariance);
 
 }  // namespace virtual_work_dynamics

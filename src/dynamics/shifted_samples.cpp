@@ -1,7 +1,6 @@
 #include "dynamics/shifted_samples.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace virtual_work_dynamics {
 namespace {
@@ -92,33 +91,25 @@ ShiftedLoops::ShiftedLoops(const ClosedLoopDynamics& dynamics, const std::vector
       workspace_(dynamics.makeWorkspace()),
       numbers_(workspace_.results()),
       samples_(1 + static_cast<std::size_t>(levels) * independent.size()),
-      base_(dynamics.coordinates()),
       shifted_(dynamics.coordinates()),
       values_(numbers_.all() * samples_),
       known_(numbers_.all()) {}
 
 void ShiftedLoops::compute(const Motion& motion, const Eigen::MatrixXd& shifts) {
-  base_ = motion;
-  // What the motion violates of the closures must not count as a shift.
-  if (!dynamics_.complete(base_, independent_, workspace_)) {
-    std::fill(known_.begin(), known_.end(), false);
-    return;
-  }
-  shifted_ = base_;
-  computeSample(0);
+  // The sample itself is completed, too: what it violates of the closures is not a shift.
+  shifted_ = motion;
+  bool complete = computeSample(0);
   markKnown(workspace_.results(), known_);
   std::size_t sample = 1;
   for (Eigen::Index level = 0; level < shifts.cols(); ++level) {
     for (Eigen::Index i = 0; i < shifts.rows(); ++i, ++sample) {
-      if (!independent_[static_cast<std::size_t>(i)]) {
-        copyBase(sample);
-        continue;
-      }
-      shifted_ = base_;
+      if (!independent_[static_cast<std::size_t>(i)] || !complete) continue;
+      shifted_ = motion;
       vectorOf(shifted_, level)[i] += shifts(i, level);
-      if (!computeSample(sample)) std::fill(known_.begin(), known_.end(), false);
+      complete = computeSample(sample);
     }
   }
+  if (!complete) std::fill(known_.begin(), known_.end(), false);
 }
 
 bool ShiftedLoops::computeSample(std::size_t sample) {
@@ -128,12 +119,6 @@ bool ShiftedLoops::computeSample(std::size_t sample) {
     values_[number * samples_ + sample] = value;
   });
   return true;
-}
-
-void ShiftedLoops::copyBase(std::size_t sample) {
-  for (std::size_t number = 0; number < numbers_.all(); ++number) {
-    values_[number * samples_ + sample] = values_[number * samples_];
-  }
 }
 
 std::vector<bool> independentCoordinates(const ClosedLoopDynamics& dynamics) {

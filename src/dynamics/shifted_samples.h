@@ -78,7 +78,8 @@ class ShiftedChain : public ShiftedSamples {
   std::vector<bool> known_;
 };
 
-/// Samples of closed loops: independent coordinates are shifted, and the others follow.
+/// Samples of closed loops: independent coordinates are shifted, and the others follow. The samples
+/// of shifts of the others are not computed.
 class ShiftedLoops : public ShiftedSamples {
  public:
   /// @param dynamics must outlive it
@@ -93,14 +94,13 @@ class ShiftedLoops : public ShiftedSamples {
 
  private:
   bool computeSample(std::size_t sample);
-  void copyBase(std::size_t sample);
 
   const ClosedLoopDynamics& dynamics_;
   const std::vector<bool> independent_;
   ClosedLoopDynamics::Workspace workspace_;
   const ResultNumbers numbers_;
   const std::size_t samples_;
-  Motion base_, shifted_;
+  Motion shifted_;
   std::vector<double> values_;
   std::vector<bool> known_;
 };

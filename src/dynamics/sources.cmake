@@ -2,6 +2,7 @@ vwd_core(
   description_shares.cpp
   deviations.cpp
   dynamics.cpp
+  effort_doubts.cpp
   given_joints.cpp
   passive_joints.cpp
   shifted_samples.cpp

@@ -39,7 +39,14 @@ What is computed
                         formula with virtual_work and serves to check it
   --certificates        adds the columns certificate.{power,ground_force,ground_moment}: how far
                         each row violates the balance of power, and the wrench of ground the rates
-                        of change of momentum, relative to the sum of all terms' magnitudes
+                        of change of momentum, relative to the sum of all terms' magnitudes; they
+                        judge the arithmetic, not the motion or the description that it starts from
+  --deviations          adds the columns deviation.effort.<joint>, deviation.<name>.{fx,...,tz}:
+                        standard deviations of the results by the error of the estimated motion; and,
+                        where the scene has tolerances, tolerance.effort.<joint>,
+                        tolerance.<name>.{fx,...,tz}: by the errors of masses and inertias
+  --deviation-warn X    notes efforts whose deviation is more than X times the effort, both as rms of
+                        all rows, and the cause (default: 0.1)
   --loop-tolerance X    how far the motion may violate closed loops, relative to the loops' size
                         and to the largest rate and acceleration (default: 1e-6)
   --threads N           divides the rows among N threads (default: 1)
@@ -142,10 +149,10 @@ int parseThreads(const std::string& text) {
   return static_cast<int>(value);
 }
 
-double parseTolerance(const std::string& text) {
+double parsePositive(const std::string& option, const std::string& text) {
   double value = 0;
   if (!parseNumber(text, value) || value <= 0) {
-    throw UsageError("--loop-tolerance: '" + text + "' is not a positive number");
+    throw UsageError(option + ": '" + text + "' is not a positive number");
   }
   return value;
 }
@@ -167,7 +174,11 @@ const std::map<std::string, Setter>& optionsWithValue() {
        [](const auto& value, auto& arguments) { arguments.method = parseMethod(value); }},
       {"--loop-tolerance",
        [](const auto& value, auto& arguments) {
-         arguments.loop_tolerance = parseTolerance(value);
+         arguments.loop_tolerance = parsePositive("--loop-tolerance", value);
+       }},
+      {"--deviation-warn",
+       [](const auto& value, auto& arguments) {
+         arguments.deviation_warn = parsePositive("--deviation-warn", value);
        }},
       {"--threads",
        [](const auto& value, auto& arguments) { arguments.threads = parseThreads(value); }},
@@ -177,9 +188,13 @@ const std::map<std::string, Setter>& optionsWithValue() {
 
 const std::map<std::string, bool Arguments::*>& switches() {
   static const std::map<std::string, bool Arguments::*> options{
-      {"--certificates", &Arguments::certificates}, {"--check", &Arguments::check},
-      {"--explain", &Arguments::explain},           {"--help", &Arguments::help},
-      {"--no-efforts", &Arguments::no_efforts},     {"--version", &Arguments::version},
+      {"--certificates", &Arguments::certificates},
+      {"--check", &Arguments::check},
+      {"--deviations", &Arguments::deviations},
+      {"--explain", &Arguments::explain},
+      {"--help", &Arguments::help},
+      {"--no-efforts", &Arguments::no_efforts},
+      {"--version", &Arguments::version},
   };
   return options;
 }
@@ -239,6 +254,9 @@ Arguments parseArguments(const std::vector<std::string>& words) {
   if (arguments.urdf.empty()) throw UsageError("--urdf FILE is missing");
   if (arguments.motion.empty() && !arguments.check && !arguments.explain) {
     throw UsageError("--motion FILE is missing (only --check and --explain need none)");
+  }
+  if (arguments.deviation_warn && !arguments.deviations) {
+    throw UsageError("--deviation-warn is of use with --deviations only");
   }
   if (arguments.method == Method::kLagrange) {
     if (arguments.threads != 1) {

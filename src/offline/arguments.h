@@ -40,6 +40,8 @@ struct Arguments {
   bool no_efforts = false;
   Method method = Method::kVirtualWork;
   bool certificates = false;
+  bool deviations = false;
+  std::optional<double> deviation_warn;  ///< over the effort's rms; none: kDeviationWarn
   int threads = 1;
   std::optional<double> loop_tolerance;  ///< relative; none: kLoopTolerance
   bool check = false;

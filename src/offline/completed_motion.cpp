@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iostream>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "dynamics/given_joints.h"
 #include "dynamics/sample_rows.h"
@@ -39,9 +41,23 @@ JointChoice choiceOf(const std::string& path, const Mechanism& mechanism,
   };
 }
 
+// Widens the covariances, like the table.
+void widenCovariances(const Names& all, MotionTable& table) {
+  const std::vector<Eigen::Matrix3d> given = std::move(table.covariances);
+  table.covariances.assign(table.times.size() * all.size(), Eigen::Matrix3d::Zero());
+  for (std::size_t row = 0; row < table.times.size(); ++row) {
+    for (std::size_t i = 0; i < table.joints.size(); ++i) {
+      const auto place = std::find(all.begin(), all.end(), table.joints[i]) - all.begin();
+      table.covariances[row * all.size() + static_cast<std::size_t>(place)] =
+          given[row * table.joints.size() + i];
+    }
+  }
+}
+
 // Widens the table to columns of all coordinates; new columns are zero.
 void widen(const Mechanism& mechanism, MotionTable& table) {
   const Names& all = mechanism.coordinateNames();
+  if (table.hasCovariances()) widenCovariances(all, table);
   for (Eigen::MatrixXd* columns : {&table.positions, &table.velocities, &table.accelerations}) {
     const Eigen::MatrixXd given = *columns;
     columns->setZero(static_cast<Eigen::Index>(table.times.size()),

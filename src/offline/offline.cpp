@@ -11,6 +11,7 @@
 #include "offline/check_report.h"
 #include "offline/completed_motion.h"
 #include "offline/computation.h"
+#include "offline/deviation_rows.h"
 #include "offline/lagrange_rows.h"
 #include "offline/loop_report.h"
 #include "offline/output_file.h"
@@ -146,15 +147,21 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, const Scene
   if (arguments.certificates) certified.emplace(mechanism, dynamics);
   std::optional<LagrangeRows> lagrange;
   if (arguments.method == Method::kLagrange) lagrange.emplace(mechanism, dynamics);
-  const Columns columns = columnsOf(dynamics, written, arguments);
+  Columns columns = columnsOf(dynamics, written, arguments);
   CompletedMotion motion(arguments.motion, mechanism, scene, dynamics, toleranceOf(arguments));
+  std::optional<DeviationRows> deviations;
+  if (arguments.deviations) {
+    deviations.emplace(mechanism, scene, written, motion.file().table, arguments.motion);
+    const Names more = deviations->columns(columns);
+    columns.more.insert(columns.more.end(), more.begin(), more.end());
+  }
   const std::string header = resultHeader(columns);
   OutputFile file(arguments.output);
   ResultWriter writer(file, header);
   std::string warning;
   {
     Rows rows(motion.file(), columns, arguments.child_axes, dynamics.closed(),
-              certified ? &*certified : nullptr, writer);
+              certified ? &*certified : nullptr, deviations ? &*deviations : nullptr, writer);
     Computation(dynamics, motion, arguments.threads)
         .run([&](std::size_t row, const Motion& at, const Results& results) {
           rows.write(row, at, lagrange ? lagrange->compute(at, results) : results);
@@ -163,8 +170,10 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, const Scene
   }
   std::cerr << warning;
   if (certified) {
-    std::cerr << "note: " << arguments.motion << ": " << certified->summary() << "\n";
+    std::cerr << "note: " << arguments.motion
+              << ": certificates judge arithmetic, not input: " << certified->summary() << "\n";
   }
+  if (deviations) std::cerr << deviations->notes(arguments.deviation_warn.value_or(kDeviationWarn));
   writer.finish();
 }
 

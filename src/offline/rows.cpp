@@ -44,12 +44,13 @@ std::string Conditions::worst(const MotionFile& file) const {
 }
 
 Rows::Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool loops,
-           CertifiedRows* certified, ResultWriter& writer)
+           CertifiedRows* certified, DeviationRows* deviations, ResultWriter& writer)
     : file_(file),
       columns_(columns),
       child_axes_(child_axes),
       loops_(loops),
       certified_(certified),
+      deviations_(deviations),
       writer_(writer),
       effort_(static_cast<Eigen::Index>(columns.efforts.size())),
       reactions_(columns.reactions.size()) {}
@@ -63,6 +64,7 @@ void Rows::write(std::size_t row, const Motion& motion, const Results& results) 
     addLoopCells(results);
   }
   if (certified_) certified_->check(motion, results, file_.lines[row], more_);
+  if (deviations_) deviations_->add(row, motion, results, more_);
   writer_.writeRow(file_.table.times[row], effort_, reactions_, more_);
   progress_.update(row + 1, file_.table.times.size());
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "offline/certified_rows.h"
+#include "offline/deviation_rows.h"
 #include "offline/motion_file.h"
 #include "offline/progress.h"
 #include "offline/result_writer.h"
@@ -43,8 +44,9 @@ class Rows {
   /// @param child_axes whether reactions are in child link axes rather than root axes
   /// @param loops whether the columns include loopColumns()
   /// @param certified null when no certificates are asked for
+  /// @param deviations null when no deviations are asked for
   Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool loops,
-       CertifiedRows* certified, ResultWriter& writer);
+       CertifiedRows* certified, DeviationRows* deviations, ResultWriter& writer);
 
   void write(std::size_t row, const Motion& motion, const Results& results);
 
@@ -60,6 +62,7 @@ class Rows {
   const Columns& columns_;
   const bool child_axes_, loops_;
   CertifiedRows* certified_;
+  DeviationRows* deviations_;
   ResultWriter& writer_;
   // The results that are written; those that only certificates need come after them.
   Eigen::VectorXd effort_;

@@ -5,6 +5,7 @@ foreach(file
     check_report.cpp
     completed_motion.cpp
     computation.cpp
+    deviation_rows.cpp
     lagrange_rows.cpp
     loop_report.cpp
     motion_file.cpp

@@ -37,6 +37,7 @@ set(core_test_files
   test/core/deviations_test.cpp
   test/core/dynamics_test.cpp
   test/core/dynamics_use_test.cpp
+  test/core/effort_doubts_test.cpp
   test/core/error_bound_test.cpp
   test/core/existence_test.cpp
   test/core/instruction_set_test.cpp
@@ -57,6 +58,7 @@ set(core_test_files
   test/core/multifrontal_qr_test.cpp
   test/core/non_holonomic_conditions_test.cpp
   test/core/offline_certificates_test.cpp
+  test/core/offline_deviations_test.cpp
   test/core/offline_errors_test.cpp
   test/core/offline_loops_checks_test.cpp
   test/core/offline_loops_errors_test.cpp

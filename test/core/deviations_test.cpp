@@ -262,6 +262,35 @@ TEST_P(EachCutDeviations, EffortMatchesTheFreeBodies) {
   EXPECT_NEAR(effort.sum(), expected, 10 * kSmallDifferences * expected);
 }
 
+TEST_P(EachCutDeviations, CovariancesOfCoordinatesThatFollowAreNotUsed) {
+  const FourBar four_bar;
+  const FourBar::Cut cut = four_bar.cut(GetParam());
+  const Deviations deviations(cut.mechanism, cut.scene, Request());
+  Deviations::Workspace workspace = deviations.makeWorkspace();
+  const Motion motion = cut.motion(four_bar.turnings(1.1, 3.1, -4.2));
+  MotionCovariance covariance = randomCovariance(9, 3, 1e-5);
+  deviations.computeMotion(motion, covariance, workspace);
+  const Eigen::VectorXd before = workspace.motion().effort;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double unknown = std::numeric_limits<double>::quiet_NaN();
+    if (!deviations.independent()[i]) covariance.coordinates[i].setConstant(unknown);
+  }
+  deviations.computeMotion(motion, covariance, workspace);
+  EXPECT_EQ(workspace.motion().effort, before);
+  EXPECT_GT(before.sum(), 0);
+}
+
+TEST_P(EachCutDeviations, PositionsThatDoNotCloseHaveNone) {
+  const FourBar four_bar;
+  const FourBar::Cut cut = four_bar.cut(GetParam());
+  const Deviations deviations(cut.mechanism, cut.scene, Request());
+  Deviations::Workspace workspace = deviations.makeWorkspace();
+  Motion motion(3);
+  motion.q.setConstant(std::numeric_limits<double>::quiet_NaN());
+  deviations.computeMotion(motion, randomCovariance(9, 3, 1e-5), workspace);
+  EXPECT_TRUE(workspace.motion().effort.array().isNaN().all());
+}
+
 TEST_P(EachCutDeviations, WhatIsNotDeterminedHasNone) {
   const FourBar four_bar;
   const FourBar::Cut cut = four_bar.cut(GetParam());

@@ -66,8 +66,9 @@ TEST_F(OfflineTool, NotesTheWorstCertificateAndItsLine) {
   }
   std::ostringstream expected;
   expected.precision(2);
-  expected << "note: m.csv: " << table.header[worst_column] << " is "
-           << table.rows[worst_row][worst_column] << " at worst, line " << worst_row + 3 << "\n";
+  expected << "note: m.csv: certificates judge arithmetic, not input: "
+           << table.header[worst_column] << " is " << table.rows[worst_row][worst_column]
+           << " at worst, line " << worst_row + 3 << "\n";
   // Behind the doubt about the crane's tool.
   EXPECT_EQ(result.err.substr(result.err.find("note: ")), expected.str());
 }

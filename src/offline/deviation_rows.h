@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/effort_doubts.h"
+#include "offline/result_writer.h"
+#include "virtual_work_dynamics/deviations.h"
+#include "virtual_work_dynamics/motion_table.h"
+
+namespace virtual_work_dynamics {
+
+/// Standard deviations of rows: columns of what the motion's covariance makes, if it is known, and
+/// of what the scene's tolerances make, if it has any.
+class DeviationRows {
+ public:
+  /// @param request of what is written, in child axes or in root axes
+  /// @param table whose rows are computed, which must outlive it
+  /// @throws Error, one line, when there is neither a covariance nor a tolerance.
+  DeviationRows(const Mechanism& mechanism, const Scene& scene, const Request& request,
+                const MotionTable& table, const std::string& path);
+
+  /// Names of its columns.
+  std::vector<std::string> columns(const Columns& results) const;
+  /// Computes a row and adds its cells.
+  void add(std::size_t row, const Motion& motion, const Results& results,
+           std::vector<double>& cells);
+
+  /// A line for each effort whose deviation, as rms of all rows, is more than `threshold` times its
+  /// own rms.
+  std::string notes(double threshold) const;
+
+ private:
+  const MotionTable& table_;
+  std::string path_;
+  bool of_motion_;
+  Deviations deviations_;
+  Deviations::Workspace workspace_;
+  MotionCovariance covariance_;
+  std::optional<EffortDoubts> doubts_;  // none without efforts
+};
+
+}  // namespace virtual_work_dynamics
