@@ -25,12 +25,14 @@ void addMicroseconds(DiagnosticStatusWrapper& status, const char* key, std::int6
 
 Diagnostics::Diagnostics(const Counters& counters_read, RunTimeHistogram& run_times,
                          const JointWatch& joints, const SelfCheckReport& self_check,
-                         const LoopReport& loops, const std::string& robot, double period)
+                         const LoopReport& loops, const DeviationReport& deviations,
+                         const std::string& robot, double period)
     : counters_(counters_read),
       run_times_(run_times),
       joints_(joints),
       self_check_(self_check),
       loops_(loops),
+      deviations_(deviations),
       period_(std::chrono::duration_cast<std::chrono::nanoseconds>(
           std::chrono::duration<double>(period))),
       next_(JointWatch::Clock::now() + period_) {
@@ -90,6 +92,7 @@ void Diagnostics::report(DiagnosticStatusWrapper& status) {
   addRunTimes(status);
   self_check_.add(status);
   loops_.add(status);
+  deviations_.add(status);
   addCounts(status);
   status.add("joints waited for", missing.empty() ? "none" : shortList(missing));
   status.add("subscribed outputs", outputs_);

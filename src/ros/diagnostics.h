@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ros/counters.h"
+#include "ros/deviation_report.h"
 #include "ros/joint_watch.h"
 #include "ros/loop_report.h"
 #include "ros/self_check_report.h"
@@ -19,8 +20,8 @@ class Diagnostics {
  public:
   /// @param period s.
   Diagnostics(const Counters& counters_read, RunTimeHistogram& run_times, const JointWatch& joints,
-              const SelfCheckReport& self_check, const LoopReport& loops, const std::string& robot,
-              double period);
+              const SelfCheckReport& self_check, const LoopReport& loops,
+              const DeviationReport& deviations, const std::string& robot, double period);
 
   /// Sets what the node does now: the subscribed outputs, and what it computes for them.
   void setPlan(const std::vector<std::string>& outputs, const std::string& plan,
@@ -55,6 +56,7 @@ class Diagnostics {
   const JointWatch& joints_;
   SelfCheckReport self_check_;
   LoopReport loops_;
+  DeviationReport deviations_;
   const std::chrono::nanoseconds period_;
   JointWatch::Clock::time_point next_;
   Before before_;

@@ -46,6 +46,7 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       diagnostics_(counters_, counters_.run_times, joint_watch_,
                    SelfCheckReport(parameters.self_check, cross_check_.get(), certificates_),
                    LoopReport(task_.everything, task_.reactions, loops_, parameters.loop_limits),
+                   DeviationReport(task_.deviations, parameters.deviation_warn),
                    task_.mechanism.name(), parameters.diagnostic_period),
       sim_time_(ros::Time::isSimTime()) {
   task_.log(parameters);

@@ -105,6 +105,12 @@ LoopLimits readLoopLimits(PrivateParameters& parameters) {
   return limits;
 }
 
+double readDeviationWarn(PrivateParameters& parameters, double fallback) {
+  const double warn = parameters.number("deviation_warn", fallback);
+  if (!(warn > 0)) throw parameterError("deviation_warn", numberText(warn) + " is not positive");
+  return warn;
+}
+
 }  // namespace
 
 InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& private_node) {
@@ -121,6 +127,7 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   result.late_threshold = readPeriod(parameters, "late_threshold", result.late_threshold);
   result.self_check = readSelfCheck(parameters);
   result.loop_limits = readLoopLimits(parameters);
+  result.deviation_warn = readDeviationWarn(parameters, result.deviation_warn);
   result.scene_given = parameters.has("scene");
   const YAML::Node scene = xmlRpcToYaml(parameters.raw("scene"), "scene");
   parameters.refuseUnknown();

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "dynamics/effort_doubts.h"
 #include "ros/loop_limits.h"
 #include "virtual_work_dynamics/motion_estimator.h"
 #include "virtual_work_dynamics/scene.h"
@@ -36,6 +37,7 @@ struct InverseDynamicsParameters {
   double late_threshold = 0.001;   ///< s, from receipt of a joint state to its published result
   LoopLimits loop_limits;          ///< samples beyond them are a WARN
   SelfCheckSettings self_check;
+  double deviation_warn = kDeviationWarn;  ///< deviation of an effort over the effort, both rms
 };
 
 /// Reads and checks the private parameters of the node, and robot_description, which is searched

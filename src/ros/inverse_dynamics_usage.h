@@ -14,6 +14,8 @@ subscribes
 
 publishes (each only while somebody subscribes)
   ~effort            sensor_msgs/JointState           positions and velocities used, efforts
+  ~effort_deviation  sensor_msgs/JointState           standard deviations of efforts by the motion's error
+  ~effort_tolerance  sensor_msgs/JointState           the same by the scene's tolerances, where it has any
   ~reactions         sensor_msgs/MultiDOFJointState   joint poses and wrenches, axes of the root link
   ~reaction/<joint>  geometry_msgs/WrenchStamped      the same wrench, frame of the child link
   ~joint_trajectory  trajectory_msgs/JointTrajectory  the input trajectory with efforts
@@ -42,6 +44,8 @@ parameters
   ~certificates              check power balance and ground's wrench of every sample (false)
   ~residual_warn             WARN from this residual of a check on, relative to sums of magnitudes (1e-10)
   ~residual_error            ERROR from this residual of a check on (1e-7)
+  ~deviation_warn            WARN where an effort's deviation exceeds this times the effort, both rms,
+                             while ~effort_deviation has subscribers (0.1)
   ~loop_tolerance            closed loops: WARN where a motion violates one by more, relative (1e-6)
   ~condition_warn            closed loops: WARN close to a singular position, from this condition on (1e4)
 )";

@@ -3,12 +3,21 @@
 #include <geometry_msgs/Transform.h>
 #include <geometry_msgs/Twist.h>
 #include <geometry_msgs/Wrench.h>
+#include <ros/time.h>
+
+#include <cstdint>
 
 #include "virtual_work_dynamics/results.h"
 
 namespace virtual_work_dynamics {
 
-// Copies results into existing messages.
+inline ros::Time timeOf(std::int64_t stamp_ns) {
+  ros::Time stamp;
+  stamp.fromNSec(static_cast<std::uint64_t>(stamp_ns));
+  return stamp;
+}
+
+// The following functions copy results into existing messages.
 
 template <typename Message>
 void copyVector(const Eigen::Vector3d& from, Message& to) {

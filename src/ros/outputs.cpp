@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "ros/determinacy_message.h"
+#include "ros/deviation_output.h"
 #include "ros/message_copies.h"
 
 namespace virtual_work_dynamics {
@@ -28,12 +29,6 @@ std::vector<std::size_t> placesOf(const Names& wanted, const Names& names) {
   std::vector<std::size_t> places;
   for (const std::string& name : wanted) places.push_back(placeOf(name, names));
   return places;
-}
-
-ros::Time timeOf(std::int64_t stamp_ns) {
-  ros::Time stamp;
-  stamp.fromNSec(static_cast<std::uint64_t>(stamp_ns));
-  return stamp;
 }
 
 template <typename Message>
@@ -326,6 +321,13 @@ Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
   const std::string root_frame = settings.frame_prefix + mechanism.links().front().name;
   Outputs outputs;
   outputs.push_back(std::make_unique<EffortOutput>(root_frame));
+  if (settings.deviations) {
+    outputs.push_back(
+        makeDeviationOutput(mechanism, settings.scene, root_frame, settings.deviations));
+  }
+  if (settings.scene.tolerances.any()) {
+    outputs.push_back(makeToleranceOutput(mechanism, settings.scene, root_frame));
+  }
   if (!settings.reactions.empty()) {
     outputs.push_back(
         std::make_unique<ReactionsOutput>(settings.reactions, root_frame, settings.twist));

@@ -9,8 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "ros/deviation_record.h"
 #include "ros/trajectory_conversion.h"
 #include "virtual_work_dynamics/dynamics.h"
+#include "virtual_work_dynamics/motion_covariance.h"
 
 namespace virtual_work_dynamics {
 
@@ -19,6 +21,7 @@ struct OutputSample {
   std::int64_t stamp_ns;  ///< instant of the motion
   const Motion& motion;
   const Results& results;
+  const MotionCovariance* covariance = nullptr;  ///< of the motion; null: not known
 };
 
 /// The message of one output in one plan, with names, frames and sizes set once. Only the computing
@@ -83,6 +86,8 @@ struct OutputSettings {
   std::string frame_prefix;                  ///< put before every frame_id
   bool twist = false;                        ///< whether ~reactions has twists
   double condition_warn = kCloseToSingular;  ///< a larger condition is close to a singular position
+  Scene scene;                               ///< of which deviations are computed
+  std::shared_ptr<DeviationRecord> deviations;  ///< what they are recorded in; null: no deviations
 };
 
 /// All outputs of the node for a mechanism and a scene.

@@ -52,9 +52,11 @@ RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
       estimator(checkedSettings(mechanism, parameters.estimator, scene)),
       everything(movableDynamics(mechanism, scene, parameters.robot_description_key)) {
   closure_frames = closureFrames(mechanism, scene, reactions, parameters.frame_prefix);
+  deviations =
+      std::make_shared<DeviationRecord>(everything.effortNames(), mechanism.coordinateNames());
   outputs = makeOutputs(mechanism, everything,
                         {reactions, reaction_topics, parameters.frame_prefix, parameters.twist,
-                         parameters.loop_limits.condition});
+                         parameters.loop_limits.condition, scene, deviations});
   plan_lines = everything.closed()
                    ? loopLines(mechanism, scene, everything, parameters.loop_limits.condition)
                    : everything.summary().lines();

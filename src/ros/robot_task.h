@@ -32,7 +32,8 @@ struct RobotTask {
   std::vector<std::string> reaction_topics;  ///< their topics
   EstimatorSettings estimator;
   tf2_msgs::TFMessage closure_frames;
-  Dynamics everything;  ///< of all that the scene asks for, in both axes
+  Dynamics everything;                          ///< of all that the scene asks for, in both axes
+  std::shared_ptr<DeviationRecord> deviations;  ///< of ~effort_deviation
   Outputs outputs;
   std::vector<std::string> plan_lines;  ///< what everything that the scene asks for costs
 };

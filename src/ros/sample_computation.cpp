@@ -12,12 +12,13 @@ SampleComputation::SampleComputation(Eigen::Index coordinates, bool static_motio
       motion_(coordinates),
       tree_effort_(coordinates) {}
 
-SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan, std::int64_t stamp_ns) {
+SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan, std::int64_t stamp_ns,
+                                                      const MotionCovariance* covariance) {
   if (static_motion_) motion_.qd.setZero();
   records_.counters.samples.add();
   const auto start = Clock::now();
   if (!completer_.complete(motion_, plan.dynamics, plan.workspace)) return Outcome::kOpenLoop;
-  return computeOne(plan, stamp_ns, start);
+  return computeOne(plan, stamp_ns, start, covariance);
 }
 
 SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan,
@@ -25,7 +26,7 @@ SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan,
                                                       std::size_t point) {
   takePoint(trajectory, point);
   if (trajectory.isOpen(point)) return Outcome::kOpenLoop;
-  return computeOne(plan, trajectory.stamps_ns[point], Clock::now());
+  return computeOne(plan, trajectory.stamps_ns[point], Clock::now(), nullptr);
 }
 
 SampleComputation::Outcome SampleComputation::computeNext(ActivePlan& plan,
@@ -58,20 +59,22 @@ void SampleComputation::computeBlock(ActivePlan& plan, const TrajectoryMotion& t
 }
 
 SampleComputation::Outcome SampleComputation::computeOne(ActivePlan& plan, std::int64_t stamp_ns,
-                                                         Clock::time_point start) {
+                                                         Clock::time_point start,
+                                                         const MotionCovariance* covariance) {
   if (!motion_.finite()) return Outcome::kNotFinite;
   plan.dynamics.compute(motion_, plan.workspace);
   const std::chrono::nanoseconds time = Clock::now() - start;
   records_.counters.run_times.record(time.count());
-  return finish(plan, stamp_ns, plan.workspace.results(), Of::kSample);
+  return finish(plan, stamp_ns, plan.workspace.results(), Of::kSample, covariance);
 }
 
 SampleComputation::Outcome SampleComputation::finish(ActivePlan& plan, std::int64_t stamp_ns,
-                                                     const Results& results, Of messages) {
+                                                     const Results& results, Of messages,
+                                                     const MotionCovariance* covariance) {
   if (!results.finite()) return Outcome::kNotFinite;
   for (ActiveOutput& output : plan.outputs) {
     if (messages == (output.of_trajectories ? Of::kSample : Of::kTrajectory)) continue;
-    output.message->fill({stamp_ns, motion_, results});
+    output.message->fill({stamp_ns, motion_, results, covariance});
   }
   records_.loops.record(results, plan);
   check(plan, results);

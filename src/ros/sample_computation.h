@@ -12,6 +12,7 @@
 #include "ros/motion_completer.h"
 #include "ros/trajectory_conversion.h"
 #include "virtual_work_dynamics/motion.h"
+#include "virtual_work_dynamics/motion_covariance.h"
 
 namespace virtual_work_dynamics {
 
@@ -38,7 +39,9 @@ class SampleComputation {
   enum class Outcome { kDone, kNotFinite, kOpenLoop };
 
   /// Computes the sample whose motion is motion() and writes messages of samples.
-  Outcome compute(ActivePlan& plan, std::int64_t stamp_ns);
+  /// @param covariance of motion(), of all coordinates; null: not known
+  Outcome compute(ActivePlan& plan, std::int64_t stamp_ns,
+                  const MotionCovariance* covariance = nullptr);
   /// Computes one point of a trajectory by itself.
   Outcome compute(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t point);
   /// Computes the next point of a trajectory, beginning with the first, as many at once as the plan
@@ -51,9 +54,11 @@ class SampleComputation {
 
   void takePoint(const TrajectoryMotion& trajectory, std::size_t point);
   void computeBlock(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t first);
-  Outcome computeOne(ActivePlan& plan, std::int64_t stamp_ns, Clock::time_point start);
+  Outcome computeOne(ActivePlan& plan, std::int64_t stamp_ns, Clock::time_point start,
+                     const MotionCovariance* covariance);
   enum class Of { kSample, kTrajectory, kBoth };  // messages
-  Outcome finish(ActivePlan& plan, std::int64_t stamp_ns, const Results& results, Of messages);
+  Outcome finish(ActivePlan& plan, std::int64_t stamp_ns, const Results& results, Of messages,
+                 const MotionCovariance* covariance = nullptr);
   void check(ActivePlan& plan, const Results& results);
 
   const bool static_motion_;

@@ -53,6 +53,7 @@ void SelfCheckReport::addCrossCheck(DiagnosticStatusWrapper& status) {
 void SelfCheckReport::addCertificates(DiagnosticStatusWrapper& status) {
   status.add("certificates", settings_.certificates ? "on" : "off");
   if (!settings_.certificates) return;
+  status.add("certificates judge", "arithmetic, not input");
   if (const auto news = certificates_.take()) latest_certificates_ = news;
   if (!latest_certificates_) return;
   const Certificates& latest = *latest_certificates_;

@@ -5,6 +5,8 @@ foreach(file
     counters.cpp
     cross_check.cpp
     determinacy_message.cpp
+    deviation_output.cpp
+    deviation_report.cpp
     diagnostics.cpp
     inverse_dynamics_node.cpp
     inverse_dynamics_parameters.cpp

@@ -23,7 +23,8 @@ ZERO = dict.fromkeys(COORDINATES, 0)
 class Outputs(NodeTest):
     def start(self, *topics, gravity=(0, 0, -9.81), **parameters):
         """Starts the node; afterwards results() has the one message of each topic for STATE."""
-        kinds = {'effort': JointState, 'reactions': MultiDOFJointState}
+        kinds = {'effort': JointState, 'effort_deviation': JointState,
+                 'effort_tolerance': JointState, 'reactions': MultiDOFJointState}
         self.bodies = RigidBodies(ARM, gravity)
         self.node = Node(self, ARM, parameters)
         trajectories = self.node.feed('joint_trajectory', JointTrajectory)
@@ -59,7 +60,8 @@ class Outputs(NodeTest):
             self.assertEqual(message.header.stamp.to_nsec(), EPOCH)
             self.assertWrench(message, self.bodies, joint, STATE, EXACT)
         self.assertEqual(self.advertised(), {self.node.name + '/' + topic: kind for topic, kind in (
-            ('effort', 'sensor_msgs/JointState'), ('reactions', 'sensor_msgs/MultiDOFJointState'),
+            ('effort', 'sensor_msgs/JointState'),
+            ('effort_deviation', 'sensor_msgs/JointState'), ('reactions', 'sensor_msgs/MultiDOFJointState'),
             ('joint_trajectory', 'trajectory_msgs/JointTrajectory'),
             ('reaction/shoulder', 'geometry_msgs/WrenchStamped'),
             ('reaction/elbow', 'geometry_msgs/WrenchStamped'),
@@ -80,6 +82,15 @@ class Outputs(NodeTest):
         self.assertWrench(flange, self.bodies, 'flange', STATE, EXACT)
         self.assertEffort(effort, self.bodies, STATE, EXACT)
         self.assertNotIn(self.node.name + '/reaction/shoulder', self.advertised())
+
+    def test_tolerances_of_the_scene(self):
+        effort, tolerance = self.start('effort', 'effort_tolerance',
+                                       scene={'tolerances': {'mass': 0.01, 'inertia': 0.1}})
+        self.assertEqual(tolerance.name, COORDINATES)
+        self.assertEqual(tolerance.header.stamp, effort.header.stamp)
+        self.assertEqual(tolerance.header.frame_id, effort.header.frame_id)
+        self.assertEqual((len(tolerance.position), len(tolerance.velocity)), (0, 0))
+        self.assertTrue(all(deviation > 0 for deviation in tolerance.effort))
 
     def test_twists_on_request(self):
         reactions, = self.start('reactions', twist=True)
@@ -138,7 +149,8 @@ class Outputs(NodeTest):
         effort, = self.start('effort', scene={'reactions': 'none'})
         self.assertEffort(effort, self.bodies, STATE, EXACT)
         self.assertEqual(set(self.advertised()), {self.node.name + '/' + topic
-                                                  for topic in ('effort', 'joint_trajectory')})
+                                                  for topic in ('effort', 'effort_deviation',
+                                                                'joint_trajectory')})
 
     def test_diagnostics(self):
         self.start('effort', 'reaction/elbow')

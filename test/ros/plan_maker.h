@@ -25,8 +25,11 @@ struct PlanMaker {
         scene(wanted),
         reactions(requestedReactions(mechanism, scene)),
         everything(mechanism, scene),
-        outputs(makeOutputs(mechanism, everything,
-                            {reactions, reactions, frame_prefix, twist, limits.condition})),
+        deviations(std::make_shared<DeviationRecord>(everything.effortNames(),
+                                                     mechanism.coordinateNames())),
+        outputs(makeOutputs(
+            mechanism, everything,
+            {reactions, reactions, frame_prefix, twist, limits.condition, scene, deviations})),
         loops(everything, reactions.size(), limits),
         completer(mechanism, everything, scene.static_motion),
         samples(everything.coordinates(), scene.static_motion, completer,
@@ -63,6 +66,7 @@ struct PlanMaker {
   const Scene& scene;
   std::vector<std::string> reactions;
   Dynamics everything;
+  std::shared_ptr<DeviationRecord> deviations;
   Outputs outputs;
   Counters counters;
   CertificateRecord certificates;
