@@ -37,8 +37,8 @@ struct CompletionReport {
 /// the rows are most likely (Schweppe 1965). Uneven stamps are taken as those of an even clock if
 /// that makes the positions likelier. Where accelerations are missing, positions and velocities
 /// become the smoothed ones as well; accelerations that are given stay, with the positions.
-/// Velocities that contradict the positions are not used. Continuous joints may wrap at a full
-/// turn. Does nothing when nothing is missing. Allocates.
+/// Velocities that contradict the positions are not used. Positions become the unwrapped ones in
+/// any case (unwrapPositions()). Allocates.
 /// @param motion a table whose columns are generalized coordinates of `mechanism`.
 /// @param report receives what was found when not null.
 /// @throws MotionError for a joint that is not a generalized coordinate, shapes that disagree, too

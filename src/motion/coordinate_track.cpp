@@ -10,13 +10,10 @@
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// Samples kept, a power of two.
 constexpr int kCapacity = 1024;
 /// Samples that a late one may be put before.
 constexpr int kMostLate = 64;
-/// Longest jump that is unwrapped, rad: in a longer one a double does not resolve the turns well.
-constexpr double kLongestJump = 1e9;
 
 /// Time constant before anything is learnt, s and intervals.
 constexpr double kFirstTime = 0.02;
@@ -44,16 +41,11 @@ constexpr double kStepsPerSecond = 40000;
 constexpr double kMostSteps = 800;
 /// A joint moves when it moves by so many deviations of its positions.
 constexpr double kMovingSteps = 30;
-constexpr double kTwoPi = 2 * kPi;
+constexpr double kTwoPi = 6.283185307179586;
 /// Steps that jump to and fro: how long they are at least, rad or m, and by how little the position
 /// before the last one differs.
 constexpr double kLongJump = 0.01;
 constexpr double kReturn = 0.2;
-
-double turnsIn(double jump) {
-  const double length = std::abs(jump);
-  return length > kPi && length < kLongestJump ? std::round(jump / kTwoPi) : 0;
-}
 
 double secondsBetween(std::int64_t from, std::int64_t to) {
   return static_cast<double>(to - from) * 1e-9;
@@ -61,8 +53,8 @@ double secondsBetween(std::int64_t from, std::int64_t to) {
 
 }  // namespace
 
-CoordinateTrack::CoordinateTrack(bool continuous, const EstimatorSettings& settings)
-    : continuous_(continuous),
+CoordinateTrack::CoordinateTrack(const Joint& joint, const EstimatorSettings& settings)
+    : turn_counter_(joint),
       noise_(settings.noise),
       max_gap_(std::llround(settings.max_gap * 1e9)),
       entries_(settings.estimate ? kCapacity : 1),
@@ -74,17 +66,13 @@ CoordinateTrack::CoordinateTrack(bool continuous, const EstimatorSettings& setti
 }
 
 void CoordinateTrack::clear() {
+  turn_counter_.restart();
   size_ = 0;
   stretch_ = 0;
   summed_ = 0;
   block_count_ = 0;
   new_blocks_ = 0;
   jumps_ = 0;
-}
-
-/// Whole turns of the unwrapped position after a sample that follows `before`.
-double CoordinateTrack::turnsAfter(const Entry& before, double q) const {
-  return continuous_ ? before.turns - turnsIn(q - before.q) : before.turns;
 }
 
 double CoordinateTrack::moved(const Entry& from, const Entry& to) {
@@ -96,7 +84,7 @@ CoordinateTrack::Verdict CoordinateTrack::push(std::int64_t stamp, double q, dou
   const bool gap = size_ > 0 && capacity() > 1 && stamp - newest() > max_gap_;
   const bool first = size_ == 0 || gap;
   if (!first) noteInterval(stamp);
-  double turns = size_ > 0 ? turnsAfter(entry(0), q) : 0;
+  const double turns = turn_counter_.turns(q, size_ > 0 ? secondsBetween(newest(), stamp) : 0);
   newest_ = (newest_ + 1) & (capacity() - 1);
   size_ = std::min(size_ + 1, capacity());
   Entry& now = entry(0);
@@ -139,7 +127,11 @@ CoordinateTrack::Verdict CoordinateTrack::insert(std::int64_t stamp, double q, d
   const Entry& before = entry(age + 1);
   place.stamp = stamp;
   place.q = q;
-  place.turns = turnsAfter(before, q);
+  place.turns = before.turns;
+  const double forward = std::abs(moved(before, place));
+  const Entry& after = entry(age - 1);
+  place.turns = after.turns;
+  if (forward < std::abs(moved(before, place))) place.turns = before.turns;
   place.qd = qd;
   for (int i = age; i >= 0; --i) follow(entry(i + 1), entry(i), false);
   return Verdict::kInserted;

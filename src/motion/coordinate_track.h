@@ -7,7 +7,9 @@
 
 #include "motion/stream_filter.h"
 #include "motion/stream_identification.h"
+#include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion_estimator.h"
+#include "virtual_work_dynamics/unwrap.h"
 
 namespace virtual_work_dynamics {
 
@@ -27,7 +29,7 @@ class CoordinateTrack {
   /// Fewest samples of a stretch that derivatives can be estimated from.
   static constexpr int kFewest = 4;
 
-  CoordinateTrack(bool continuous, const EstimatorSettings& settings);
+  CoordinateTrack(const Joint& joint, const EstimatorSettings& settings);
 
   /// @param qd NaN: not given.
   Verdict push(std::int64_t stamp, double q, double qd);
@@ -81,7 +83,6 @@ class CoordinateTrack {
     return entries_[static_cast<std::size_t>((newest_ - age) & (capacity() - 1))];
   }
   int capacity() const { return static_cast<int>(entries_.size()); }
-  double turnsAfter(const Entry& before, double q) const;
   static double moved(const Entry& from, const Entry& to);
   void begin(Entry& entry);
   void follow(const Entry& before, Entry& entry, bool judge);
@@ -97,7 +98,7 @@ class CoordinateTrack {
   void startIdentification();
   void useIdentified();
 
-  const bool continuous_;
+  TurnCounter turn_counter_;
   const NoiseSettings noise_;
   const std::int64_t max_gap_;
   std::vector<Entry> entries_;  // a ring; the oldest makes room for the newest

@@ -8,35 +8,10 @@
 
 #include "motion/recording.h"
 #include "virtual_work_dynamics/error.h"
+#include "virtual_work_dynamics/unwrap.h"
 
 namespace virtual_work_dynamics {
 namespace {
-
-constexpr double kTurn = 6.283185307179586476925286766559;
-
-// Removes the jumps by whole turns that a driver which wraps makes in positions of a continuous
-// joint, rad.
-void unwrap(Eigen::Ref<Eigen::VectorXd> q) {
-  double turns = 0;  // counted, not summed up as angles, so that nothing accumulates
-  double previous = q.size() > 0 ? q[0] : 0;
-  for (Eigen::Index row = 1; row < q.size(); ++row) {
-    const double wrapped = q[row];
-    turns -= std::round((wrapped - previous) / kTurn);
-    previous = wrapped;
-    q[row] = wrapped + turns * kTurn;
-  }
-}
-
-Eigen::MatrixXd unwrappedPositions(const Mechanism& mechanism, const MotionTable& motion) {
-  Eigen::MatrixXd positions = motion.positions;
-  for (Eigen::Index column = 0; column < positions.cols(); ++column) {
-    const int joint = mechanism.jointIndex(motion.joints[static_cast<std::size_t>(column)]);
-    if (mechanism.joints()[static_cast<std::size_t>(joint)].type == JointType::kContinuous) {
-      unwrap(positions.col(column));
-    }
-  }
-  return positions;
-}
 
 void checkShapes(const Mechanism& mechanism, const MotionTable& motion) {
   for (const std::string& name : motion.joints) {
@@ -76,16 +51,15 @@ void checkRows(const MotionTable& motion) {
   }
 }
 
-std::vector<RecordedStream> streamsOf(const Mechanism& mechanism, const MotionTable& motion) {
-  const Eigen::MatrixXd positions = unwrappedPositions(mechanism, motion);
+std::vector<RecordedStream> streamsOf(const MotionTable& motion) {
   std::vector<RecordedStream> streams(motion.joints.size());
   for (std::size_t i = 0; i < streams.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    const double* from = positions.col(column).data();
-    streams[i].positions.assign(from, from + positions.rows());
+    const double* from = motion.positions.col(column).data();
+    streams[i].positions.assign(from, from + motion.positions.rows());
     if (!motion.hasVelocities()) continue;
     from = motion.velocities.col(column).data();
-    streams[i].velocities.assign(from, from + positions.rows());
+    streams[i].velocities.assign(from, from + motion.positions.rows());
   }
   return streams;
 }
@@ -123,10 +97,11 @@ MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion,
                            const CompletionSettings& settings, CompletionReport* report) {
   if (report != nullptr) *report = CompletionReport();
   checkShapes(mechanism, motion);
+  unwrapPositions(mechanism, motion);
   const bool complete = motion.hasVelocities() && motion.hasAccelerations();
   if (complete || motion.positions.size() == 0) return motion;
   checkRows(motion);
-  Recording recording(motion.times, streamsOf(mechanism, motion), settings);
+  Recording recording(motion.times, streamsOf(motion), settings);
   recording.identify();
   const bool given = motion.hasAccelerations();
   motion.velocities.resize(motion.positions.rows(), motion.positions.cols());

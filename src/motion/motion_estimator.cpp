@@ -57,7 +57,7 @@ struct MotionEstimator::Impl {
   Impl(const Mechanism& mechanism, const EstimatorSettings& settings);
 
   struct Coordinate {
-    Coordinate(bool continuous, const EstimatorSettings& settings) : track(continuous, settings) {}
+    Coordinate(const Joint& joint, const EstimatorSettings& settings) : track(joint, settings) {}
 
     CoordinateTrack track;
     bool needed = true;
@@ -98,8 +98,7 @@ MotionEstimator::Impl::Impl(const Mechanism& mechanism, const EstimatorSettings&
       hold_after(nanoseconds(settings.hold_after)) {
   coordinates.reserve(mechanism.coordinates().size());
   for (const int joint : mechanism.coordinates()) {
-    const JointType type = mechanism.joints()[static_cast<std::size_t>(joint)].type;
-    coordinates.emplace_back(type == JointType::kContinuous, settings);
+    coordinates.emplace_back(mechanism.joint(joint), settings);
   }
 }
 

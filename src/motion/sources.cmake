@@ -11,4 +11,5 @@ vwd_core(
   spline.cpp
   stream_identification.cpp
   stream_smoother.cpp
+  unwrap.cpp
   velocity_judge.cpp)
