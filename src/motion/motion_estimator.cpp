@@ -160,7 +160,7 @@ Eigen::Vector3d MotionEstimator::Impl::motionOf(Coordinate& coordinate, std::int
   if (!settings.estimate) {
     coordinate.held = instant - track.newest() > hold_after;
     const double qd = coordinate.held ? 0 : track.newestVelocity();
-    return {track.newestPosition(), std::isnan(qd) ? 0 : qd, 0};
+    return {track.unwrappedPosition(), std::isnan(qd) ? 0 : qd, 0};
   }
   const bool few = track.stretch() < CoordinateTrack::kFewest && track.stretchStart() <= instant;
   if (few || instant - track.newest() > hold_after) return {track.unwrappedPosition(), 0, 0};

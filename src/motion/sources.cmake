@@ -1,5 +1,6 @@
 vwd_core(
   coordinate_track.cpp
+  end_slopes.cpp
   motion_completion.cpp
   motion_csv.cpp
   motion_estimator.cpp
