@@ -4,6 +4,7 @@ foreach(file
     closure_frames.cpp
     counters.cpp
     cross_check.cpp
+    described_robot.cpp
     determinacy_message.cpp
     deviation_output.cpp
     deviation_report.cpp
