@@ -12,5 +12,6 @@ vwd_core(
   spline.cpp
   stream_identification.cpp
   stream_smoother.cpp
+  trajectory_curve.cpp
   unwrap.cpp
   velocity_judge.cpp)
