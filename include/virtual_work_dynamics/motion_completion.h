@@ -28,6 +28,7 @@ struct CompletionReport {
   std::size_t gaps = 0;                  ///< longer than max_gap
   std::size_t one_sided = 0;             ///< rows near a gap or an end, with rows on one side only
   std::vector<StreamQuality> qualities;  ///< of each joint of the table
+  std::vector<bool> still;               ///< whether the joint does not move at all
 };
 
 /// Estimates the velocities or accelerations that a recorded motion lacks by a smoother for each

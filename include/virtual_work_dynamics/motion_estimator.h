@@ -96,6 +96,8 @@ class MotionEstimator {
 
   /// Whether the coordinate was held in the latest motion, for lack of samples.
   bool held(int coordinate) const;
+  /// Whether a coordinate was held that came before.
+  bool anyHeld() const;
   /// s from the latest sample of the coordinate to the latest one of any; infinite: none.
   double age(int coordinate) const;
   /// What the samples of the coordinate were found to be.

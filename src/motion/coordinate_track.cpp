@@ -58,7 +58,7 @@ CoordinateTrack::CoordinateTrack(const Joint& joint, const EstimatorSettings& se
       noise_(settings.noise),
       max_gap_(std::llround(settings.max_gap * 1e9)),
       entries_(settings.estimate ? kCapacity : 1),
-      least_position_(leastNoise({})),
+      least_position_(leastNoise(least_step_, 0)),
       wanted_blocks_(StreamIdentification::kFewest) {
   if (!settings.estimate) return;
   blocks_.resize(kBlocks);
@@ -204,14 +204,15 @@ void CoordinateTrack::noteInterval(std::int64_t stamp) {
 /// Learns from a step how finely positions are resolved, and whether they jump to and fro.
 void CoordinateTrack::noteStep(const Entry& before, const Entry& now) {
   const double step = std::abs(moved(before, now));
-  const double rounding = leastNoise({before.q, now.q});
-  if (step > 0 && (least_position_ <= leastNoise({}) || rounding < least_position_)) {
-    least_position_ = rounding;
-    const double variance = rounding * rounding;
-    if (!learnt_) {
-      model_ = firstModel();
-    } else if (model_.position_variance < variance) {
-      model_.position_variance = variance;
+  if (stretch_ >= kStepPositions) {
+    double positions[kStepPositions];
+    for (int i = 0; i < kStepPositions; ++i)
+      positions[i] = now.q - moved(entry(kStepPositions - 1 - i), now);
+    least_step_ = std::min(least_step_, leastStep(positions));
+    const double least = leastNoise(least_step_, now.q);
+    if (least != least_position_) {
+      least_position_ = least;
+      if (!learnt_) model_ = firstModel();
     }
   }
   if (stretch_ < 3) return;

@@ -110,6 +110,7 @@ class CoordinateTrack {
   int jumps_ = 0;
 
   StreamModel model_;
+  double least_step_ = std::numeric_limits<double>::infinity();  // that positions are rounded to
   double least_position_;  // standard deviation that no sample can be better than
   double surprise_ = 1;    // mean square of the latest innovations over their variances
   bool learnt_ = false;    // whether model_ is from the samples

@@ -70,8 +70,8 @@ void countOneSided(const Recording& recording, CompletionReport& report) {
   // Most of the weight of a smoother lies within three time constants.
   constexpr double kReach = 3 / 6.283185307179586;
   double reach = 0;
-  for (const StreamQuality& quality : report.qualities)
-    reach = std::max(reach, kReach / quality.bandwidth);
+  for (std::size_t i = 0; i < report.qualities.size(); ++i)
+    if (!report.still[i]) reach = std::max(reach, kReach / report.qualities[i].bandwidth);
   const std::vector<double>& times = recording.times();
   std::size_t first = 0;
   for (std::size_t row = 1; row <= times.size(); ++row) {
@@ -125,8 +125,10 @@ MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion,
     *report = CompletionReport();
     report->estimated = true;
     report->even_clock = recording.evenClock();
-    for (std::size_t joint = 0; joint < joints; ++joint)
+    for (std::size_t joint = 0; joint < joints; ++joint) {
       report->qualities.push_back(recording.quality(joint));
+      report->still.push_back(recording.still(joint));
+    }
     countOneSided(recording, *report);
   }
   return motion;

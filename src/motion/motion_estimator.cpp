@@ -304,6 +304,12 @@ bool MotionEstimator::held(int coordinate) const {
   return impl_->at(coordinate).held;
 }
 
+bool MotionEstimator::anyHeld() const {
+  return std::any_of(
+      impl_->coordinates.begin(), impl_->coordinates.end(),
+      [](const Impl::Coordinate& coordinate) { return coordinate.held && coordinate.seen; });
+}
+
 double MotionEstimator::age(int coordinate) const {
   const CoordinateTrack& track = impl_->at(coordinate).track;
   if (track.empty()) return std::numeric_limits<double>::infinity();

@@ -37,6 +37,7 @@ class Recording {
   double longestGap() const { return longest_gap_; }
   const std::vector<double>& times() const { return times_; }
   StreamQuality quality(std::size_t stream) const;
+  bool still(std::size_t stream) const { return streams_[stream].still; }
 
  private:
   std::vector<StreamBlock> samples(const RecordedStream& stream,

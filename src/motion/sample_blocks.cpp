@@ -10,6 +10,8 @@ namespace {
 
 /// Positions are good to so many units of their last digit, at best.
 constexpr double kLastDigits = std::numeric_limits<double>::epsilon() / 4;
+/// Rounding of one position, of which a difference has several.
+constexpr double kRounding = std::numeric_limits<double>::epsilon();
 constexpr double kLeast = 1e-18;  // rad or m: less than any encoder or number resolves near zero
 /// Time constant of a model that follows its samples, in intervals.
 constexpr double kFollowing = 0.2;
@@ -39,16 +41,39 @@ std::vector<StreamBlock> averaged(const std::vector<StreamBlock>& samples, int s
   return blocks;
 }
 
+double leastStep(const double* positions) {
+  constexpr int kCount = kStepPositions;
+  double differences[kCount];
+  double most = 0;
+  for (int i = 0; i < kCount; ++i) {
+    differences[i] = positions[i] - positions[0];
+    most = std::max(most, std::abs(positions[i]));
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (int order = 1; order < kCount; ++order) {
+    for (int i = 0; i + order < kCount; ++i) differences[i] = differences[i + 1] - differences[i];
+    if (order == 1) continue;
+    const double rounding = kRounding * most * (1 << order);
+    for (int i = 0; i + order < kCount; ++i)
+      if (std::abs(differences[i]) > rounding) least = std::min(least, std::abs(differences[i]));
+  }
+  return least;
+}
+
+double leastNoise(double step, double position) {
+  const double rounding = std::isfinite(step) ? step / std::sqrt(12) : 0;
+  return std::max({rounding, kLastDigits * std::abs(position), kLeast});
+}
+
 double leastNoise(const std::vector<double>& positions) {
   double step = std::numeric_limits<double>::infinity();
   double most = 0;
-  for (std::size_t i = 1; i < positions.size(); ++i) {
-    const double difference = std::abs(positions[i] - positions[i - 1]);
-    if (difference > 0) step = std::min(step, difference);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (i + kStepPositions <= positions.size())
+      step = std::min(step, leastStep(positions.data() + i));
     most = std::max(most, std::abs(positions[i]));
   }
-  const double rounding = std::isfinite(step) ? step / std::sqrt(12) : 0;
-  return std::max({rounding, kLastDigits * most, kLeast});
+  return leastNoise(step, most);
 }
 
 StreamModel unlearnt(const StreamKnowledge& knowledge, double interval) {

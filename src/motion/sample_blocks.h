@@ -12,8 +12,18 @@ int blockSize(double block_time, double interval);
 /// Means of `size` samples after the other; what is left at the end is left out.
 std::vector<StreamBlock> averaged(const std::vector<StreamBlock>& samples, int size);
 
-/// Standard deviation that no position of these can be better than: that of rounding to the least
-/// step between neighbours, and to the last digits of a number. Positive.
+/// Positions that leastStep() takes.
+constexpr int kStepPositions = 5;
+
+/// The step that positions are rounded to, if they are: the least difference of second to fourth
+/// order among kStepPositions of them that is not zero. Differences of first order would take a
+/// steady motion for a step. Infinite: all are zero, but for the rounding of numbers.
+double leastStep(const double* positions);
+
+/// Standard deviation that positions rounded to this step, of this magnitude, cannot be better
+/// than. Positive.
+double leastNoise(double step, double position);
+/// That of all these positions.
 double leastNoise(const std::vector<double>& positions);
 
 /// A model that follows the samples, for those that nothing can be learnt from.

@@ -12,6 +12,7 @@ vwd_core(
   spline.cpp
   stream_identification.cpp
   stream_smoother.cpp
+  stream_text.cpp
   trajectory_curve.cpp
   unwrap.cpp
   velocity_judge.cpp)

@@ -24,9 +24,21 @@ Input
   --motion FILE         motion as CSV: a header with the columns time, position.<joint>,
                         velocity.<joint>, acceleration.<joint> in any order (s, rad or m); lines
                         that start with # are comments. Missing accelerations, or velocities, are
-                        estimated from the rows around each row. Where the scene closes loops, the
-                        columns are of all joints, or of the actuated joints, which move the others.
+                        estimated by a smoother that finds the noise of the recording. Where the
+                        scene closes loops, the columns are of all joints, or of the actuated joints,
+                        which move the others.
   --scene FILE          scene file (YAML); the options below override it
+
+How missing derivatives are estimated
+  --position-noise X    standard deviation of the positions, rad or m (default: found)
+  --velocity-noise X    standard deviation of the velocities, rad/s or m/s (default: found)
+  --stamp-noise X       standard deviation of the times, s (default: found)
+  --bandwidth HZ        what swings so fast keeps half of its amplitude (default: found)
+  --lag S               estimates each row from the rows up to S seconds after it, as
+                        inverse_dynamics_node does (default: from all rows)
+  --max-gap S           nothing is assumed of the motion across longer gaps (default: 0.25)
+  --rest JOINT=X        position, rad or m, of a joint that the motion does not have; several
+                        separated by commas
 
 What is computed
   --gravity "X Y Z"     gravity in axes of the root link, m/s^2 (default: 0 0 -9.81)
@@ -157,6 +169,30 @@ double parsePositive(const std::string& option, const std::string& text) {
   return value;
 }
 
+double parseNotNegative(const std::string& option, const std::string& text) {
+  double value = 0;
+  if (!parseNumber(text, value) || value < 0) {
+    throw UsageError(option + ": '" + text + "' is not a number from 0 on");
+  }
+  return value;
+}
+
+void parseRest(const std::string& text, Arguments& arguments) {
+  for (const std::string& piece : split(text, ',')) {
+    const std::size_t equals = piece.rfind('=');
+    double position = 0;
+    if (equals == std::string::npos || equals == 0 ||
+        !parseNumber(piece.substr(equals + 1), position)) {
+      throw UsageError("--rest: '" + piece + "' is not JOINT=POSITION");
+    }
+    arguments.recording.rest.emplace_back(piece.substr(0, equals), position);
+  }
+}
+
+NoiseSettings& noiseOf(Arguments& arguments) {
+  return arguments.recording.completion.noise;
+}
+
 using Setter = std::function<void(const std::string& value, Arguments& arguments)>;
 
 const std::map<std::string, Setter>& optionsWithValue() {
@@ -176,6 +212,31 @@ const std::map<std::string, Setter>& optionsWithValue() {
        [](const auto& value, auto& arguments) {
          arguments.loop_tolerance = parsePositive("--loop-tolerance", value);
        }},
+      {"--position-noise",
+       [](const auto& value, auto& arguments) {
+         noiseOf(arguments).position_noise = parsePositive("--position-noise", value);
+       }},
+      {"--velocity-noise",
+       [](const auto& value, auto& arguments) {
+         noiseOf(arguments).velocity_noise = parsePositive("--velocity-noise", value);
+       }},
+      {"--stamp-noise",
+       [](const auto& value, auto& arguments) {
+         noiseOf(arguments).stamp_noise = parseNotNegative("--stamp-noise", value);
+       }},
+      {"--bandwidth",
+       [](const auto& value, auto& arguments) {
+         noiseOf(arguments).bandwidth = parsePositive("--bandwidth", value);
+       }},
+      {"--lag",
+       [](const auto& value, auto& arguments) {
+         arguments.recording.completion.lag = parseNotNegative("--lag", value);
+       }},
+      {"--max-gap",
+       [](const auto& value, auto& arguments) {
+         arguments.recording.completion.max_gap = parsePositive("--max-gap", value);
+       }},
+      {"--rest", parseRest},
       {"--deviation-warn",
        [](const auto& value, auto& arguments) {
          arguments.deviation_warn = parsePositive("--deviation-warn", value);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "offline/motion_file.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/scene.h"
 
@@ -44,6 +45,7 @@ struct Arguments {
   std::optional<double> deviation_warn;  ///< over the effort's rms; none: kDeviationWarn
   int threads = 1;
   std::optional<double> loop_tolerance;  ///< relative; none: kLoopTolerance
+  RecordingOptions recording;
   bool check = false;
   bool explain = false;
   bool help = false;  ///< words after --help or --version are ignored

@@ -8,6 +8,7 @@
 
 #include "dynamics/given_joints.h"
 #include "dynamics/sample_rows.h"
+#include "offline/arguments.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/unwrap.h"
 
@@ -22,21 +23,40 @@ std::string joined(const Names& words) {
   return text;
 }
 
-// Chooses all coordinates, or the actuated ones when no passive joint is given.
-JointChoice choiceOf(const std::string& path, const Mechanism& mechanism,
-                     const Dynamics& dynamics) {
-  return [&path, &mechanism, &dynamics](const Names& header) {
+bool contains(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+bool rests(const RecordingOptions& options, const std::string& name) {
+  return std::any_of(options.rest.begin(), options.rest.end(),
+                     [&](const auto& joint) { return joint.first == name; });
+}
+
+void checkRest(const Mechanism& mechanism, const RecordingOptions& options) {
+  for (const auto& [name, position] : options.rest) {
+    if (contains(mechanism.coordinateNames(), name)) continue;
+    throw UsageError("--rest: robot '" + mechanism.name() + "' has no joint '" + name +
+                     "' that moves by itself");
+  }
+}
+
+// Chooses all coordinates, or the actuated ones when no passive joint is given; joints that rest
+// may be missing.
+JointChoice choiceOf(const std::string& path, const Mechanism& mechanism, const Dynamics& dynamics,
+                     const RecordingOptions& options) {
+  return [&path, &mechanism, &dynamics, &options](const Names& header) {
     const Names& all = mechanism.coordinateNames();
     const GivenJoints rule(mechanism, dynamics);
     // The file's reader names missing actuated joints.
     std::vector<bool> given = dynamics.actuated();
     for (std::size_t i = 0; i < all.size(); ++i) {
-      if (std::find(header.begin(), header.end(), all[i]) != header.end()) given[i] = true;
+      if (contains(header, all[i]) || rests(options, all[i])) given[i] = true;
     }
     if (const auto problem = rule.problem(given)) throw FileError(path + ": " + *problem);
     Names wanted;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      if (given[i]) wanted.push_back(all[i]);
+      const bool missing = rests(options, all[i]) && !contains(header, all[i]);
+      if (given[i] && !missing) wanted.push_back(all[i]);
     }
     return wanted;
   };
@@ -84,20 +104,32 @@ constexpr Level kLevels[] = {{"positions", "m or rad", &ClosureResidual::positio
 }  // namespace
 
 CompletedMotion::CompletedMotion(const std::string& path, const Mechanism& mechanism,
-                                 const Scene& scene, const Dynamics& dynamics, double tolerance)
+                                 const Scene& scene, const Dynamics& dynamics, double tolerance,
+                                 const RecordingOptions& options)
     : closures_(dynamics.closureNames()),
       tolerance_(tolerance),
-      file_(readMotion(path, mechanism, choiceOf(path, mechanism, dynamics))),
+      file_(readMotion(path, mechanism, choiceOf(path, mechanism, dynamics, options))),
       row_(dynamics.coordinates()),
       passive_(mechanism, dynamics) {
+  checkRest(mechanism, options);
   unwrapPositions(mechanism, file_.table);
-  positions_follow_ = file_.table.joints.size() < mechanism.coordinateNames().size();
+  std::vector<std::pair<std::string, double>> resting;
+  for (const auto& joint : options.rest) {
+    if (!contains(file_.table.joints, joint.first)) resting.push_back(joint);
+  }
+  positions_follow_ =
+      file_.table.joints.size() + resting.size() < mechanism.coordinateNames().size();
   if (dynamics.closuresDetermine() && !scene.static_motion) {
     velocities_follow_ = positions_follow_ || !file_.table.hasVelocities();
     accelerations_follow_ = positions_follow_ || !file_.table.hasAccelerations();
   }
-  completeDerivatives(mechanism, scene, file_);
-  if (positions_follow_) widen(mechanism, file_.table);
+  completeDerivatives(mechanism, scene, options.completion, file_);
+  if (positions_follow_ || !resting.empty()) widen(mechanism, file_.table);
+  for (const auto& [name, position] : resting) {
+    const Names& all = file_.table.joints;
+    const auto place = std::find(all.begin(), all.end(), name) - all.begin();
+    file_.table.positions.col(place).setConstant(position);
+  }
   Names follow;
   if (positions_follow_) follow.push_back("positions");
   if (velocities_follow_) follow.push_back("velocities");

@@ -20,7 +20,7 @@ class CompletedMotion {
   /// @param tolerance for relative residuals of the loops
   /// @throws FileError naming joints that are missing.
   CompletedMotion(const std::string& path, const Mechanism& mechanism, const Scene& scene,
-                  const Dynamics& dynamics, double tolerance);
+                  const Dynamics& dynamics, double tolerance, const RecordingOptions& options);
 
   /// The motion of all coordinates; rows that are not completed yet lack what follows from the
   /// closures.

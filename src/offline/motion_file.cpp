@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "motion/stream_text.h"
 #include "virtual_work_dynamics/error.h"
-#include "virtual_work_dynamics/motion_completion.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -61,6 +61,49 @@ void checkTimes(const MotionFile& motion) {
   }
 }
 
+// Positions so far beyond the limits of a joint are hardly radians.
+void warnOfDegrees(const Mechanism& mechanism, const MotionFile& motion) {
+  constexpr double kFar = 5;
+  const MotionTable& table = motion.table;
+  for (std::size_t i = 0; i < table.joints.size(); ++i) {
+    const Joint& joint = mechanism.joint(mechanism.jointIndex(table.joints[i]));
+    if (joint.type != JointType::kRevolute || !(joint.lower < joint.upper)) continue;
+    const double limit = std::max(std::abs(joint.lower), std::abs(joint.upper));
+    const double most = table.positions.col(static_cast<Eigen::Index>(i)).cwiseAbs().maxCoeff();
+    if (most <= kFar * limit) continue;
+    std::cerr << "warning: " << motion.path << ": positions of '" << table.joints[i] << "' reach "
+              << numberText(most) << ", its limit is " << numberText(limit)
+              << " rad: are they degrees?\n";
+  }
+}
+
+// Says what was found about the joints of an estimated motion.
+void describe(const Mechanism& mechanism, const MotionFile& motion,
+              const CompletionReport& report) {
+  const std::vector<std::string>& joints = motion.table.joints;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const StreamQuality& quality = report.qualities[i];
+    if (quality.velocity_ratio != 1) {
+      std::cerr << "warning: " << motion.path << ": "
+                << velocityProblem(joints[i], quality.velocity_ratio) << "\n";
+    }
+    const Joint& joint = mechanism.joint(mechanism.jointIndex(joints[i]));
+    std::cerr << "note: " << motion.path << ": " << joints[i] << ": "
+              << (report.still[i] ? std::string("does not move")
+                                  : streamText(quality, symbolOf(unitOf(joint))))
+              << "\n";
+  }
+  std::cerr << "note: " << motion.path << ": " << report.one_sided << " of "
+            << motion.table.times.size()
+            << " rows are estimated from rows of one side, near the ends";
+  if (report.gaps > 0) {
+    std::cerr << " and near " << report.gaps
+              << (report.gaps == 1 ? " gap, across which" : " gaps, across which")
+              << " nothing is assumed";
+  }
+  std::cerr << "\n";
+}
+
 }  // namespace
 
 MotionFile readMotion(const std::string& path, const Mechanism& mechanism) {
@@ -87,7 +130,8 @@ MotionFile readMotion(const std::string& path, const Mechanism& mechanism,
   return motion;
 }
 
-void completeDerivatives(const Mechanism& mechanism, const Scene& scene, MotionFile& motion) {
+void completeDerivatives(const Mechanism& mechanism, const Scene& scene,
+                         const CompletionSettings& settings, MotionFile& motion) {
   MotionTable& table = motion.table;
   if (scene.static_motion) {
     table.velocities = Eigen::MatrixXd::Zero(table.positions.rows(), table.positions.cols());
@@ -98,13 +142,17 @@ void completeDerivatives(const Mechanism& mechanism, const Scene& scene, MotionF
   if (!table.hasAccelerations()) missing += missing.empty() ? "accelerations" : ", accelerations";
   if (missing.empty() || table.joints.empty()) return;
   checkTimes(motion);
+  warnOfDegrees(mechanism, motion);
+  CompletionReport report;
   try {
-    table = completeMotion(mechanism, std::move(table));
+    table = completeMotion(mechanism, std::move(table), settings, &report);
   } catch (const MotionError& error) {
     throw FileError(motion.path + ": " + error.what());
   }
-  std::cerr << "note: " << motion.path << ": estimated from the rows around each row: " << missing
+  std::cerr << "note: " << motion.path << ": estimated: " << missing
+            << (report.even_clock ? "; the rows are those of an even clock, its times jitter" : "")
             << "\n";
+  describe(mechanism, motion, report);
 }
 
 }  // namespace virtual_work_dynamics

@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/motion_completion.h"
 #include "virtual_work_dynamics/motion_csv.h"
 #include "virtual_work_dynamics/motion_table.h"
 #include "virtual_work_dynamics/scene.h"
@@ -21,6 +23,12 @@ struct MotionFile {
   std::string at(std::size_t row) const { return path + ": line " + std::to_string(lines[row]); }
 };
 
+/// How the derivatives that a recording lacks are estimated, and joints that it lacks.
+struct RecordingOptions {
+  CompletionSettings completion;
+  std::vector<std::pair<std::string, double>> rest;  ///< joints and their positions, rad or m
+};
+
 /// Reads a motion of all coordinates, and notes on standard error which joints of it are ignored.
 /// @throws FileError as readMotionCsv(), or for a coordinate without positions.
 MotionFile readMotion(const std::string& path, const Mechanism& mechanism);
@@ -33,6 +41,7 @@ MotionFile readMotion(const std::string& path, const Mechanism& mechanism,
 
 /// Fills in the derivatives that the motion lacks: zero in static scenes, otherwise estimated, with
 /// a note on standard error. @throws FileError when the times or rows do not allow that.
-void completeDerivatives(const Mechanism& mechanism, const Scene& scene, MotionFile& motion);
+void completeDerivatives(const Mechanism& mechanism, const Scene& scene,
+                         const CompletionSettings& settings, MotionFile& motion);
 
 }  // namespace virtual_work_dynamics

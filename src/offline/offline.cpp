@@ -107,7 +107,8 @@ double toleranceOf(const Arguments& arguments) {
 
 void checkMotion(const Arguments& arguments, const Mechanism& mechanism, const Scene& scene,
                  const Dynamics& dynamics) {
-  CompletedMotion motion(arguments.motion, mechanism, scene, dynamics, toleranceOf(arguments));
+  CompletedMotion motion(arguments.motion, mechanism, scene, dynamics, toleranceOf(arguments),
+                         arguments.recording);
   Conditions conditions;
   if (dynamics.closed()) {
     Computation(dynamics, motion, arguments.threads)
@@ -148,7 +149,10 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, const Scene
   std::optional<LagrangeRows> lagrange;
   if (arguments.method == Method::kLagrange) lagrange.emplace(mechanism, dynamics);
   Columns columns = columnsOf(dynamics, written, arguments);
-  CompletedMotion motion(arguments.motion, mechanism, scene, dynamics, toleranceOf(arguments));
+  RecordingOptions recording = arguments.recording;
+  recording.completion.covariances = arguments.deviations;
+  CompletedMotion motion(arguments.motion, mechanism, scene, dynamics, toleranceOf(arguments),
+                         recording);
   std::optional<DeviationRows> deviations;
   if (arguments.deviations) {
     deviations.emplace(mechanism, scene, written, motion.file().table, arguments.motion);

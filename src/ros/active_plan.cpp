@@ -39,6 +39,7 @@ ActivePlan::ActivePlan(const Mechanism& mechanism, const Scene& scene, const Out
   for (const std::size_t i : audience) {
     outputs.push_back({i, all[i]->ofTrajectories(), all[i]->makeMessage(dynamics)});
     (outputs.back().of_trajectories ? wants_trajectories : wants_samples) = true;
+    wants_covariance = wants_covariance || all[i]->usesCovariance();
   }
   const Request request = requestFor(all, audience);
   if (isEmpty(request)) return;

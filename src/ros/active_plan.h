@@ -40,13 +40,15 @@ struct ActivePlan {
   /// trajectory.
   bool wantsPoints() const { return !outputs.empty(); }
   bool wantsTrajectories() const { return wants_trajectories; }
+  /// Whether an output needs the covariance of the motion.
+  bool wantsCovariance() const { return wants_covariance; }
 
   const Audience audience;
   const Dynamics dynamics;
   Dynamics::Workspace workspace;
   SampleRows points;  ///< of trajectories
   std::vector<ActiveOutput> outputs;
-  bool wants_samples = false, wants_trajectories = false;
+  bool wants_samples = false, wants_trajectories = false, wants_covariance = false;
   std::shared_ptr<CrossCheckSlot> cross_check;  ///< null when off
   std::optional<Certifier> certifier;           ///< empty when off
   std::size_t ground = 0;  ///< with a certifier: place of ground's reaction in Results::child_axes

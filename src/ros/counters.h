@@ -26,13 +26,18 @@ struct Counters {
   Counter joint_states;
   Counter trajectories;
   Counter accepted_joint_states;
-  Counter restarts;
-  Counter samples;  ///< samples computed from joint states
-  Counter points;   ///< points of trajectories computed
-  Counter sampled;  ///< samples of trajectories between their points computed
-  Counter skipped;  ///< samples not computed because nobody listened
-  Counter outputs;  ///< samples and points published
-  Counter late;     ///< samples published later than the threshold
+  Counter restarts;             ///< as time went back
+  Counter gaps;                 ///< joint states after a gap of one of their joints
+  Counter reordered;            ///< joint states that came late and took their place
+  Counter foreign;              ///< joint states without a joint of the robot
+  Counter velocity_not_finite;  ///< joint states with a velocity that is not finite
+  Counter held;                 ///< samples with a joint held at its last position
+  Counter samples;              ///< samples computed from joint states
+  Counter points;               ///< points of trajectories computed
+  Counter sampled;              ///< samples of trajectories between their points computed
+  Counter skipped;              ///< samples not computed because nobody listened
+  Counter outputs;              ///< samples and points published
+  Counter late;                 ///< samples published later than the threshold
   std::array<Counter, kDropReasonNames.size()> dropped;
   RunTimeHistogram run_times;
 

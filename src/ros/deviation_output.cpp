@@ -84,6 +84,7 @@ class JointDeviationOutput : public Output {
     return ros::AdvertiseOptions::create<sensor_msgs::JointState>(topic, queue, {}, {},
                                                                   ros::VoidConstPtr(), nullptr);
   }
+  bool usesCovariance() const override { return record_ != nullptr; }
   void addTo(Request& request) const override { request.efforts = true; }
   std::unique_ptr<OutputMessage> makeMessage(const Dynamics&) const override {
     if (!record_) return std::make_unique<DescriptionDeviations>(mechanism_, scene_, frame_);

@@ -12,6 +12,8 @@ using diagnostic_updater::DiagnosticStatusWrapper;
 
 // Share of late outputs above which the node warns.
 constexpr double kLateShare = 0.001;
+// Restarts between two reports from which on the node warns: a looped bag makes one now and then.
+constexpr std::uint64_t kManyRestarts = 3;
 
 double seconds(JointWatch::Clock::duration duration) {
   return std::chrono::duration<double>(duration).count();
@@ -25,13 +27,14 @@ void addMicroseconds(DiagnosticStatusWrapper& status, const char* key, std::int6
 
 Diagnostics::Diagnostics(const Counters& counters_read, RunTimeHistogram& run_times,
                          const JointWatch& joints, const SelfCheckReport& self_check,
-                         const LoopReport& loops, const DeviationReport& deviations,
-                         const std::string& robot, double period)
+                         const LoopReport& loops, const StreamReport& streams,
+                         const DeviationReport& deviations, const std::string& robot, double period)
     : counters_(counters_read),
       run_times_(run_times),
       joints_(joints),
       self_check_(self_check),
       loops_(loops),
+      streams_(streams),
       deviations_(deviations),
       period_(std::chrono::duration_cast<std::chrono::nanoseconds>(
           std::chrono::duration<double>(period))),
@@ -65,6 +68,7 @@ Diagnostics::Before Diagnostics::count() const {
   now.inputs = counters_.joint_states.value() + counters_.trajectories.value();
   now.accepted = counters_.accepted_joint_states.value();
   now.restarts = counters_.restarts.value();
+  now.gaps = counters_.gaps.value();
   now.motions = counters_.samples.value() + counters_.skipped.value();
   now.outputs = counters_.outputs.value();
   now.samples = counters_.samples.value();
@@ -92,6 +96,7 @@ void Diagnostics::report(DiagnosticStatusWrapper& status) {
   addRunTimes(status);
   self_check_.add(status);
   loops_.add(status);
+  streams_.add(status);
   deviations_.add(status);
   addCounts(status);
   status.add("joints waited for", missing.empty() ? "none" : shortList(missing));
@@ -112,11 +117,19 @@ void Diagnostics::summarize(DiagnosticStatusWrapper& status, const Before& now,
   if (!missing.empty()) {
     status.mergeSummary(DiagnosticStatus::WARN, "waiting for joints: " + shortList(missing));
   }
-  if (now.restarts > before_.restarts && now.motions == before_.motions) {
+  const std::uint64_t restarts = now.restarts - before_.restarts;
+  const std::uint64_t gaps = now.gaps - before_.gaps;
+  if (gaps > 0 && now.motions == before_.motions) {
     status.mergeSummaryf(DiagnosticStatus::WARN,
-                         "no result from joint states: their stamps made the estimator restart "
-                         "%llu times (see ~estimator/max_gap)",
-                         static_cast<unsigned long long>(now.restarts - before_.restarts));
+                         "no result from joint states: they had %llu gaps longer than "
+                         "~estimator/max_gap",
+                         static_cast<unsigned long long>(gaps));
+  }
+  if (restarts >= kManyRestarts) {
+    status.mergeSummaryf(DiagnosticStatus::WARN,
+                         "the stamps of joint states went back %llu times: are there two "
+                         "publishers with clocks of their own?",
+                         static_cast<unsigned long long>(restarts));
   }
   const auto late = static_cast<double>(now.late - before_.late);
   const auto samples = static_cast<double>(now.samples - before_.samples);
@@ -143,6 +156,12 @@ void Diagnostics::addCounts(DiagnosticStatusWrapper& status) const {
   status.add("trajectory samples computed", counters_.sampled.value());
   status.add("samples nobody listened for", counters_.skipped.value());
   status.add("restarts", counters_.restarts.value());
+  status.add("gaps", counters_.gaps.value());
+  status.add("joint states put in order", counters_.reordered.value());
+  status.add("joint states of other robots", counters_.foreign.value());
+  status.add("joint states with velocities that are not finite",
+             counters_.velocity_not_finite.value());
+  status.add("samples with a joint held", counters_.held.value());
   status.add("late outputs", counters_.late.value());
   status.add("dropped", counters_.allDropped());
   for (std::size_t i = 0; i < kDropReasonNames.size(); ++i) {

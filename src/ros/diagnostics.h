@@ -12,6 +12,7 @@
 #include "ros/joint_watch.h"
 #include "ros/loop_report.h"
 #include "ros/self_check_report.h"
+#include "ros/stream_report.h"
 
 namespace virtual_work_dynamics {
 
@@ -21,7 +22,8 @@ class Diagnostics {
   /// @param period s.
   Diagnostics(const Counters& counters_read, RunTimeHistogram& run_times, const JointWatch& joints,
               const SelfCheckReport& self_check, const LoopReport& loops,
-              const DeviationReport& deviations, const std::string& robot, double period);
+              const StreamReport& streams, const DeviationReport& deviations,
+              const std::string& robot, double period);
 
   /// Sets what the node does now: the subscribed outputs, and what it computes for them.
   void setPlan(const std::vector<std::string>& outputs, const std::string& plan,
@@ -37,6 +39,7 @@ class Diagnostics {
     std::uint64_t inputs = 0;
     std::uint64_t accepted = 0;
     std::uint64_t restarts = 0;
+    std::uint64_t gaps = 0;
     std::uint64_t motions = 0;  ///< from the estimator, computed or not
     std::uint64_t outputs = 0;
     std::uint64_t samples = 0;
@@ -56,6 +59,7 @@ class Diagnostics {
   const JointWatch& joints_;
   SelfCheckReport self_check_;
   LoopReport loops_;
+  StreamReport streams_;
   DeviationReport deviations_;
   const std::chrono::nanoseconds period_;
   JointWatch::Clock::time_point next_;

@@ -37,7 +37,8 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       samples_(task_.everything.coordinates(), task_.scene.static_motion, completer_,
                {counters_, certificates_, loops_}),
       played_(parameters.trajectory_rate),
-      joint_watch_(task_.mechanism.coordinateNames(), completer_.needed()),
+      streams_(task_.mechanism.coordinates().size()),
+      joint_watch_(task_.mechanism.coordinateNames(), task_.waitedFor(completer_.needed())),
       plans_(compile(Audience())),
       cross_check_(checks_.cross_check
                        ? std::make_unique<CrossCheck>(parameters.self_check.cross_check_rate)
@@ -47,12 +48,15 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       diagnostics_(counters_, counters_.run_times, joint_watch_,
                    SelfCheckReport(parameters.self_check, cross_check_.get(), certificates_),
                    LoopReport(task_.everything, task_.reactions, loops_, parameters.loop_limits),
+                   StreamReport(streams_, task_.mechanism.coordinateNames(), task_.units()),
                    DeviationReport(task_.deviations, parameters.deviation_warn),
                    task_.mechanism.name(), parameters.diagnostic_period),
       sim_time_(ros::Time::isSimTime()) {
   task_.log(parameters);
   ros::NodeHandle node;
   if (task_.everything.closed()) estimator_.waitFor(completer_.needed());
+  covariance_.coordinates.resize(task_.mechanism.coordinates().size());
+  for (const auto& [coordinate, position] : task_.rest) estimator_.setRest(coordinate, position);
   loops_.setPassiveGiven(completer_.passiveGiven());
   if (!task_.closure_frames.transforms.empty()) {
     closure_frames_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
@@ -98,16 +102,36 @@ void InverseDynamicsNode::receiveJointState(
 void InverseDynamicsNode::take(const sensor_msgs::JointState& message, ros::Time receipt) {
   JointSample sample;
   if (const auto rejection = joint_states_.convert(message, sample)) {
-    drop(joint_state_subscriber_.getTopic(), rejection->reason, rejection->text);
+    if (rejection->reason == DropReason::kNoKnownJoint) {
+      reportForeign(rejection->text);
+    } else {
+      drop(joint_state_subscriber_.getTopic(), rejection->reason, rejection->text);
+    }
     return;
   }
   if (!sample.mimic_disagreement.empty()) {
     ROS_WARN("%s: %s; positions of mimic joints are ignored",
              joint_state_subscriber_.getTopic().c_str(), sample.mimic_disagreement.c_str());
   }
-  if (!push(sample) || !estimator_.ready()) return;
-  window_filled_ = true;
-  evaluate(receipt);
+  if (sample.velocity_not_finite) {
+    counters_.velocity_not_finite.add();
+    if (velocity_throttle_.open()) {
+      ROS_WARN("%s: velocities that are not finite are not used",
+               joint_state_subscriber_.getTopic().c_str());
+    }
+  }
+  if (!push(sample)) return;
+  while (estimator_.ready()) evaluate(receipt);
+  streams_.update(estimator_);
+}
+
+// Joint states of other robots on the topic are nothing to warn of again and again.
+void InverseDynamicsNode::reportForeign(const std::string& text) {
+  counters_.foreign.add();
+  if (foreign_reported_) return;
+  foreign_reported_ = true;
+  ROS_INFO("%s: a message is not used, as %s; others like it are not mentioned",
+           joint_state_subscriber_.getTopic().c_str(), text.c_str());
 }
 
 bool InverseDynamicsNode::push(const JointSample& sample) {
@@ -119,13 +143,20 @@ bool InverseDynamicsNode::push(const JointSample& sample) {
          "its stamp " + stampText(sample.stamp_ns) + " was received before");
     return false;
   }
-  if (verdict != Verdict::kAccepted) counters_.restarts.add();
-  if (verdict == Verdict::kRestartedGap) reportGap();
-  if (verdict == Verdict::kRestartedBack && restart_throttle_.open()) {
-    ROS_INFO("%s: time went back to stamp %s: the estimator restarts",
-             joint_state_subscriber_.getTopic().c_str(), stampText(sample.stamp_ns).c_str());
+  if (verdict == Verdict::kTooLate) {
+    drop(joint_state_subscriber_.getTopic(), DropReason::kTooLate,
+         "its stamp " + stampText(sample.stamp_ns) + " is too far behind those received before");
+    return false;
   }
-  if (verdict != Verdict::kAccepted) window_filled_ = false;
+  if (verdict == Verdict::kReordered) counters_.reordered.add();
+  if (verdict == Verdict::kAfterGap) reportGap();
+  if (verdict == Verdict::kRestartedBack) {
+    counters_.restarts.add();
+    if (restart_throttle_.open()) {
+      ROS_INFO("%s: time went back to stamp %s: the estimator restarts",
+               joint_state_subscriber_.getTopic().c_str(), stampText(sample.stamp_ns).c_str());
+    }
+  }
   counters_.accepted_joint_states.add();
   joint_watch_.saw(sample.coordinates, sample.count);
   if (completer_.saw(sample.coordinates, sample.count)) {
@@ -136,20 +167,15 @@ bool InverseDynamicsNode::push(const JointSample& sample) {
   return true;
 }
 
-// Warns when the window was not full before: joint states that are always too far apart never give
-// a result.
 void InverseDynamicsNode::reportGap() {
-  if (!(window_filled_ ? restart_throttle_ : gap_throttle_).open()) return;
-  const std::string text =
-      joint_state_subscriber_.getTopic() + ": a gap of " +
-      numberText(static_cast<double>(estimator_.latestGap()) / 1e9) +
-      " s is longer than ~estimator/max_gap = " + numberText(task_.estimator.max_gap) +
-      " s: the estimator restarts";
-  if (window_filled_) {
-    ROS_INFO("%s", text.c_str());
-  } else {
-    ROS_WARN("%s, before it had %d samples for a result", text.c_str(), task_.estimator.window);
-  }
+  counters_.gaps.add();
+  if (!gap_throttle_.open()) return;
+  const auto joint = static_cast<std::size_t>(estimator_.latestGapCoordinate());
+  ROS_INFO(
+      "%s: '%s' had a gap of %s s, longer than ~estimator/max_gap = %s s: it is estimated anew",
+      joint_state_subscriber_.getTopic().c_str(), task_.mechanism.coordinateNames()[joint].c_str(),
+      numberText(static_cast<double>(estimator_.latestGap()) / 1e9).c_str(),
+      numberText(task_.estimator.max_gap).c_str());
 }
 
 void InverseDynamicsNode::evaluate(ros::Time receipt) {
@@ -159,8 +185,11 @@ void InverseDynamicsNode::evaluate(ros::Time receipt) {
     counters_.skipped.add();
     return;
   }
-  const std::int64_t stamp_ns = estimator_.evaluate(samples_.motion());
-  const Outcome outcome = samples_.compute(plan, stamp_ns);
+  MotionCovariance* covariance =
+      plan.wantsCovariance() && task_.estimator.estimate ? &covariance_ : nullptr;
+  const std::int64_t stamp_ns = estimator_.evaluate(samples_.motion(), covariance);
+  if (estimator_.anyHeld()) counters_.held.add();
+  const Outcome outcome = samples_.compute(plan, stamp_ns, covariance);
   if (outcome != Outcome::kDone) {
     const bool open = outcome == Outcome::kOpenLoop;
     drop(joint_state_subscriber_.getTopic(), open ? DropReason::kOpenLoop : DropReason::kOverflow,
@@ -330,7 +359,8 @@ void InverseDynamicsNode::adaptPlan() {
 }
 
 void InverseDynamicsNode::watchJoints(Clock::time_point now) {
-  if (joints_reported_ || counters_.accepted_joint_states.value() == 0) return;
+  if (joints_reported_) return;
+  if (counters_.accepted_joint_states.value() + counters_.foreign.value() == 0) return;
   if (first_joint_state_ == Clock::time_point()) first_joint_state_ = now;
   if (now - first_joint_state_ < JointWatch::kPatience) return;
   joints_reported_ = true;

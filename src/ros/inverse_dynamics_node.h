@@ -30,6 +30,7 @@
 #include "ros/plan_switch.h"
 #include "ros/robot_task.h"
 #include "ros/sample_computation.h"
+#include "ros/stream_record.h"
 #include "ros/throttle.h"
 #include "ros/trajectory_conversion.h"
 #include "ros/trajectory_queue.h"
@@ -62,6 +63,7 @@ class InverseDynamicsNode {
   void take(const sensor_msgs::JointState& message, ros::Time receipt);
   bool push(const JointSample& sample);
   void reportGap();
+  void reportForeign(const std::string& text);
   void evaluate(ros::Time receipt);
   void take(const trajectory_msgs::JointTrajectory& message, ros::Time receipt);
   void respond(ActivePlan& plan, const trajectory_msgs::JointTrajectory& message);
@@ -96,11 +98,14 @@ class InverseDynamicsNode {
   SampleComputation samples_;
   TrajectoryMotion trajectory_;
   TrajectoryQueue played_;
-  bool window_filled_ = false;  // since the estimator's latest restart
+  MotionCovariance covariance_;
+  StreamRecord streams_;
+  bool foreign_reported_ = false;
   // By reason, so that a flood of one kind does not hide the others.
   std::array<Throttle, kDropReasonNames.size()> drop_throttles_;
   Throttle restart_throttle_;
   Throttle gap_throttle_;
+  Throttle velocity_throttle_;
   Throttle completion_throttle_;
   Throttle queue_throttle_;
 

@@ -1,6 +1,7 @@
 #include "ros/inverse_dynamics_parameters.h"
 
 #include <ros/node_handle.h>
+#include <xmlrpcpp/XmlRpcValue.h>
 
 #include "base/number_text.h"
 #include "ros/private_parameters.h"
@@ -24,13 +25,47 @@ void readRobotDescription(const ros::NodeHandle& node, InverseDynamicsParameters
   }
 }
 
+// A noise, or what else the estimator finds by itself unless it is given: negative for "auto".
+double readOrAuto(PrivateParameters& parameters, const std::string& name, bool may_be_zero) {
+  constexpr double kAuto = -1;
+  const XmlRpc::XmlRpcValue value = parameters.raw(name);
+  if (!value.valid()) return kAuto;
+  XmlRpc::XmlRpcValue copy = value;
+  if (copy.getType() == XmlRpc::XmlRpcValue::TypeString && std::string(copy) == "auto") {
+    return kAuto;
+  }
+  const double number = numberOf(value, "~" + name);
+  if (!(may_be_zero ? number >= 0 : number > 0)) {
+    throw parameterError(name, numberText(number) + " is neither auto nor " +
+                                   (may_be_zero ? "zero or positive" : "positive"));
+  }
+  return number;
+}
+
+// Counts of samples, which fitted one rate and one encoder only.
+void refuseOldEstimator(const PrivateParameters& parameters) {
+  for (const char* name : {"estimator/window", "estimator/order"}) {
+    if (!parameters.has(name)) continue;
+    throw parameterError(
+        name,
+        "no longer exists: the estimator finds noise and bandwidth itself; they can be given as "
+        "~estimator/position_noise, velocity_noise, stamp_noise and bandwidth, and "
+        "~estimator/lag is in seconds");
+  }
+}
+
 EstimatorSettings readEstimator(PrivateParameters& parameters) {
+  refuseOldEstimator(parameters);
   EstimatorSettings settings;
-  settings.window = parameters.integer("estimator/window", settings.window);
-  settings.order = parameters.integer("estimator/order", settings.order);
-  settings.lag = parameters.integer("estimator/lag", settings.lag);
-  settings.use_velocity = parameters.boolean("estimator/use_velocity", settings.use_velocity);
+  settings.lag = parameters.number("estimator/lag", settings.lag);
   settings.max_gap = parameters.number("estimator/max_gap", settings.max_gap);
+  settings.hold_after = parameters.number("hold_after", settings.hold_after);
+  NoiseSettings& noise = settings.noise;
+  noise.use_velocity = parameters.boolean("estimator/use_velocity", noise.use_velocity);
+  noise.position_noise = readOrAuto(parameters, "estimator/position_noise", false);
+  noise.velocity_noise = readOrAuto(parameters, "estimator/velocity_noise", false);
+  noise.stamp_noise = readOrAuto(parameters, "estimator/stamp_noise", true);
+  noise.bandwidth = readOrAuto(parameters, "estimator/bandwidth", false);
   const std::string acceleration = parameters.text("estimator/acceleration", "estimate");
   if (acceleration != "estimate" && acceleration != "zero") {
     throw parameterError("estimator/acceleration",
@@ -38,6 +73,24 @@ EstimatorSettings readEstimator(PrivateParameters& parameters) {
   }
   settings.estimate = acceleration == "estimate";
   return settings;
+}
+
+std::vector<RestingJoint> readRest(PrivateParameters& parameters) {
+  std::vector<RestingJoint> rest;
+  XmlRpc::XmlRpcValue list = parameters.raw("rest");
+  if (!list.valid()) return rest;
+  constexpr char kForm[] = "expected a list like [{name: finger, position: 0.02}]";
+  if (list.getType() != XmlRpc::XmlRpcValue::TypeArray) throw parameterError("rest", kForm);
+  for (int i = 0; i < list.size(); ++i) {
+    XmlRpc::XmlRpcValue entry = list[i];
+    const bool form = entry.getType() == XmlRpc::XmlRpcValue::TypeStruct && entry.size() == 2 &&
+                      entry.hasMember("name") && entry.hasMember("position") &&
+                      entry["name"].getType() == XmlRpc::XmlRpcValue::TypeString;
+    if (!form) throw parameterError("rest", kForm);
+    const std::string name = entry["name"];
+    rest.push_back({name, numberOf(entry["position"], "~rest of '" + name + "'")});
+  }
+  return rest;
 }
 
 int readQueueSize(PrivateParameters& parameters, const std::string& name, int fallback) {
@@ -129,6 +182,7 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   PrivateParameters parameters(private_node);
   parameters.expect(kRobotDescription);
   result.estimator = readEstimator(parameters);
+  result.rest = readRest(parameters);
   result.frame_prefix = parameters.text("frame_prefix", result.frame_prefix);
   result.twist = parameters.boolean("twist", result.twist);
   result.input_queue = readQueueSize(parameters, "queue_size/input", result.input_queue);

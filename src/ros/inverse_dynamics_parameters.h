@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "dynamics/effort_doubts.h"
 #include "ros/loop_limits.h"
@@ -21,6 +22,12 @@ struct SelfCheckSettings {
   double residual_error = 1e-7;  ///< ERROR from here on, relative to sums of magnitudes
 };
 
+/// A joint whose states may never come.
+struct RestingJoint {
+  std::string name;
+  double position = 0;  ///< rad or m
+};
+
 /// Everything that inverse_dynamics_node reads from the parameter server.
 struct InverseDynamicsParameters {
   std::string robot_description;      ///< URDF text
@@ -28,6 +35,7 @@ struct InverseDynamicsParameters {
   Scene scene;
   bool scene_given = false;        ///< false: the scene is the default one
   EstimatorSettings estimator;     ///< settings as given; a static scene does not estimate
+  std::vector<RestingJoint> rest;  ///< positions of joints until they come
   std::string frame_prefix;        ///< prefix of every frame_id
   bool twist = false;              ///< whether the twists of ~reactions are filled in
   int input_queue = 1000;          ///< messages

@@ -27,12 +27,16 @@ loops /tf_static has a frame for each closure, that of ~reaction/<closure>.
 parameters
   robot_description          URDF text; searched from the private namespace upwards
   ~scene                     gravity, reactions, applied wrenches...; see doc/scene_file.md
-  ~estimator/window          samples in the acceleration estimate (9)
-  ~estimator/order           order of its polynomial (3)
-  ~estimator/lag             samples the outputs are behind the newest joint state (4)
-  ~estimator/use_velocity    fit the velocities of joint states, too (true)
-  ~estimator/max_gap         longest gap between joint states, s (0.25)
+  ~estimator/lag             s the outputs are behind the newest joint state, 0 to 1 (0.05)
+  ~estimator/use_velocity    use the velocities of joint states, too (true)
+  ~estimator/max_gap         longest gap of a joint that is estimated across, s (0.25)
+  ~estimator/position_noise  standard deviation of positions, rad or m (auto: found)
+  ~estimator/velocity_noise  standard deviation of velocities, rad/s or m/s (auto)
+  ~estimator/stamp_noise     standard deviation of stamps, s (auto)
+  ~estimator/bandwidth       Hz that keep half of their amplitude (auto)
   ~estimator/acceleration    estimate | zero (estimate)
+  ~hold_after                s without a sample after which a joint is held (0.25)
+  ~rest                      [{name, position}] of joints that may never come ([])
   ~frame_prefix              prefix of every frame_id ("")
   ~twist                     fill in the twists of ~reactions (false)
   ~queue_size/input          messages (1000)

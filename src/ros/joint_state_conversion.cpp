@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/number_text.h"
 #include "ros/joint_lookup.h"
@@ -39,15 +40,11 @@ std::optional<Rejection> JointStateConversion::convert(const sensor_msgs::JointS
     return wrongLength(names, message.position.size(), "positions");
   }
   if (velocities != 0 && velocities != names) return wrongLength(names, velocities, "velocities");
-  const std::size_t efforts = message.effort.size();
-  if (efforts != 0 && efforts != names) return wrongLength(names, efforts, "efforts");
   Layout& layout = layoutOf(message.name);
   if (layout.rejection) return layout.rejection;
   if (message.header.stamp.isZero()) return Rejection{DropReason::kZeroStamp, "its stamp is zero"};
-  if (auto rejection = gather(layout, message.position, "position", q_)) return rejection;
-  if (velocities != 0) {
-    if (auto rejection = gather(layout, message.velocity, "velocity", qd_)) return rejection;
-  }
+  if (auto rejection = gatherPositions(layout, message.position)) return rejection;
+  sample.velocity_not_finite = velocities != 0 && !gatherVelocities(layout, message.velocity);
   sample.stamp_ns = static_cast<std::int64_t>(message.header.stamp.toNSec());
   sample.count = static_cast<int>(layout.columns.size());
   sample.coordinates = layout.coordinates.data();
@@ -111,20 +108,30 @@ void JointStateConversion::resolveMimics(Layout& layout) const {
   }
 }
 
-std::optional<Rejection> JointStateConversion::gather(const Layout& layout,
-                                                      const std::vector<double>& values,
-                                                      const char* what,
-                                                      std::vector<double>& gathered) const {
+std::optional<Rejection> JointStateConversion::gatherPositions(
+    const Layout& layout, const std::vector<double>& positions) {
   for (std::size_t i = 0; i < layout.columns.size(); ++i) {
     const auto column = static_cast<std::size_t>(layout.columns[i]);
-    gathered[i] = values[column];
-    if (!std::isfinite(gathered[i])) {
-      return Rejection{DropReason::kNotFinite, std::string("the ") + what + " of '" +
-                                                   layout.names[column] + "' is " +
-                                                   numberText(gathered[i])};
+    q_[i] = positions[column];
+    if (!std::isfinite(q_[i])) {
+      return Rejection{DropReason::kNotFinite,
+                       "the position of '" + layout.names[column] + "' is " + numberText(q_[i])};
     }
   }
   return std::nullopt;
+}
+
+/// Returns whether all velocities are finite. Drivers fill what they do not measure with NaN.
+bool JointStateConversion::gatherVelocities(const Layout& layout,
+                                            const std::vector<double>& velocities) {
+  bool finite = true;
+  for (std::size_t i = 0; i < layout.columns.size(); ++i) {
+    qd_[i] = velocities[static_cast<std::size_t>(layout.columns[i])];
+    if (std::isfinite(qd_[i])) continue;
+    qd_[i] = std::numeric_limits<double>::quiet_NaN();
+    finite = false;
+  }
+  return finite;
 }
 
 void JointStateConversion::checkMimics(Layout& layout, const std::vector<double>& positions,

@@ -20,8 +20,9 @@ struct JointSample {
   std::int64_t stamp_ns = 0;
   int count = 0;
   const int* coordinates = nullptr;
-  const double* q = nullptr;   ///< rad or m
-  const double* qd = nullptr;  ///< rad/s or m/s; null: not given
+  const double* q = nullptr;         ///< rad or m
+  const double* qd = nullptr;        ///< rad/s or m/s, NaN where it is not finite; null: not given
+  bool velocity_not_finite = false;  ///< whether some velocity is not, so that it is not used
   /// Text about the first position of each mimic joint that disagrees with its master; else empty.
   std::string mimic_disagreement;
 };
@@ -56,8 +57,9 @@ class JointStateConversion {
   Layout& layoutOf(const std::vector<std::string>& names);
   void resolve(const std::vector<std::string>& names, Layout& layout) const;
   void resolveMimics(Layout& layout) const;
-  std::optional<Rejection> gather(const Layout& layout, const std::vector<double>& values,
-                                  const char* what, std::vector<double>& gathered) const;
+  std::optional<Rejection> gatherPositions(const Layout& layout,
+                                           const std::vector<double>& positions);
+  bool gatherVelocities(const Layout& layout, const std::vector<double>& velocities);
   void checkMimics(Layout& layout, const std::vector<double>& positions, std::string& disagreement);
 
   const Mechanism& mechanism_;

@@ -95,6 +95,51 @@ class EffortOutput : public Output {
   std::string frame_;
 };
 
+// --- ~motion: the positions, velocities and accelerations used
+
+class MotionMessage : public MessageOf<trajectory_msgs::JointTrajectory> {
+ public:
+  MotionMessage(const Names& names, const std::string& frame) {
+    message_.header.frame_id = frame;
+    message_.joint_names = names;
+    message_.points.resize(1);
+    trajectory_msgs::JointTrajectoryPoint& point = message_.points[0];
+    for (auto* values : {&point.positions, &point.velocities, &point.accelerations}) {
+      values->resize(names.size());
+    }
+  }
+
+  void fill(const OutputSample& sample) override {
+    message_.header.stamp = timeOf(sample.stamp_ns);
+    trajectory_msgs::JointTrajectoryPoint& point = message_.points[0];
+    for (std::size_t i = 0; i < point.positions.size(); ++i) {
+      const auto index = static_cast<Eigen::Index>(i);
+      point.positions[i] = sample.motion.q[index];
+      point.velocities[i] = sample.motion.qd[index];
+      point.accelerations[i] = sample.motion.qdd[index];
+    }
+  }
+};
+
+class MotionOutput : public Output {
+ public:
+  MotionOutput(Names names, std::string frame)
+      : names_(std::move(names)), frame_(std::move(frame)) {}
+
+  std::string topic() const override { return "motion"; }
+  ros::AdvertiseOptions options(const std::string& topic, std::uint32_t queue) const override {
+    return advertised<trajectory_msgs::JointTrajectory>(topic, queue);
+  }
+  void addTo(Request&) const override {}
+  std::unique_ptr<OutputMessage> makeMessage(const Dynamics&) const override {
+    return std::make_unique<MotionMessage>(names_, frame_);
+  }
+
+ private:
+  Names names_;
+  std::string frame_;
+};
+
 // --- ~reactions: every reaction in root axes (4.3), with the poses of the joint frames
 
 class ReactionsMessage : public MessageOf<sensor_msgs::MultiDOFJointState> {
@@ -321,6 +366,7 @@ Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
   const std::string root_frame = settings.frame_prefix + mechanism.links().front().name;
   Outputs outputs;
   outputs.push_back(std::make_unique<EffortOutput>(root_frame));
+  outputs.push_back(std::make_unique<MotionOutput>(mechanism.coordinateNames(), root_frame));
   if (settings.deviations) {
     outputs.push_back(
         makeDeviationOutput(mechanism, settings.scene, root_frame, settings.deviations));

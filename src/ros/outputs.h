@@ -71,6 +71,8 @@ class Output {
 
   /// Whether it has one message for each trajectory, rather than for each sample.
   virtual bool ofTrajectories() const { return false; }
+  /// Whether its message uses OutputSample::covariance.
+  virtual bool usesCovariance() const { return false; }
   /// Adds what its subscribers need.
   virtual void addTo(Request& request) const = 0;
   /// Its message in a plan whose request has what addTo() adds.

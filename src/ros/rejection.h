@@ -14,6 +14,7 @@ enum class DropReason : std::size_t {
   kJointTwice,
   kZeroStamp,
   kEqualStamp,
+  kTooLate,
   kNoPoints,
   kTimes,
   kNeverSeen,
@@ -26,10 +27,11 @@ enum class DropReason : std::size_t {
 };
 
 /// The reasons as diagnostics show them, in the order of DropReason.
-constexpr std::array<const char*, 15> kDropReasonNames = {
-    "array length",   "not finite", "no known joint", "joint twice",      "zero stamp",
-    "equal stamp",    "no points",  "times",          "joint never seen", "overflow",
-    "passive joints", "open loop",  "no time yet",    "backlog",          "internal"};
+constexpr std::array<const char*, 16> kDropReasonNames = {
+    "array length", "not finite",       "no known joint", "joint twice",
+    "zero stamp",   "equal stamp",      "too late",       "no points",
+    "times",        "joint never seen", "overflow",       "passive joints",
+    "open loop",    "no time yet",      "backlog",        "internal"};
 
 constexpr std::size_t index(DropReason reason) {
   return static_cast<std::size_t>(reason);

@@ -2,6 +2,8 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
+
 #include "base/number_text.h"
 #include "ros/closure_frames.h"
 #include "ros/loop_report.h"
@@ -33,6 +35,21 @@ EstimatorSettings checkedSettings(const Mechanism& mechanism, EstimatorSettings 
   return settings;
 }
 
+std::vector<std::pair<int, double>> restOf(const Mechanism& mechanism,
+                                           const std::vector<RestingJoint>& joints) {
+  const std::vector<std::string>& names = mechanism.coordinateNames();
+  std::vector<std::pair<int, double>> rest;
+  for (const RestingJoint& joint : joints) {
+    const auto place = std::find(names.begin(), names.end(), joint.name);
+    if (place == names.end()) {
+      throw parameterError("rest", "robot '" + mechanism.name() + "' has no joint '" + joint.name +
+                                       "' that moves by itself");
+    }
+    rest.emplace_back(static_cast<int>(place - names.begin()), joint.position);
+  }
+  return rest;
+}
+
 // Compiles all that the scene asks for.
 Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const std::string& key) {
   if (mechanism.coordinates().empty()) {
@@ -50,6 +67,7 @@ RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
       reactions(requestedReactions(mechanism, scene)),
       reaction_topics(legalTopicNames(reactions)),
       estimator(checkedSettings(mechanism, parameters.estimator, scene)),
+      rest(restOf(mechanism, parameters.rest)),
       everything(movableDynamics(mechanism, scene, parameters.robot_description_key)) {
   closure_frames = closureFrames(mechanism, scene, reactions, parameters.frame_prefix);
   deviations =
@@ -60,6 +78,21 @@ RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
   plan_lines = everything.closed()
                    ? loopLines(mechanism, scene, everything, parameters.loop_limits.condition)
                    : everything.summary().lines();
+}
+
+std::vector<bool> RobotTask::waitedFor(std::vector<bool> needed) const {
+  for (const auto& [coordinate, position] : rest) {
+    needed[static_cast<std::size_t>(coordinate)] = false;
+  }
+  return needed;
+}
+
+std::vector<std::string> RobotTask::units() const {
+  std::vector<std::string> units;
+  for (std::size_t i = 0; i < mechanism.coordinates().size(); ++i) {
+    units.emplace_back(symbolOf(mechanism.unitOf(static_cast<int>(i))));
+  }
+  return units;
 }
 
 std::vector<bool> RobotTask::passive() const {
@@ -73,12 +106,10 @@ void RobotTask::log(const InverseDynamicsParameters& parameters) const {
   const auto& names = mechanism.coordinateNames();
   const Eigen::Vector3d& g = scene.gravity;
   const std::string accelerations =
-      scene.static_motion ? "static scene without velocities and accelerations"
-      : !estimator.estimate
-          ? "accelerations of joint states taken as zero"
-          : "accelerations of joint states estimated (window " + std::to_string(estimator.window) +
-                ", order " + std::to_string(estimator.order) + ", lag " +
-                std::to_string(estimator.lag) + ")";
+      scene.static_motion   ? "static scene without velocities and accelerations"
+      : !estimator.estimate ? "accelerations of joint states taken as zero"
+                            : "accelerations of joint states estimated " +
+                                  numberText(estimator.lag) + " s behind the newest";
   ROS_INFO(
       "Robot '%s' from %s: %zu coordinates (%s), %zu reactions (%s); gravity [%s, %s, %s] m/s^2; "
       "%s; %s",

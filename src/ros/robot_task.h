@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ros/inverse_dynamics_parameters.h"
@@ -23,6 +24,12 @@ struct RobotTask {
   /// Writes to the log what is to be computed, and warns of doubtful bodies.
   void log(const InverseDynamicsParameters& parameters) const;
 
+  /// The coordinates that joint states have to show: `needed` without those that may rest.
+  std::vector<bool> waitedFor(std::vector<bool> needed) const;
+
+  /// rad or m, of each coordinate.
+  std::vector<std::string> units() const;
+
   /// Whether each coordinate is passive; none is in an open chain.
   std::vector<bool> passive() const;
 
@@ -31,6 +38,7 @@ struct RobotTask {
   std::vector<std::string> reactions;        ///< joints and closures that the scene asks for
   std::vector<std::string> reaction_topics;  ///< their topics
   EstimatorSettings estimator;
+  std::vector<std::pair<int, double>> rest;  ///< coordinates and their positions until they come
   tf2_msgs::TFMessage closure_frames;
   Dynamics everything;                          ///< of all that the scene asks for, in both axes
   std::shared_ptr<DeviationRecord> deviations;  ///< of ~effort_deviation

@@ -39,7 +39,7 @@ SampleComputation::Outcome SampleComputation::computeSample(ActivePlan& plan,
   if (!completer_.completeSample(motion_, plan.dynamics, plan.workspace)) {
     return Outcome::kOpenLoop;
   }
-  return computeOne(plan, trajectory.samples->stampNs(sample), start);
+  return computeOne(plan, trajectory.samples->stampNs(sample), start, nullptr);
 }
 
 SampleComputation::Outcome SampleComputation::computeNext(ActivePlan& plan,

@@ -24,6 +24,8 @@ foreach(file
     sample_computation.cpp
     sample_times.cpp
     self_check_report.cpp
+    stream_record.cpp
+    stream_report.cpp
     topic_names.cpp
     trajectory_conversion.cpp
     trajectory_publisher.cpp

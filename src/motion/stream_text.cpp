@@ -1,0 +1,42 @@
+#include "motion/stream_text.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace virtual_work_dynamics {
+namespace {
+
+std::string brief(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g", value);
+  return text;
+}
+
+std::string frequency(double hertz) {
+  char text[32];
+  std::snprintf(text, sizeof text, hertz < 1000 ? "%.3g Hz" : "%.3g kHz",
+                hertz < 1000 ? hertz : hertz / 1000);
+  return text;
+}
+
+}  // namespace
+
+std::string streamText(const StreamQuality& quality, const std::string& unit) {
+  std::string text = frequency(std::round(1e3 / quality.interval) / 1e3) + ", position noise " +
+                     brief(quality.position_noise) + " " + unit;
+  if (quality.velocity_noise >= 0)
+    text += ", velocity noise " + brief(quality.velocity_noise) + " " + unit + "/s";
+  if (quality.stamp_noise > 0.01 * quality.interval)
+    text += ", stamp noise " + brief(quality.stamp_noise) + " s";
+  return text + ", bandwidth " + frequency(quality.bandwidth);
+}
+
+std::string velocityProblem(const std::string& joint, double ratio) {
+  const std::string begin = "velocities of '" + joint + "' are not used: they ";
+  if (std::abs(ratio) < 0.02) return begin + "stay at zero while its position moves";
+  if (std::abs(ratio - 57.29578) < 3)
+    return begin + "are 57 times the slope of its positions: degrees per second?";
+  return begin + "are " + brief(ratio) + " times the slope of its positions";
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,54 @@
+#include "ros/stream_report.h"
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+#include <ros/console.h>
+
+#include <cmath>
+#include <utility>
+
+#include "motion/stream_text.h"
+#include "ros/message_text.h"
+
+namespace virtual_work_dynamics {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+StreamReport::StreamReport(const StreamRecord& record, std::vector<std::string> joints,
+                           std::vector<std::string> units)
+    : record_(record),
+      joints_(std::move(joints)),
+      units_(std::move(units)),
+      warned_(joints_.size(), false) {}
+
+std::string StreamReport::problem(std::size_t joint) const {
+  const JointStream& stream = streams_[joint];
+  if (stream.contradictory) {
+    return "positions of '" + joints_[joint] + "' jump to and fro: are there two publishers?";
+  }
+  if (stream.quality.velocity_ratio == 1) return "";
+  return velocityProblem(joints_[joint], stream.quality.velocity_ratio);
+}
+
+void StreamReport::add(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  if (!record_.read(streams_)) return;
+  std::vector<std::string> held;
+  for (std::size_t i = 0; i < streams_.size(); ++i) {
+    const JointStream& stream = streams_[i];
+    if (stream.held) {
+      char age[32];
+      std::snprintf(age, sizeof age, "%.2g s", stream.age);
+      held.push_back(joints_[i] + (std::isfinite(stream.age) ? std::string(" (") + age + ")" : ""));
+    }
+    if (stream.quality.interval > 0) {
+      status.add("samples of " + joints_[i], streamText(stream.quality, units_[i]));
+    }
+    const std::string text = problem(i);
+    if (text.empty()) continue;
+    status.mergeSummary(DiagnosticStatus::WARN, text);
+    if (!warned_[i]) ROS_WARN("%s", text.c_str());
+    warned_[i] = true;
+  }
+  status.add("joints held at their last position", held.empty() ? "none" : shortList(held));
+}
+
+}  // namespace virtual_work_dynamics

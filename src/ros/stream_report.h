@@ -1,0 +1,32 @@
+#pragma once
+
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+
+#include <string>
+#include <vector>
+
+#include "ros/stream_record.h"
+
+namespace virtual_work_dynamics {
+
+/// Reports on /diagnostics what the joint states of each joint were found to be, and which of them
+/// contradict themselves. Serves one thread.
+class StreamReport {
+ public:
+  /// @param joints names of the coordinates   @param units rad or m, of each
+  StreamReport(const StreamRecord& record, std::vector<std::string> joints,
+               std::vector<std::string> units);
+
+  void add(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+ private:
+  std::string problem(std::size_t joint) const;
+
+  const StreamRecord& record_;
+  const std::vector<std::string> joints_;
+  const std::vector<std::string> units_;
+  std::vector<JointStream> streams_;
+  std::vector<bool> warned_;  // of each joint, in the log
+};
+
+}  // namespace virtual_work_dynamics
