@@ -33,6 +33,7 @@ set(core_test_files
   test/core/closed_loop_singular_test.cpp
   test/core/closed_loop_tree_test.cpp
   test/core/description_deviations_test.cpp
+  test/core/deviation_rows_test.cpp
   test/core/deviations_allocation_test.cpp
   test/core/deviations_test.cpp
   test/core/dynamics_test.cpp
@@ -97,7 +98,8 @@ set(core_test_files
   test/core/unwrap_test.cpp
   test/core/urdf_reader_test.cpp
   test/core/urdf_writer_test.cpp
-  ${stability_scenes})
+  ${stability_scenes}
+  src/offline/deviation_rows.cpp)  # the covariances of a motion cannot come from a file
 # Compiled for each: where its tool is, and tests of code that is all in headers.
 set(core_test_files_of_build
   test/core/exact_products_test.cpp
