@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "motion/sample_blocks.h"
+#include "motion/stream_start.h"
 #include "motion/velocity_judge.h"
 
 namespace virtual_work_dynamics {
@@ -99,7 +101,12 @@ CoordinateTrack::Verdict CoordinateTrack::push(std::int64_t stamp, double q, dou
   } else {
     stretch_ = std::min(stretch_ + 1, capacity());
     noteStep(entry(1), now);
-    follow(entry(1), now, true);
+    const bool power_of_two = (stretch_ & (stretch_ - 1)) == 0;
+    if (power_of_two && stretch_ >= kFewest && stretch_ <= startingCount()) {
+      restart();
+    } else {
+      follow(entry(1), now, true);
+    }
     identify();
   }
   record(stamp, q + kTwoPi * turns, qd);
@@ -155,8 +162,24 @@ void CoordinateTrack::begin(Entry& entry) {
   entry.first = true;
   entry.has_velocity = false;
   const double interval = std::isfinite(interval_) ? interval_ : kFirstTime / kFirstIntervals;
-  entry.filtered = firstState<kOrder>(model_, interval);
+  entry.filtered = firstState<kOrder>(model_, interval, 1, [](int) { return std::pair(0.0, 0.0); });
   surprise_ = 1;
+}
+
+/// Samples that the filter is started from, in the end.
+int CoordinateTrack::startingCount() const {
+  return startingSamples(model_, kOrder, interval_);
+}
+
+/// Starts the filter again at the first sample of the stretch, now that there are more of them.
+void CoordinateTrack::restart() {
+  const int oldest = stretch_ - 1;
+  Entry& first = entry(oldest);
+  first.filtered = firstState<kOrder>(model_, interval_, stretch_, [&](int i) {
+    const Entry& other = entry(oldest - i);
+    return std::pair(secondsBetween(first.stamp, other.stamp), moved(first, other));
+  });
+  for (int age = oldest; age-- > 0;) follow(entry(age + 1), entry(age), false);
 }
 
 /// Takes the filter from the sample before to this one. @param judge whether the innovation may

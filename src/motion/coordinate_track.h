@@ -85,6 +85,8 @@ class CoordinateTrack {
   int capacity() const { return static_cast<int>(entries_.size()); }
   static double moved(const Entry& from, const Entry& to);
   void begin(Entry& entry);
+  int startingCount() const;
+  void restart();
   void follow(const Entry& before, Entry& entry, bool judge);
   Verdict insert(std::int64_t stamp, double q, double qd);
   void noteStep(const Entry& before, const Entry& now);

@@ -1,12 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-
-#include "motion/stream_model.h"
 
 namespace virtual_work_dynamics {
 
@@ -70,20 +66,6 @@ StreamUpdate<N> update(int row, double residual, double variance, StreamState<N>
   state.P.row(row) = column.transpose() * (variance * done.precision);
   state.P.col(row) = state.P.row(row).transpose();
   return done;
-}
-
-/// The state at the first sample, of position zero: of its derivatives next to nothing is known.
-template <int N>
-StreamState<N> firstState(const StreamModel& model, double interval) {
-  // What the white noise can do within many time constants.
-  constexpr double kManyTimeConstants = 100;
-  const double time = kManyTimeConstants * std::max(timeConstant(model, N, interval), interval);
-  StreamState<N> state;
-  state.x.setZero();
-  state.P.setZero();
-  state.P(0, 0) = model.position_variance;
-  for (int i = 1; i < N; ++i) state.P(i, i) = model.density * std::pow(time, 2 * (N - i) - 1);
-  return state;
 }
 
 /// The adjoint of the samples after an instant: the smoothed state is x + P r, and its covariance

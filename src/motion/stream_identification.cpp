@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "motion/stream_start.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -157,7 +160,11 @@ double StreamIdentification::stepOf(StreamState<N>& state) {
   const StreamBlock& block = blocks_[next_];
   const double dt = next_ > 0 ? block.time - blocks_[next_ - 1].time : 0;
   if (next_ == 0 || dt > knowledge_.longest_gap) {
-    state = firstState<N>(candidate_model_, interval_);
+    state = firstState<N>(candidate_model_, interval_, startingBlocks(), [this](int i) {
+      const StreamBlock& first = blocks_[next_];
+      const StreamBlock& other = blocks_[next_ + static_cast<std::size_t>(i)];
+      return std::pair(other.time - first.time, other.position - first.position);
+    });
     since_start_ = 0;
     return 0;
   }
@@ -172,6 +179,19 @@ double StreamIdentification::stepOf(StreamState<N>& state) {
     value += done.normalizedSquare() - std::log(done.precision);
   }
   return ++since_start_ < kUnjudged ? 0 : value;
+}
+
+/// Blocks from the next one on, without a gap, that the filter is started from.
+int StreamIdentification::startingBlocks() const {
+  const int most = startingSamples(candidate_model_, knowledge_.order, interval_);
+  int count = 1;
+  std::size_t at = next_ + 1;
+  while (count < most && at < blocks_.size() &&
+         blocks_[at].time - blocks_[at - 1].time <= knowledge_.longest_gap) {
+    ++count;
+    ++at;
+  }
+  return count;
 }
 
 double StreamIdentification::step() {

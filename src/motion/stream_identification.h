@@ -65,6 +65,7 @@ class StreamIdentification {
   double positionNoiseFromDifferences() const;
   double fixedValue(int parameter) const;
   void beginCandidate();
+  int startingBlocks() const;
   double step();
   template <int N>
   double stepOf(StreamState<N>& state);

@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "motion/stream_filter.h"
+#include "motion/stream_start.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -23,8 +25,7 @@ class Smoother {
   template <typename Take>
   void smooth(std::size_t first, std::size_t last, const Take& take) {
     std::vector<StreamState<N>> starts;
-    StreamState<N> state = firstState<N>(model_, interval_);
-    takeVelocity(first, state);
+    StreamState<N> state = start(first, last);
     for (std::size_t row = first; row < last; row += kPart) {
       starts.push_back(state);
       if (row + kPart < last) state = filter(row, std::min(row + kPart, last) + 1, state);
@@ -45,8 +46,7 @@ class Smoother {
   /// Smooths with samples up to `lag` s after each row only.
   template <typename Take>
   void smoothWithLag(std::size_t first, std::size_t last, double lag, const Take& take) {
-    StreamState<N> state = firstState<N>(model_, interval_);
-    takeVelocity(first, state);
+    const StreamState<N> state = start(first, last);
     filter(first, last, state);
     steps_[0].filtered = state;
     std::size_t newest = first;
@@ -68,10 +68,18 @@ class Smoother {
     bool has_velocity = false;
   };
 
-  void takeVelocity(std::size_t row, StreamState<N>& state) const {
-    const double velocity = samples_[row].velocity;
+  StreamState<N> start(std::size_t first, std::size_t last) const {
+    const int count = static_cast<int>(std::min<std::size_t>(
+        static_cast<std::size_t>(startingSamples(model_, N, interval_)), last - first));
+    StreamState<N> state = firstState<N>(model_, interval_, count, [&](int i) {
+      const StreamBlock& other = samples_[first + static_cast<std::size_t>(i)];
+      return std::pair(other.time - samples_[first].time,
+                       other.position - samples_[first].position);
+    });
+    const double velocity = samples_[first].velocity;
     if (model_.usesVelocities() && !std::isnan(velocity))
-      update<N>(1, velocity, model_.velocity_variance, state);
+      update<N>(1, velocity - state.x[1], model_.velocity_variance, state);
+    return state;
   }
 
   /// Filters rows begin … end - 1, the state at `begin` being given, and keeps the steps. Positions

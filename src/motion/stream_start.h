@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "motion/stream_filter.h"
+#include "motion/stream_model.h"
+
+namespace virtual_work_dynamics {
+
+/// Most samples that a filter is started from.
+constexpr int kMostStarting = 64;
+
+/// Samples that a filter of this model is started from: those of two time constants.
+inline int startingSamples(const StreamModel& model, int order, double interval) {
+  const double samples = 2 * timeConstant(model, order, interval) / interval;
+  return static_cast<int>(std::clamp(samples, order + 0.0, kMostStarting + 0.0));
+}
+
+/// The state at the first of some samples, position relative to it. Its derivatives are those of
+/// the polynomial of order N - 1 through the samples (least squares), with all that the white noise
+/// can do within many time constants as their deviations. A start from zero would need deviations
+/// as large as the derivatives themselves, in which samples that are exact lose all of their
+/// digits.
+/// @param sample sample(i) gives the time and the position of the i-th sample, relative to the
+/// first
+/// @param count 1 … kMostStarting samples
+template <int N, typename Sample>
+StreamState<N> firstState(const StreamModel& model, double interval, int count,
+                          const Sample& sample) {
+  constexpr double kManyTimeConstants = 100;
+  const double time = kManyTimeConstants * std::max(timeConstant(model, N, interval), interval);
+  StreamState<N> state;
+  state.x.setZero();
+  state.P.setZero();
+  state.P(0, 0) = model.position_variance;
+  for (int i = 1; i < N; ++i) state.P(i, i) = model.density * std::pow(time, 2 * (N - i) - 1);
+  const int rows = std::min(count, kMostStarting) - 1;
+  if (rows < 1) return state;
+  // The polynomial goes through the first sample: its other coefficients are fitted to the rest.
+  const int terms = std::min(rows, N - 1);
+  const double span = sample(rows).first;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostStarting, N> powers(
+      rows, terms);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostStarting, 1> positions(rows);
+  for (int row = 0; row < rows; ++row) {
+    const auto [t, q] = sample(row + 1);
+    double power = 1;
+    for (int i = 0; i < terms; ++i) powers(row, i) = power *= t / span;
+    positions[row] = q;
+  }
+  const Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, N, 1> coefficients =
+      powers.householderQr().solve(positions);
+  double scale = 1;
+  for (int i = 0; i < terms; ++i) {
+    scale *= (i + 1) / span;  // derivative i + 1 of (t / span)^(i + 1)
+    state.x[i + 1] = coefficients[i] * scale;
+  }
+  return state;
+}
+
+}  // namespace virtual_work_dynamics
