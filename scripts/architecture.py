@@ -33,6 +33,7 @@ HEADERS_WITHOUT_SOURCE = {
     "error": "base",
     "motion": "motion",
     "motion_covariance": "motion",
+    "noise_settings": "motion",
     "motion_table": "motion",
     "notation": "results",
     "plan_summary": "tree",
