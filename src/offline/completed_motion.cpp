@@ -44,6 +44,7 @@ void checkRest(const Mechanism& mechanism, const RecordingOptions& options) {
 // may be missing.
 JointChoice choiceOf(const std::string& path, const Mechanism& mechanism, const Dynamics& dynamics,
                      const RecordingOptions& options) {
+  checkRest(mechanism, options);
   return [&path, &mechanism, &dynamics, &options](const Names& header) {
     const Names& all = mechanism.coordinateNames();
     const GivenJoints rule(mechanism, dynamics);
@@ -111,7 +112,6 @@ CompletedMotion::CompletedMotion(const std::string& path, const Mechanism& mecha
       file_(readMotion(path, mechanism, choiceOf(path, mechanism, dynamics, options))),
       row_(dynamics.coordinates()),
       passive_(mechanism, dynamics) {
-  checkRest(mechanism, options);
   unwrapPositions(mechanism, file_.table);
   std::vector<std::pair<std::string, double>> resting;
   for (const auto& joint : options.rest) {

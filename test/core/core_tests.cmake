@@ -66,6 +66,7 @@ set(core_test_files
   test/core/offline_loops_test.cpp
   test/core/offline_loops_threads_test.cpp
   test/core/offline_plan_test.cpp
+  test/core/offline_recordings_test.cpp
   test/core/offline_test.cpp
   test/core/offline_wrapped_test.cpp
   test/core/passive_joints_test.cpp
