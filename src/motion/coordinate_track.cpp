@@ -43,11 +43,19 @@ constexpr double kStepsPerSecond = 40000;
 constexpr double kMostSteps = 800;
 /// A joint moves when it moves by so many deviations of its positions.
 constexpr double kMovingSteps = 30;
+/// Blocks that noise is learnt from at rest.
+constexpr std::size_t kBlocksOfRest = 4 * StreamIdentification::kFewest;
+/// Blocks at speed, that is with steps of so many deviations, before noise of stamps is learnt: at
+/// rest it has no effect, and where a joint sets off it would explain the acceleration.
+constexpr int kBlocksAtSpeed = 64;
+constexpr double kStepsAtSpeed = 3;
 constexpr double kTwoPi = 6.283185307179586;
 /// Steps that jump to and fro: how long they are at least, rad or m, and by how little the position
 /// before the last one differs.
 constexpr double kLongJump = 0.01;
 constexpr double kReturn = 0.2;
+/// Speed that no joint has, rad/s or m/s: a step that would take it is not one of the motion.
+constexpr double kAbsurdSpeed = 1e4;
 
 double secondsBetween(std::int64_t from, std::int64_t to) {
   return static_cast<double>(to - from) * 1e-9;
@@ -71,10 +79,15 @@ void CoordinateTrack::clear() {
   turn_counter_.restart();
   size_ = 0;
   stretch_ = 0;
+  jumps_ = 0;
+  forgetRecord();
+}
+
+/// Forgets the samples that the model would be found from.
+void CoordinateTrack::forgetRecord() {
   summed_ = 0;
   block_count_ = 0;
   new_blocks_ = 0;
-  jumps_ = 0;
 }
 
 double CoordinateTrack::moved(const Entry& from, const Entry& to) {
@@ -84,8 +97,7 @@ double CoordinateTrack::moved(const Entry& from, const Entry& to) {
 CoordinateTrack::Verdict CoordinateTrack::push(std::int64_t stamp, double q, double qd) {
   if (size_ > 0 && stamp <= newest()) return insert(stamp, q, qd);
   const bool gap = size_ > 0 && capacity() > 1 && stamp - newest() > max_gap_;
-  const bool first = size_ == 0 || gap;
-  if (!first) noteInterval(stamp);
+  if (size_ > 0 && !gap) noteInterval(stamp);
   const double turns = turn_counter_.turns(q, size_ > 0 ? secondsBetween(newest(), stamp) : 0);
   newest_ = (newest_ + 1) & (capacity() - 1);
   size_ = std::min(size_ + 1, capacity());
@@ -95,12 +107,17 @@ CoordinateTrack::Verdict CoordinateTrack::push(std::int64_t stamp, double q, dou
   now.turns = turns;
   now.qd = qd;
   if (capacity() == 1) return gap ? Verdict::kAfterGap : Verdict::kTaken;
-  if (first) {
+  if (size_ > 1 && !gap) noteJump();
+  const bool absurd =
+      size_ > 1 && !gap &&
+      !(std::abs(moved(entry(1), now)) < kAbsurdSpeed * secondsBetween(entry(1).stamp, stamp));
+  if (absurd) forgetRecord();
+  if (size_ == 1 || gap || absurd) {
     startStretch(stamp);
     begin(now);
   } else {
     stretch_ = std::min(stretch_ + 1, capacity());
-    noteStep(entry(1), now);
+    noteStep();
     const bool power_of_two = (stretch_ & (stretch_ - 1)) == 0;
     if (power_of_two && stretch_ >= kFewest && stretch_ <= startingCount()) {
       restart();
@@ -161,9 +178,14 @@ void CoordinateTrack::begin(Entry& entry) {
   if (!learnt_) model_ = firstModel();
   entry.first = true;
   entry.has_velocity = false;
-  const double interval = std::isfinite(interval_) ? interval_ : kFirstTime / kFirstIntervals;
-  entry.filtered = firstState<kOrder>(model_, interval, 1, [](int) { return std::pair(0.0, 0.0); });
+  entry.filtered = startAlone();
   surprise_ = 1;
+}
+
+/// The state at a first sample, with nothing to start from but itself.
+StreamState<CoordinateTrack::kOrder> CoordinateTrack::startAlone() const {
+  const double interval = std::isfinite(interval_) ? interval_ : kFirstTime / kFirstIntervals;
+  return firstState<kOrder>(model_, interval, 1, [](int) { return std::pair(0.0, 0.0); });
 }
 
 /// Samples that the filter is started from, in the end.
@@ -224,22 +246,30 @@ void CoordinateTrack::noteInterval(std::int64_t stamp) {
   interval_ = std::isfinite(interval_) ? interval_ + weight * (dt - interval_) : dt;
 }
 
-/// Learns from a step how finely positions are resolved, and whether they jump to and fro.
-void CoordinateTrack::noteStep(const Entry& before, const Entry& now) {
-  const double step = std::abs(moved(before, now));
-  if (stretch_ >= kStepPositions) {
-    double positions[kStepPositions];
-    for (int i = 0; i < kStepPositions; ++i)
-      positions[i] = now.q - moved(entry(kStepPositions - 1 - i), now);
-    least_step_ = std::min(least_step_, leastStep(positions));
-    const double least = leastNoise(least_step_, now.q);
-    if (least != least_position_) {
-      least_position_ = least;
-      if (!learnt_) model_ = firstModel();
-    }
+/// Learns from the latest steps how finely positions are resolved.
+void CoordinateTrack::noteStep() {
+  if (stretch_ < kStepPositions || entry(0).q == entry(1).q) return;
+  double positions[kStepPositions];
+  for (int i = 0; i < kStepPositions; ++i)
+    positions[i] = entry(0).q - moved(entry(kStepPositions - 1 - i), entry(0));
+  const bool first = std::isinf(least_step_);
+  least_step_ = std::min(least_step_, leastStep(positions));
+  least_position_ = leastNoise(least_step_, entry(0).q);
+  if (learnt_) {
+    model_.position_variance =
+        std::max(model_.position_variance, least_position_ * least_position_);
+    return;
   }
-  if (stretch_ < 3) return;
-  const bool jump = step > kLongJump && std::abs(moved(entry(2), now)) < kReturn * step;
+  model_ = firstModel();
+  // Until now the joint has been at rest, at a position that seemed to be exact.
+  if (first) entry(1).filtered = startAlone();
+}
+
+/// Learns from the latest steps whether positions jump to and fro.
+void CoordinateTrack::noteJump() {
+  if (size_ < 3) return;
+  const double step = std::abs(moved(entry(1), entry(0)));
+  const bool jump = step > kLongJump && std::abs(moved(entry(2), entry(0))) < kReturn * step;
   jumps_ = jump ? std::min(jumps_ + 1, 2 * kManyJumps) : std::max(jumps_ - 1, 0);
 }
 
@@ -256,8 +286,38 @@ bool CoordinateTrack::nextInstant(std::int64_t after, std::int64_t lag,
   return found;
 }
 
+/// Age of the latest sample up to an instant; that of the oldest one if all are later.
+int CoordinateTrack::ageAt(std::int64_t instant) const {
+  int later = -1;
+  int age = size_ - 1;
+  while (age - later > 1) {
+    const int middle = later + (age - later) / 2;
+    if (entry(middle).stamp > instant) {
+      later = middle;
+    } else {
+      age = middle;
+    }
+  }
+  return age;
+}
+
+bool CoordinateTrack::covers(std::int64_t instant, std::int64_t longest) const {
+  const int base = ageAt(instant);
+  int newest = base;
+  while (newest > 0 && !entry(newest - 1).first && base - newest < kFewest) --newest;
+  if (newest == base && instant - entry(base).stamp > longest) return false;
+  int oldest = base;
+  while (oldest + 1 < size_ && !entry(oldest).first && oldest - newest < kFewest) ++oldest;
+  return oldest - newest + 1 >= kFewest;
+}
+
 double CoordinateTrack::unwrappedPosition() const {
   return entry(0).q + kTwoPi * entry(0).turns;
+}
+
+double CoordinateTrack::positionBefore(std::int64_t instant) const {
+  const Entry& before = entry(ageAt(instant));
+  return before.q + kTwoPi * before.turns;
 }
 
 Eigen::Vector3d CoordinateTrack::evaluate(std::int64_t instant, Eigen::Matrix3d* covariance) const {
@@ -353,11 +413,15 @@ void CoordinateTrack::startIdentification() {
     blocks.push_back(blocks_[(oldest + i) % blocks_.size()]);
   new_blocks_ = 0;
   wanted_blocks_ = std::min(std::max(block_count_, StreamIdentification::kFewest), kBlocks / 2);
+  const double deviation = std::max(least_position_, std::sqrt(model_.position_variance));
   double least = blocks[0].position;
   double most = least;
-  for (const StreamBlock& block : blocks) {
-    least = std::min(least, block.position);
-    most = std::max(most, block.position);
+  int at_speed = 0;
+  for (std::size_t i = 1; i < blocks.size(); ++i) {
+    least = std::min(least, blocks[i].position);
+    most = std::max(most, blocks[i].position);
+    const double step = std::abs(blocks[i].position - blocks[i - 1].position);
+    at_speed += step > kStepsAtSpeed * deviation ? 1 : 0;
   }
   if (most == least) {
     // There is nothing to learn; a motion that begins shall not wait behind the rest.
@@ -377,14 +441,22 @@ void CoordinateTrack::startIdentification() {
   knowledge.position_noise = noise_.position_noise;
   knowledge.velocity_noise = noise_.velocity_noise;
   knowledge.stamp_noise = noise_.stamp_noise;
+  if (noise_.stamp_noise < 0 && at_speed < kBlocksAtSpeed) {
+    knowledge.stamp_noise = learnt_ ? std::sqrt(model_.stamp_variance) : 0;
+    wanted_blocks_ = StreamIdentification::kFewest;
+  }
   knowledge.use_velocities = noise_.use_velocity && velocities_proven_;
   knowledge.longest_gap = std::max(static_cast<double>(max_gap_) * 1e-9, 2.5 * interval);
   if (noise_.bandwidth > 0) {
     knowledge.time_constant = 1 / (kTwoPi * noise_.bandwidth);
-  } else if (most - least <
-             kMovingSteps * std::max(least_position_, std::sqrt(model_.position_variance))) {
-    // At rest noise can be learnt, but not how fast the joint will move.
-    knowledge.time_constant = std::max(timeConstant(model_, kOrder, interval_), 1e-9);
+  } else if (most - least < kMovingSteps * deviation) {
+    // At rest noise can be learnt, but not how fast the joint will move; nor shall that wait behind
+    // the rest.
+    const double first = std::max(kFirstTime, kFirstIntervals * interval_);
+    knowledge.time_constant = std::max(timeConstant(model_, kOrder, interval_), first);
+    block_count_ = std::min(block_count_, kBlocksOfRest);
+    blocks.erase(blocks.begin(), blocks.end() - static_cast<std::ptrdiff_t>(block_count_));
+    wanted_blocks_ = StreamIdentification::kFewest;
   }
   identification_.start(knowledge, interval, block_size_, learnt_ ? &model_ : nullptr);
 }

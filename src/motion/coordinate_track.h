@@ -52,8 +52,13 @@ class CoordinateTrack {
   /// Estimates the motion at an instant: position (unwrapped), velocity, acceleration, and their
   /// covariance if not null. To be called with samples only.
   Eigen::Vector3d evaluate(std::int64_t instant, Eigen::Matrix3d* covariance) const;
+  /// Whether the motion at an instant can be estimated: the sample before it is at most `longest`
+  /// ns old, or followed by others without a gap, and its stretch has enough of them.
+  bool covers(std::int64_t instant, std::int64_t longest) const;
   /// The newest position, unwrapped.
   double unwrappedPosition() const;
+  /// Position of the latest sample up to an instant, unwrapped.
+  double positionBefore(std::int64_t instant) const;
 
   /// What the samples were found to be.
   StreamQuality quality() const;
@@ -83,16 +88,20 @@ class CoordinateTrack {
     return entries_[static_cast<std::size_t>((newest_ - age) & (capacity() - 1))];
   }
   int capacity() const { return static_cast<int>(entries_.size()); }
+  int ageAt(std::int64_t instant) const;
   static double moved(const Entry& from, const Entry& to);
   void begin(Entry& entry);
+  StreamState<kOrder> startAlone() const;
   int startingCount() const;
   void restart();
   void follow(const Entry& before, Entry& entry, bool judge);
   Verdict insert(std::int64_t stamp, double q, double qd);
-  void noteStep(const Entry& before, const Entry& now);
+  void noteStep();
+  void noteJump();
   void noteInterval(std::int64_t stamp);
   void adapt(double normalized_square, StreamState<kOrder>& state);
   void startStretch(std::int64_t stamp);
+  void forgetRecord();
   StreamModel firstModel() const;
 
   void record(std::int64_t stamp, double q, double qd);

@@ -63,7 +63,9 @@ struct MotionEstimator::Impl {
     bool needed = true;
     bool seen = false;  // whether any sample ever came
     bool rests = false;
-    bool held = false;  // in the latest motion
+    bool begun = false;      // whether a motion has been given with it
+    bool held = false;       // in the latest motion
+    std::int64_t first = 0;  // stamp of the first sample, ns
     double latest = 0;
     double rest = 0;
   };
@@ -112,7 +114,10 @@ bool MotionEstimator::Impl::farBack(std::int64_t stamp, const int* indices, int 
 }
 
 void MotionEstimator::Impl::clear() {
-  for (Coordinate& coordinate : coordinates) coordinate.track.clear();
+  for (Coordinate& coordinate : coordinates) {
+    coordinate.track.clear();
+    coordinate.begun = false;
+  }
   lead = -1;
   latest_instant = newest = std::numeric_limits<std::int64_t>::min();
   too_late = 0;
@@ -133,22 +138,28 @@ void MotionEstimator::Impl::chooseLead(int index) {
   lead = index;
 }
 
-/// Whether the coordinate may be evaluated: it has enough samples, or it comes so seldom that it is
-/// held, or it rests.
+/// Whether the coordinate may be evaluated: it has been before, or has enough samples, or comes so
+/// seldom that it is held, or it rests.
 bool MotionEstimator::Impl::settled(const Coordinate& coordinate) const {
   const CoordinateTrack& track = coordinate.track;
-  if (track.empty()) return coordinate.rests;
+  if (coordinate.rests || coordinate.begun) return true;
+  if (track.empty()) return false;
   if (!settings.estimate || track.stretch() >= CoordinateTrack::kFewest) return true;
   return newest - track.stretchStart() > hold_after;
 }
 
 bool MotionEstimator::Impl::nextInstant(std::int64_t& instant) const {
   if (lead < 0) return false;
-  for (const Coordinate& coordinate : coordinates)
-    if (coordinate.needed && !settled(coordinate)) return false;
+  std::int64_t after = latest_instant;
+  for (const Coordinate& coordinate : coordinates) {
+    if (!coordinate.needed) continue;
+    if (!settled(coordinate)) return false;
+    // Of a motion nothing is known before its first sample.
+    if (settings.estimate && !coordinate.rests) after = std::max(after, coordinate.first - 1);
+  }
   const CoordinateTrack& track = coordinates[static_cast<std::size_t>(lead)].track;
   if (settings.estimate && track.stretch() < CoordinateTrack::kFewest) return false;
-  return track.nextInstant(latest_instant, lag, instant);
+  return track.nextInstant(after, lag, instant);
 }
 
 Eigen::Vector3d MotionEstimator::Impl::motionOf(Coordinate& coordinate, std::int64_t instant,
@@ -156,15 +167,16 @@ Eigen::Vector3d MotionEstimator::Impl::motionOf(Coordinate& coordinate, std::int
   const CoordinateTrack& track = coordinate.track;
   if (covariance != nullptr) covariance->setZero();
   coordinate.held = true;
-  if (track.empty()) return {coordinate.rest, 0, 0};
+  coordinate.begun = !track.empty();
+  if (track.empty() || (coordinate.rests && instant < coordinate.first))
+    return {coordinate.rest, 0, 0};
   if (!settings.estimate) {
     coordinate.held = instant - track.newest() > hold_after;
     const double qd = coordinate.held ? 0 : track.newestVelocity();
     return {track.unwrappedPosition(), std::isnan(qd) ? 0 : qd, 0};
   }
-  const bool few = track.stretch() < CoordinateTrack::kFewest && track.stretchStart() <= instant;
-  if (few || instant - track.newest() > hold_after) return {track.unwrappedPosition(), 0, 0};
-  coordinate.held = false;
+  coordinate.held = !track.covers(instant, hold_after);
+  if (coordinate.held) return {track.positionBefore(instant), 0, 0};
   return track.evaluate(instant, covariance);
 }
 
@@ -204,6 +216,7 @@ MotionEstimator::Verdict MotionEstimator::push(std::int64_t stamp_ns, const int*
   for (int i = 0; i < count; ++i) {
     Impl::Coordinate& coordinate = impl.at(coordinates[i]);
     CoordinateTrack& track = coordinate.track;
+    if (track.empty()) coordinate.first = stamp_ns;
     const std::int64_t gap = track.empty() ? 0 : stamp_ns - track.newest();
     const double velocity = qd != nullptr ? qd[i] : std::numeric_limits<double>::quiet_NaN();
     switch (track.push(stamp_ns, q[i], velocity)) {

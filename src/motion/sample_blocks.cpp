@@ -10,8 +10,8 @@ namespace {
 
 /// Positions are good to so many units of their last digit, at best.
 constexpr double kLastDigits = std::numeric_limits<double>::epsilon() / 4;
-/// Rounding of one position, of which a difference has several.
-constexpr double kRounding = std::numeric_limits<double>::epsilon();
+/// Rounding of one position, as a part of it: files print twelve digits or more.
+constexpr double kRounding = 1e-12;
 constexpr double kLeast = 1e-18;  // rad or m: less than any encoder or number resolves near zero
 /// Time constant of a model that follows its samples, in intervals.
 constexpr double kFollowing = 0.2;

@@ -62,9 +62,12 @@ StreamUpdate<N> update(int row, double residual, double variance, StreamState<N>
   state.x += done.gain * residual;
   state.P.noalias() -= done.gain * column.transpose();
   // In this row the difference would cancel where the measurement is far better than the
-  // prediction.
-  state.P.row(row) = column.transpose() * (variance * done.precision);
-  state.P.col(row) = state.P.row(row).transpose();
+  // prediction. An asymmetry would stay for good, as no measurement takes it away.
+  for (int i = 0; i < N; ++i)
+    for (int k = 0; k <= i; ++k) {
+      if (i == row || k == row) state.P(i, k) = column[i + k - row] * (variance * done.precision);
+      state.P(k, i) = state.P(i, k);
+    }
   return done;
 }
 

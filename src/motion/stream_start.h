@@ -30,8 +30,12 @@ inline int startingSamples(const StreamModel& model, int order, double interval)
 template <int N, typename Sample>
 StreamState<N> firstState(const StreamModel& model, double interval, int count,
                           const Sample& sample) {
+  // So many that little is known, but not so many that the variance of the velocity would lose its
+  // digits when it falls to that of the samples.
   constexpr double kManyTimeConstants = 100;
-  const double time = kManyTimeConstants * std::max(timeConstant(model, N, interval), interval);
+  constexpr double kLargest = 1e10;
+  const double many = std::min(kManyTimeConstants, std::pow(kLargest, 1.0 / (2 * N - 3)));
+  const double time = many * std::max(timeConstant(model, N, interval), interval);
   StreamState<N> state;
   state.x.setZero();
   state.P.setZero();
