@@ -101,6 +101,9 @@ struct StreamAdjoint {
     if (!covariance) return;
     for (int i = N - 1; i > 0; --i)
       for (int k = i - 1; k >= 0; --k) Lambda.col(i) += f[i - k] * Lambda.col(k);
+    // As in update(), an asymmetry would stay.
+    for (int i = 0; i < N; ++i)
+      for (int k = 0; k < i; ++k) Lambda(k, i) = Lambda(i, k);
   }
 };
 

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -363,27 +365,44 @@ TEST(BlockInverseDynamics, ComputeDoesNotAllocate) {
   }
 }
 
+// Long enough that noises are identified, with velocities and without, and with samples that come
+// late, gaps and a restart on the way.
 TEST(MotionEstimator, SamplesDoNotAllocate) {
   const Mechanism mechanism = readUrdf(pendulumUrdf());
   MotionEstimator estimator(mechanism, EstimatorSettings());
   Motion motion(2);
+  MotionCovariance covariance;
+  covariance.coordinates.resize(2);
   const int coordinates[] = {0, 1};
-  const double q[] = {0.1, 0.2}, qd[] = {1, 2};
   RunTimeHistogram histogram;
-  int outputs = 0;
+  int outputs = 0, reordered = 0, gaps = 0, restarts = 0;
   const AllocationGuard guard;
-  for (int i = 1; i < 50; ++i) {
-    // Uneven stamps, so that every window is fitted anew; one restart on the way.
-    const std::int64_t stamp = (i == 25 ? 1 : i) * 1000000LL + i % 3;
-    estimator.push(stamp, coordinates, q, i % 2 ? qd : nullptr, 2);
-    if (estimator.ready()) {
-      estimator.evaluate(motion);
+  for (int i = 1; i < 3000; ++i) {
+    const int late = i % 7 == 0 ? 1 : i % 7 == 1 ? -1 : 0;  // exchanges two neighbours
+    const int k = i + late;
+    const std::int64_t stamp = (k >= 2000 ? k - 2000 : k) * 1000000LL + k % 3;
+    const double t = 1e-3 * k;
+    const double q[] = {std::round(1e4 * std::sin(3 * t)) * 1e-4, 1e-4 * (k % 2)};
+    const double qd[] = {3 * std::cos(3 * t), 0};
+    const std::int64_t after_gap = k >= 1000 && k < 2000 ? 300000000LL : 0;
+    using Verdict = MotionEstimator::Verdict;
+    const Verdict verdict =
+        estimator.push(stamp + after_gap, coordinates, q, k < 500 ? nullptr : qd, 2);
+    reordered += verdict == Verdict::kReordered;
+    gaps += verdict == Verdict::kAfterGap;
+    restarts += verdict == Verdict::kRestartedBack;
+    while (estimator.ready()) {
+      estimator.evaluate(motion, i % 2 ? nullptr : &covariance);
       ++outputs;
     }
     histogram.record(i);
   }
   EXPECT_EQ(guard.allocations(), 0u);
-  EXPECT_GT(outputs, 10);
+  EXPECT_GT(outputs, 2800);
+  EXPECT_GT(reordered, 400);
+  EXPECT_EQ(gaps, 1);
+  EXPECT_EQ(restarts, 1);
+  EXPECT_GT(estimator.quality(0).velocity_noise, 0);  // identified
 }
 
 TEST(Spline, EvaluateDoesNotAllocate) {

@@ -51,9 +51,11 @@ set(core_test_files
   test/core/loop_kinematics_test.cpp
   test/core/loop_oracles_test.cpp
   test/core/loop_residuals_test.cpp
+  test/core/motion_completion_accuracy_test.cpp
   test/core/motion_completion_test.cpp
   test/core/motion_csv_test.cpp
   test/core/motion_estimator_rules_test.cpp
+  test/core/motion_estimator_streams_test.cpp
   test/core/motion_estimator_test.cpp
   test/core/motion_law_test.cpp
   test/core/multifrontal_qr_test.cpp
@@ -74,7 +76,6 @@ set(core_test_files
   test/core/plan_reduction_test.cpp
   test/core/plan_summary_test.cpp
   test/core/point_springs_test.cpp
-  test/core/polynomial_fit_test.cpp
   test/core/power_test.cpp
   test/core/property_bodies_test.cpp
   test/core/property_formalisms_test.cpp
@@ -86,19 +87,24 @@ set(core_test_files
   test/core/reference_test.cpp
   test/core/run_time_histogram_test.cpp
   test/core/sample_block_test.cpp
+  test/core/sample_clock_test.cpp
   test/core/sample_rows_test.cpp
   test/core/scene_reader_loops_test.cpp
   test/core/scene_reader_test.cpp
+  test/core/simplex_search_test.cpp
   test/core/sine_cosine_test.cpp
   test/core/spline_accuracy_test.cpp
   test/core/spline_test.cpp
   test/core/stability_test.cpp
+  test/core/stream_identification_test.cpp
+  test/core/stream_smoother_test.cpp
   test/core/summation_test.cpp
   test/core/table_law_test.cpp
   test/core/trajectory_curve_test.cpp
   test/core/unwrap_test.cpp
   test/core/urdf_reader_test.cpp
   test/core/urdf_writer_test.cpp
+  test/core/velocity_judge_test.cpp
   ${stability_scenes}
   src/offline/deviation_rows.cpp)  # the covariances of a motion cannot come from a file
 # Compiled for each: where its tool is, and tests of code that is all in headers.

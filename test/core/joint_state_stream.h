@@ -44,7 +44,9 @@ using Law = std::function<State(long double)>;
 /// An estimator with the motion it evaluates.
 struct Stream {
   Stream(const std::vector<JointType>& types, const EstimatorSettings& settings)
-      : estimator(mechanismOf(types), settings), motion(static_cast<Eigen::Index>(types.size())) {}
+      : estimator(mechanismOf(types), settings), motion(static_cast<Eigen::Index>(types.size())) {
+    covariance.coordinates.resize(types.size());
+  }
 
   /// Pushes positions (and velocities) of coordinates, `time` ns after kWallClock.
   Verdict push(std::int64_t time, std::vector<int> coordinates, std::vector<double> q,
@@ -59,16 +61,21 @@ struct Stream {
                 {static_cast<double>(state.qd)});
   }
   /// Evaluates the motion. @returns the instant, ns after kWallClock.
-  std::int64_t evaluate() { return estimator.evaluate(motion) - kWallClock; }
+  std::int64_t evaluate() { return estimator.evaluate(motion, &covariance) - kWallClock; }
+  /// Evaluates every motion that is due and forgets it. @returns how many there were.
+  int drain() {
+    int motions = 0;
+    for (; estimator.ready(); ++motions) evaluate();
+    return motions;
+  }
 
   MotionEstimator estimator;
   Motion motion;
+  MotionCovariance covariance;
 };
 
-inline EstimatorSettings settingsOf(int window, int order, int lag) {
+inline EstimatorSettings settingsOf(double lag) {
   EstimatorSettings settings;
-  settings.window = window;
-  settings.order = order;
   settings.lag = lag;
   return settings;
 }

@@ -21,7 +21,7 @@ PLANTED = [
      "witness must not include loops"),
     ("src/loops/kinematics.cpp", '#include "dynamics/dynamics.h"',
      "loops must not include dynamics"),
-    ("src/base/text_file.cpp", '#include "motion/polynomial_fit.h"',
+    ("src/base/text_file.cpp", '#include "motion/simplex_search.h"',
      "base must not include motion"),
     ("src/tree/plan.cpp", "#include <ros/time.h>", "tree knows no ROS"),
     ("src/offline/rows.cpp", "#include <sensor_msgs/JointState.h>", "offline knows no ROS"),
