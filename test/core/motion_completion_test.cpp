@@ -14,11 +14,12 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// In a cubic the fourth derivative is zero, so that little noise of positions is found; at the ends
-// it counts most.
-constexpr double kPosition = 1e-5;
-constexpr double kVelocity = 1e-3;
-constexpr double kAcceleration = 0.1;
+// A cubic is what the filters start from, so that only rounding is left, times the 1/dt^2 = 1e4 by
+// which a second derivative magnifies it.
+constexpr double kRounding = 1e-14;
+constexpr double kPosition = 1e-12;
+constexpr double kVelocity = 1e-11;
+constexpr double kAcceleration = 1e-9;
 
 // A chain of two: "hinge" revolute, "wheel" continuous.
 Mechanism twoJoints() {
