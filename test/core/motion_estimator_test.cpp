@@ -277,6 +277,27 @@ TEST(MotionEstimator, JointsDoNotDisturbEachOther) {
   EXPECT_GT(compared, joints * 1485);
 }
 
+// To the bit.
+TEST(MotionEstimator, WhatComesAfterAGapDoesNotChangeWhatWasBeforeIt) {
+  Stream one({kR}, {});
+  Stream other({kR}, {});
+  int compared = 0;
+  for (int i = 0; i < 1504; ++i) {
+    const double q = 1e-4 * std::round(1e4 * std::sin(3e-3 * i));
+    const int gap = i < 1500 ? 0 : 300;
+    one.push((i + gap) * kMillisecond, {0}, {q});
+    other.push((i + gap) * kMillisecond, {0}, {i < 1500 ? q : 0.5 + 1e-3 * (i % 2)});
+    while (one.estimator.ready()) {
+      const std::int64_t instant = one.evaluate();
+      ASSERT_EQ(other.evaluate(), instant);
+      ASSERT_EQ(one.motion.q, other.motion.q) << instant;
+      ASSERT_EQ(one.motion.qdd, other.motion.qdd) << instant;
+      compared += i >= 1500;
+    }
+  }
+  EXPECT_EQ(compared, 50);
+}
+
 TEST(MotionEstimator, EvaluatesFastAndSlowJointsAtTheInstantsOfTheFastOne) {
   const Law slow = cosineLaw(1);
   const Law fast = sineLaw(1, 20);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <vector>
 
 namespace virtual_work_dynamics {
 namespace {
@@ -69,6 +70,27 @@ TEST(SimplexSearch, ShrinksWhereNothingElseHelps) {
   EXPECT_EQ(simplex.best()[0], 0.25);
   EXPECT_EQ(simplex.best()[1], -1);
   EXPECT_EQ(simplex.bestValue(), -1);
+}
+
+// The points by hand: two corners, then reflection, expansion, contraction outside or inside,
+// shrink.
+TEST(SimplexSearch, AsksForThePointsOfNelderAndMead) {
+  const auto expectAsked = [](const Function& function, double first,
+                              const std::vector<double>& points) {
+    SimplexSearch simplex;
+    simplex.start({first}, {1}, 1, kTolerance, 100);
+    for (const double point : points) {
+      ASSERT_EQ(simplex.asked()[0], point);
+      simplex.tell(function(simplex.asked()));
+    }
+  };
+  const auto around = [](double centre) {
+    return [centre](const Point& point) { return std::abs(point[0] - centre); };
+  };
+  expectAsked(around(0), 1, {1, 2, 0, -1, -1, 0.5, -0.5});
+  expectAsked(around(-0.1), 1, {1, 2, 0, -1, -1, -0.5});
+  expectAsked(around(-3), 1, {1, 2, 0, -1, -3, -5});
+  expectAsked([](const Point& point) { return point[0] == 2 ? 0 : 1; }, 2, {2, 3, 1, 2.5, 2.5});
 }
 
 TEST(SimplexSearch, EndsAfterTheMostValuesWithTheBestOne) {
