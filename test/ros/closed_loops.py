@@ -76,7 +76,7 @@ class LoopTest(NodeTest):
 
     def start(self, *topics, robot=SLIDER_CRANK, scene=None, parameters=None):
         kinds = {'effort': JointState, 'reactions': MultiDOFJointState,
-                 'determinacy': DiagnosticArray, 'joint_trajectory': JointTrajectory}
+                 'determinacy': DiagnosticArray, 'motion': JointTrajectory, 'joint_trajectory': JointTrajectory}
         scene = SLIDER_CRANK_SCENE if scene is None else scene
         self.node = Node(self, robot, {'scene': scene, 'late_threshold': 1000,
                                        **(parameters or {})})

@@ -20,8 +20,7 @@ COORDINATES = ['shoulder', 'elbow', 'slide']
 # The estimator's rounding on a cubic; see node_joint_states_test.py.
 ESTIMATED = 1e-9
 STEP = 10000000  # ns
-WINDOW = 9
-LAG = 4
+LAG = 5  # samples: ~estimator/lag of 0.05 s
 MOTION = Polynomials(shoulder=(0.3, -0.8, 1.1), elbow=(1.0, 0.9, -0.6, 1.3), slide=(0.05, 0.2))
 
 
@@ -57,9 +56,10 @@ class Bags(NodeTest):
         wait_until(lambda: name not in self.node.connections(self.topic, 'i'),
                    'the node to be done with the player')
         self.states.publish(joint_state(EPOCH, {'lamp': 0.0}))
-        values = self.node.wait_for_count('dropped: no known joint', 1)
-        self.assertEqual(values['dropped'], '1')
-        return int(values['joint states received']) - 1, int(values['restarts'])
+        values = self.node.wait_for_count('joint states of other robots', 1)
+        self.assertEqual((values['joint states of other robots'], values['dropped']), ('1', '0'))
+        return (int(values['joint states received']) - 1, int(values['restarts']),
+                int(values['gaps']))
 
     def expect_outputs(self, stamps):
         messages = self.efforts.wait(len(stamps))
@@ -75,14 +75,13 @@ class Bags(NodeTest):
         self.node.wait_for_count('restarts', 3)
         player.interrupt()
         player.wait()
-        received, restarts = self.received()
+        received, restarts, gaps = self.received()
         rounds, rest = divmod(received, len(stamps))
         self.assertGreaterEqual(rounds, 3)
-        self.assertEqual(restarts, rounds if rest else rounds - 1)
-        # Each round costs a window less one; the last one may have been cut short.
-        expected = rounds * stamps[LAG:-LAG] + stamps[:rest][LAG:-LAG]
-        self.assertEqual(len(expected),
-                         rounds * (len(stamps) - WINDOW + 1) + max(0, rest - WINDOW + 1))
+        self.assertEqual((restarts, gaps), (rounds if rest else rounds - 1, 0))
+        # Each round costs the lag at its end; the last one may have been cut short.
+        expected = rounds * stamps[:-LAG] + stamps[:rest][:-LAG]
+        self.assertEqual(len(expected), rounds * (len(stamps) - LAG) + max(0, rest - LAG))
         self.expect_outputs(expected)
 
     def test_new_publishers_that_go_on_and_one_after_a_gap(self):
@@ -97,9 +96,9 @@ class Bags(NodeTest):
             self.node.wait_for_count('joint states received', count)
             player.interrupt()
             player.wait()
-        # A new process alone restarts nothing: the stamps decide.
-        self.assertEqual(self.received(), (count, 1))
-        self.expect_outputs((first + second)[LAG:-LAG] + third[LAG:-LAG])
+        # A new process alone changes nothing: the stamps decide.
+        self.assertEqual(self.received(), (count, 0, 1))
+        self.expect_outputs((first + second + third)[:-LAG])
 
     def test_trajectory_publisher_started_anew(self):
         parameters = {'joints': COORDINATES, 'amplitudes': [0.1, 0.2, 0.02], 'duration': 0.2,
@@ -112,13 +111,16 @@ class Bags(NodeTest):
                                        '__name:=trajectory_publisher'])
             self.assertEqual(publisher.wait(), 0, publisher.output())
         # 21 samples each, farther apart than max_gap by the time the first stayed on.
-        count = 21 - WINDOW + 1
-        messages = self.efforts.wait(2 * count)
+        count = 21
+        messages = self.efforts.wait(2 * count - LAG)
         stamps = [message.header.stamp.to_nsec() for message in messages]
         for round_stamps in (stamps[:count], stamps[count:]):
-            self.assertEqual(round_stamps, [round_stamps[0] + STEP * i for i in range(count)])
+            self.assertEqual(round_stamps,
+                             [round_stamps[0] + STEP * i for i in range(len(round_stamps))])
+        self.assertEqual(len(stamps), 2 * count - LAG)
         self.assertGreater(stamps[count] - stamps[count - 1], 3 * 10 ** 8)
-        self.assertEqual(self.node.wait_for_count('restarts', 1)['restarts'], '1')
+        values = self.node.wait_for_count('gaps', 1)
+        self.assertEqual((values['gaps'], values['restarts']), ('1', '0'))
 
     def record(self, name, count, *topics):
         """A recorder that ends by itself with so many messages of each topic; and its bag."""
@@ -167,12 +169,12 @@ class Bags(NodeTest):
             message.points = [trajectory_point(ns, COORDINATES, MOTION(EPOCH + ns)) for ns in times]
             trajectories.publish(message)
             self.wait_until_recorded(path, [live[topic] for topic in streams], 50 * (i + 1))
-        for i in range(300 + WINDOW - 1):
+        for i in range(300 + LAG):
             ns = EPOCH + STEP * i
             self.states.publish(joint_state(ns, *MOTION(ns)[:2]))
             if i % 50 == 49:
                 self.wait_until_recorded(path, [live[topic] for topic in streams],
-                                         200 + i + 1 - WINDOW + 1)
+                                         200 + i + 1 - LAG)
         for process in (recorder, other_recorder):
             self.assertEqual(process.wait(), 0, process.output())
         recorded = {}

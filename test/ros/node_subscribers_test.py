@@ -11,11 +11,10 @@ from rigid_bodies import RigidBodies
 
 ARM = read('data', 'arm.urdf')
 COORDINATES = ['shoulder', 'elbow', 'slide']
-# A cubic, which the estimator reproduces except for rounding; see node_joint_states_test.py.
+# The estimator's rounding on a cubic; see node_joint_states_test.py.
 ESTIMATED = 1e-9
 STEP = 10000000  # ns
-WINDOW = 9
-LAG = 4
+LAG = 5  # samples: ~estimator/lag of 0.05 s
 MOTION = Polynomials(shoulder=(0.3, -0.8, 1.1), elbow=(1.0, 0.9, -0.6, 1.3), slide=(0.05, 0.2))
 # What diagnostics call the work for each topic alone.
 WORK = {
@@ -56,7 +55,7 @@ class Subscribers(NodeTest):
         self.assertEqual(values['computed'], 'nothing')
         self.assertNotIn('operations a sample', values)
         self.assertFalse([key for key in values if key.startswith('run time')])
-        values = self.node.wait_for_count('samples nobody listened for', self.sent - WINDOW + 1)
+        values = self.node.wait_for_count('samples nobody listened for', self.sent - LAG)
         self.assertEqual(values['samples computed'], '0')
 
     def test_each_topic_alone_costs_only_its_own_work(self):
@@ -67,10 +66,10 @@ class Subscribers(NodeTest):
             self.assertEqual(values['computed'], work)
             self.assertRegex(values['operations a sample'], r'^[1-9]\d* multiplications, ')
             start = self.sent
-            self.publish(WINDOW)
-            # The first topic waits for a window, the others find it full.
-            computed += 1 if start == 0 else WINDOW
-            recorder.wait(1 if start == 0 else WINDOW)
+            self.publish(10)
+            # The first topic waits for the lag, the others find it full.
+            computed += 10 - (LAG if start == 0 else 0)
+            recorder.wait(10 - (LAG if start == 0 else 0))
             values = self.node.wait_for_count('samples computed', computed)
             self.assertEqual(values['samples computed'], str(computed))
             recorder.stop()
@@ -114,14 +113,14 @@ class Subscribers(NodeTest):
         self.assertNotIn('spline', self.node.output())
 
     def test_late_subscriber_gets_complete_messages_at_once(self):
-        self.publish(WINDOW + 11)
+        self.publish(20)
         values = self.settled()
         self.assertEqual(values['samples computed'], '0')
         efforts = self.node.record('effort', JointState)
         reactions = self.node.record('reactions', MultiDOFJointState)
         wrench = self.node.record('reaction/left_finger', WrenchStamped)
         self.node.wait_for_plan('effort', 'reactions', 'reaction/left_finger')
-        # One more joint state is enough: the window is full.
+        # One more joint state is enough: those before were kept.
         self.publish()
         ns = EPOCH + STEP * (self.sent - 1 - LAG)
         for recorder in (efforts, reactions, wrench):
@@ -138,14 +137,14 @@ class Subscribers(NodeTest):
         def publish(ns, names):
             q, qd, _ = MOTION(ns)
             self.states.publish(joint_state(ns, {name: q[name] for name in names}, qd))
-        stamps = [EPOCH + STEP * i for i in range(WINDOW + 4)]
+        stamps = [EPOCH + STEP * i for i in range(13)]
         for ns in stamps[:-1]:
             publish(ns, ['elbow'])
             publish(ns, ['shoulder', 'slide'])
-        self.node.wait_for_count('samples nobody listened for', 4)
+        self.node.wait_for_count('samples nobody listened for', 12 - LAG)
         efforts = self.node.record('effort', JointState)
         self.node.wait_for_plan('effort')
-        # The elbow alone does not refresh the others.
+        # The first to come leads, as all come as often; a sample of it is enough.
         publish(stamps[-1], ['elbow'])
         publish(stamps[-1], ['shoulder', 'slide'])
         message = efforts.wait(1)[0]
@@ -155,7 +154,7 @@ class Subscribers(NodeTest):
     def test_who_comes_and_goes_does_not_disturb_the_others(self):
         efforts = self.node.record('effort', JointState)
         self.node.wait_for_plan('effort')
-        self.publish(WINDOW + 5)
+        self.publish(14)
         reactions = self.node.record('reactions', MultiDOFJointState)
         # While the plan changes, and after.
         self.publish(20)
@@ -170,8 +169,8 @@ class Subscribers(NodeTest):
         self.publish(20)
         self.node.wait_for_plan('effort')
         self.publish(5)
-        messages = efforts.wait(self.sent - WINDOW + 1)
-        self.assertStamps(messages, [EPOCH + STEP * i for i in range(LAG, self.sent - LAG)])
+        messages = efforts.wait(self.sent - LAG)
+        self.assertStamps(messages, [EPOCH + STEP * i for i in range(self.sent - LAG)])
         self.assertNoGaps(messages)
         for message in messages:
             self.assertEffort(message, self.bodies, MOTION(message.header.stamp.to_nsec()),
