@@ -8,7 +8,7 @@ Usage: scripts/report.sh [--quick] [--no-install] [--output FOLDER]
 
 Installs what is needed, builds in build/benchmark (without ROS), measures, and writes into FOLDER
   report.md            results with plots, to be read first
-  estimator.md         error of estimated accelerations
+  estimator.md         error of efforts from estimated motions
   closed_loops.md      mechanisms with closed loops
   work_precision.csv, closed_loops.csv, leave_out.csv, estimator.csv, instructions.csv
                        the measurements
@@ -50,10 +50,10 @@ prepare "$install"
 announce "Building in ${build#"$repository"/}, output in ${log#"$repository"/} ..."
 build_programs work_precision leave_out estimator_error callgrind_sample
 
-# measure PROGRAM RESULT: leaves RESULT in the output folder.
+# measure PROGRAM RESULT [OPTION]...: leaves RESULT in the output folder.
 measure() {
   rm -f "$output/$2"
-  "$build/benchmark/$1" "${quick[@]}" --output "$output/$2"
+  "$build/benchmark/$1" "${quick[@]}" --output "$output/$2" "${@:3}"
 }
 
 announce "Run time and error beside other libraries"
@@ -68,8 +68,10 @@ fi
 mv "$output/closed_loops.csv.part" "$output/closed_loops.csv"
 announce "What leaving out saves"
 measure leave_out leave_out.csv
-announce "Error of estimated accelerations"
-measure estimator_error estimator.csv
+announce "Error of efforts from estimated motions"
+recording=()
+if [[ -d ../shared/recordings ]]; then recording=(--recording ../shared/recordings); fi
+measure estimator_error estimator.csv "${recording[@]}"
 /usr/bin/python3 benchmark/report/estimator_page.py "$output"
 rm -f "$output/instructions.csv"
 if [[ ${#quick[@]} -gt 0 ]]; then

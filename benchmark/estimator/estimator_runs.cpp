@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <ctime>
 #include <utility>
 
 namespace virtual_work_dynamics {
@@ -103,7 +103,6 @@ EstimatedRows estimate(const Mechanism& mechanism, const EncoderRecording& recor
 
 double timePerSample(const Mechanism& mechanism, const EncoderRecording& recording,
                      const EstimatorSettings& settings) {
-  using Clock = std::chrono::steady_clock;
   constexpr int kRounds = 5;
   const Messages messages(recording);
   const auto warm = static_cast<std::size_t>(recording.spec.rate);
@@ -111,14 +110,14 @@ double timePerSample(const Mechanism& mechanism, const EncoderRecording& recordi
   for (int round = 0; round < kRounds; ++round) {
     MotionEstimator estimator(mechanism, settings);
     Motion motion(kArmJoints);
-    Clock::time_point start;
+    std::clock_t start = 0;
     for (std::size_t row = 0; row < recording.rows(); ++row) {
-      if (row == warm) start = Clock::now();
+      if (row == warm) start = std::clock();
       messages.push(row, estimator);
       while (estimator.ready()) estimator.evaluate(motion);
     }
-    const double time = std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-    least = std::min(least, time / static_cast<double>(recording.rows() - warm));
+    const double time = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    least = std::min(least, 1e9 * time / static_cast<double>(recording.rows() - warm));
   }
   return least;
 }

@@ -28,7 +28,8 @@ EstimatedRows complete(const Mechanism& mechanism, const EncoderRecording& recor
 EstimatedRows estimate(const Mechanism& mechanism, const EncoderRecording& recording,
                        const std::vector<std::size_t>& rows, const EstimatorSettings& settings);
 
-/// ns that MotionEstimator takes per sample, pushed and evaluated, after the first second.
+/// ns of the processor's time that MotionEstimator takes per sample, pushed and evaluated, after
+/// the first second; the least of five rounds.
 double timePerSample(const Mechanism& mechanism, const EncoderRecording& recording,
                      const EstimatorSettings& settings);
 

@@ -19,8 +19,9 @@
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr double kCoulombVelocity = 0.02;  // rad/s, over which dry friction turns
-constexpr double kNodeLag = 0.05;          // s
+constexpr double kCoulombVelocity = 0.02;               // rad/s, over which dry friction turns
+constexpr double kLearnt = 1;                           // s, from which the node is judged
+constexpr double kLags[] = {0, 0.01, 0.02, 0.05, 0.1};  // s, of the node
 
 /// Numbers of a CSV with one line of header, without the first column.
 Eigen::MatrixXd readTorques(const std::string& path, Eigen::Index columns) {
@@ -56,13 +57,15 @@ class RecordedArm {
   const MotionTable& motion() const { return motion_; }
 
   /// Explained share of the variance, mean of all joints, after a fit of viscous and dry friction
-  /// and an offset for each joint on the recorded velocities. Rows whose acceleration is NaN are
-  /// left out.
-  double explained(const Eigen::MatrixXd& q, const Eigen::MatrixXd& qd,
-                   const Eigen::MatrixXd& qdd) const {
+  /// and an offset for each joint on the recorded velocities. Rows whose acceleration is NaN, and
+  /// those before `from`, s after the first row, are left out.
+  double explained(const Eigen::MatrixXd& q, const Eigen::MatrixXd& qd, const Eigen::MatrixXd& qdd,
+                   double from) const {
     std::vector<Eigen::Index> rows;
     for (Eigen::Index row = 0; row < q.rows(); ++row)
-      if (qdd.row(row).allFinite()) rows.push_back(row);
+      if (qdd.row(row).allFinite() &&
+          motion_.times[static_cast<std::size_t>(row)] >= motion_.times[0] + from)
+        rows.push_back(row);
     Workspace workspace = dynamics_.makeWorkspace();
     const auto count = static_cast<Eigen::Index>(rows.size());
     Eigen::MatrixXd left(count, q.cols());
@@ -111,14 +114,14 @@ class RecordedArm {
   Eigen::MatrixXd torques_;
 };
 
-double byCompletion(const RecordedArm& arm, bool velocities) {
+double byCompletion(const RecordedArm& arm, bool velocities, double from) {
   MotionTable motion = arm.motion();
   if (!velocities) motion.velocities.resize(0, 0);
   motion = completeMotion(arm.mechanism(), motion);
-  return arm.explained(motion.positions, motion.velocities, motion.accelerations);
+  return arm.explained(motion.positions, motion.velocities, motion.accelerations, from);
 }
 
-double byNode(const RecordedArm& arm, double lag) {
+double byNode(const RecordedArm& arm, double lag, double from) {
   EstimatorSettings settings;
   settings.lag = lag;
   MotionEstimator estimator(arm.mechanism(), settings);
@@ -147,12 +150,12 @@ double byNode(const RecordedArm& arm, double lag) {
       qdd.row(then) = motion.qdd;
     }
   }
-  return arm.explained(q, qd, qdd);
+  return arm.explained(q, qd, qdd, from);
 }
 
 /// The best cutoff and order; the positions are filtered, and the velocities, or the slopes of the
 /// positions instead of them.
-double byButterworth(const RecordedArm& arm, double interval) {
+double byButterworth(const RecordedArm& arm, double interval, double from) {
   double most = -HUGE_VAL;
   for (const double cutoff : {4, 5, 6, 7, 8, 10, 12, 15, 18, 20, 25})
     for (const int order : {2, 4})
@@ -162,12 +165,12 @@ double byButterworth(const RecordedArm& arm, double interval) {
         const Eigen::MatrixXd qd =
             velocities ? zeroPhaseLowPass(arm.motion().velocities, cutoff * interval, order)
                        : gradient(q, interval);
-        most = std::max(most, arm.explained(q, qd, gradient(qd, interval)));
+        most = std::max(most, arm.explained(q, qd, gradient(qd, interval), from));
       }
   return most;
 }
 
-double bySavitzkyGolay(const RecordedArm& arm, double interval) {
+double bySavitzkyGolay(const RecordedArm& arm, double interval, double from) {
   double most = -HUGE_VAL;
   const Eigen::MatrixXd& positions = arm.motion().positions;
   const Eigen::MatrixXd& velocities = arm.motion().velocities;
@@ -192,7 +195,7 @@ double bySavitzkyGolay(const RecordedArm& arm, double interval) {
       qdd[1].row(row) = of_velocities.row(1);
     }
     for (int source = 0; source < 2; ++source)
-      most = std::max(most, arm.explained(q, qd[source], qdd[source]));
+      most = std::max(most, arm.explained(q, qd[source], qdd[source], from));
   }
   return most;
 }
@@ -208,14 +211,18 @@ void measureRecorded(const std::string& folder, const ReportRows& rows) {
   spec.rate = static_cast<int>(std::lround(1 / interval));
   spec.quantum = 1e-6;
   spec.velocity = VelocityKind::kGood;
+  const char* part = "";
   const auto add = [&](const char* method, double lag_ms, double value) {
-    rows.add("recording", spec, method, lag_ms, "vaf", value);
+    rows.add(part, spec, method, lag_ms, "vaf", value);
   };
-  add("default", -1, byCompletion(arm, true));
-  add("default_positions_only", -1, byCompletion(arm, false));
-  for (const double lag : {0.0, 0.02, kNodeLag, 0.1}) add("node", 1e3 * lag, byNode(arm, lag));
-  add("butterworth", -1, byButterworth(arm, interval));
-  add("savitzky_golay", -1, bySavitzkyGolay(arm, interval));
+  for (const double from : {0.0, kLearnt}) {
+    part = from > 0 ? "recording_late" : "recording";
+    add("default", -1, byCompletion(arm, true, from));
+    add("default_positions_only", -1, byCompletion(arm, false, from));
+    add("butterworth", -1, byButterworth(arm, interval, from));
+    add("savitzky_golay", -1, bySavitzkyGolay(arm, interval, from));
+    for (const double lag : kLags) add("node", 1e3 * lag, byNode(arm, lag, from));
+  }
 }
 
 }  // namespace virtual_work_dynamics

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Makes estimator.md and its plots from FOLDER/estimator.csv, which estimator_error has written;
-scripts/report.sh calls it.
+"""Makes estimator.md and its plots from FOLDER/estimator.csv, and estimator_long_run.csv where it
+is there, which estimator_error has written; scripts/report.sh calls it.
 """
 import pathlib
 import sys
@@ -11,52 +11,48 @@ import estimator_text as text
 from page_program import progress, run
 
 CSV = 'estimator.csv'
+LONG_RUN = 'estimator_long_run.csv'
 PAGE = 'estimator.md'
-PLOTS = {  # place in the template: file, what draws it
-    'window': ('estimator_window.png', plots.over_window),
-    'heat': ('estimator_heat.png', plots.heat_maps),
-    'trade_off': ('estimator_trade_off.png', plots.trade_off),
-    'streams': ('estimator_streams.png', plots.velocities_and_stamps),
+PLOTS = {
+    'estimator_ratios.png': plots.ratios,
+    'estimator_lags.png': plots.lags,
+    'estimator_calibration.png': plots.calibration,
+    'estimator_recording.png': plots.recording,
 }
 TEMPLATE = pathlib.Path(__file__).resolve().parent / 'estimator_template.md'
 
 
-def page(data):
-    realistic = data.realistic()
-    size = data.size(ed.USUAL_MOTION)
-    return TEMPLATE.read_text(encoding='utf-8').format(
-        short=text.short_version(data),
-        extent=text.extent(data),
-        motions=text.motions_table(data),
-        encoders=text.encoders_table(data),
-        jitter='50 µs',
-        grid=text.grid_text(data),
-        usual=ed.USUAL_MOTION,
-        acceleration=plots.brief(size.qdd_rms_rad_s2),
-        efforts=text.best_table(data, ed.USUAL_MOTION, 'none', 'true'),
-        accelerations=text.acceleration_table(data),
-        folded=text.folded_tables(data),
-        velocities=text.velocities_table(data),
-        count=len(realistic),
-        kinds=text.kinds_text(realistic),
-        negligible='%g' % (100 * ed.NEGLIGIBLE),
-        poor=text.POOR,
-        verdict=text.verdict(data),
-        recommended=text.recommended_table(data),
-        orders=text.orders_table(data),
-        now=text.now_table(data),
-        rows='{:,}'.format(data.row_count),
-        **{place: file for place, (file, _) in PLOTS.items()})
+def page(figures, long_run):
+    words = TEMPLATE.read_text(encoding='utf-8')
+    if not text.recording_rows(figures):
+        words = words.replace('![Explained variance](estimator_recording.png)\n\n', '')
+    return words.format(
+        short=text.short_version(figures),
+        extent=text.extent(figures),
+        methods=text.methods_table(figures),
+        groups=text.groups_table(figures),
+        beyond=text.beyond_table(figures),
+        streams=text.streams_table(figures),
+        node=text.node_table(figures),
+        wrong=text.wrong_table(figures),
+        calibration=text.calibration_table(figures),
+        recording=text.recording_table(figures),
+        time=text.time_table(figures),
+        long_run=text.long_run_text(long_run),
+        rows='{:,}'.format(figures.row_count))
 
 
 def write(folder):
     progress('reading ' + CSV)
-    data = ed.EstimatorErrors(folder / CSV)
-    for file, draw in PLOTS.values():
+    figures = ed.EstimatorFigures(folder / CSV)
+    long_run = None
+    if (folder / LONG_RUN).is_file():
+        long_run = ed.EstimatorFigures(folder / LONG_RUN, 'long_run')
+    for file, draw in PLOTS.items():
         progress('drawing ' + file)
-        draw(data, folder / file)
+        draw(figures, folder / file)
     progress('writing ' + PAGE)
-    (folder / PAGE).write_text(page(data), encoding='utf-8')
+    (folder / PAGE).write_text(page(figures, long_run), encoding='utf-8')
     progress(None)
 
 
