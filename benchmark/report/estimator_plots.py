@@ -64,8 +64,8 @@ def ratios(figures, path):
     grid[0].set_yticks(range(len(methods)))
     grid[0].set_yticklabels([SHORT_NAMES[method] for method in methods])
     grid[0].invert_yaxis()
-    _title(figure, 'Offline: error relative to a filter chosen with hindsight (bar: median; dashed: '
-                   'as good)')
+    _title(figure, 'Offline: error relative to a filter chosen with hindsight '
+                   '(bar: median; dashed: as good)')
     save(figure, path)
 
 

@@ -55,8 +55,8 @@ def _bound(ratios, bound):
 
 def offline_line(figures):
     ratios = figures.offline_ratios(ed.DEFAULT, (ed.GRID,))
-    return ('Offline, the defaults err %s times (median; worst %s, %s) as much as the best filter of '
-            'Savitzky and Golay that hindsight finds for each of %d streams; %s.' % (
+    return ('Offline, the defaults err %s times (median; worst %s, %s) as much as the best filter '
+            'of Savitzky and Golay that hindsight finds for each of %d streams; %s.' % (
                 *_median_worst(ratios), len(ratios), _bound(ratios, ed.WORST_BOUND)))
 
 
@@ -76,9 +76,9 @@ def node_line(figures):
     lag = ed.NODE_LAG
     ratios = figures.node_ratios(lag, (ed.GRID,))
     hard = figures.node_ratios(lag, ed.HARD)
-    return ('In the node, at the default lag of %g ms, the error is %s times (median; worst %s, %s) '
-            'that of a Kalman smoother of the same lag with the true noises and the best density of '
-            'the motion; %s. On the hard streams: %s times (median; worst %s, %s); %s.' % (
+    return ('In the node, at the default lag of %g ms, the error is %s times (median; worst %s, '
+            '%s) that of a Kalman smoother of the same lag with the true noises and the best density '
+            'of the motion; %s. On the hard streams: %s times (median; worst %s, %s); %s.' % (
                 lag, *_median_worst(ratios), _bound(ratios, ed.NODE_BOUND), *_median_worst(hard),
                 _bound(hard, ed.NODE_BOUND)))
 
@@ -101,8 +101,8 @@ def recording_line(figures):
     late = _recording(figures, 'recording_late')
     offline, node = (ed.DEFAULT, ed.OFFLINE_LAG), (ed.NODE, ed.NODE_LAG)
     best = 'butterworth', ed.OFFLINE_LAG
-    return ('A real recording: efforts of the defaults explain %.3f of the variance of the measured '
-            'torques, those of the best Butterworth filter %.3f; after the first second the node '
+    return ('A real recording: efforts of the defaults explain %.3f of the variance of the '
+            'measured torques, those of the best Butterworth filter %.3f; after the first second the node '
             'explains %.3f, the filter %.3f.' % (found[offline], found[best], late[node],
                                                  late[best]))
 
