@@ -77,8 +77,9 @@ def node_line(figures):
     ratios = figures.node_ratios(lag, (ed.GRID,))
     hard = figures.node_ratios(lag, ed.HARD)
     return ('In the node, at the default lag of %g ms, the error is %s times (median; worst %s, '
-            '%s) that of a Kalman smoother of the same lag with the true noises and the best density '
-            'of the motion; %s. On the hard streams: %s times (median; worst %s, %s); %s.' % (
+            '%s) that of a Kalman smoother of the same lag with the true noises and the best '
+            'density of the motion; %s. '
+            'On the hard streams: %s times (median; worst %s, %s); %s.' % (
                 lag, *_median_worst(ratios), _bound(ratios, ed.NODE_BOUND), *_median_worst(hard),
                 _bound(hard, ed.NODE_BOUND)))
 
@@ -102,8 +103,8 @@ def recording_line(figures):
     offline, node = (ed.DEFAULT, ed.OFFLINE_LAG), (ed.NODE, ed.NODE_LAG)
     best = 'butterworth', ed.OFFLINE_LAG
     return ('A real recording: efforts of the defaults explain %.3f of the variance of the '
-            'measured torques, those of the best Butterworth filter %.3f; after the first second the node '
-            'explains %.3f, the filter %.3f.' % (found[offline], found[best], late[node],
+            'measured torques, those of the best Butterworth filter %.3f; after the first second '
+            'the node explains %.3f, the filter %.3f.' % (found[offline], found[best], late[node],
                                                  late[best]))
 
 
