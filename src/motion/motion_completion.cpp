@@ -116,7 +116,7 @@ MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion,
       motion.velocities(at, column) = sample.motion[1];
       if (settings.covariances) motion.covariances[row * joints + joint] = sample.covariance;
       if (given) return;
-      motion.positions(at, column) = sample.motion[0];
+      if (!settings.keep_positions) motion.positions(at, column) = sample.motion[0];
       motion.accelerations(at, column) = sample.motion[2];
     };
     recording.smooth(joint, settings.covariances, take);

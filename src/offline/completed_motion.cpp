@@ -123,7 +123,9 @@ CompletedMotion::CompletedMotion(const std::string& path, const Mechanism& mecha
     velocities_follow_ = positions_follow_ || !file_.table.hasVelocities();
     accelerations_follow_ = positions_follow_ || !file_.table.hasAccelerations();
   }
-  completeDerivatives(mechanism, scene, options.completion, file_);
+  CompletionSettings completion = options.completion;
+  completion.keep_positions = dynamics.closed() && !positions_follow_;
+  completeDerivatives(mechanism, scene, completion, file_);
   if (positions_follow_ || !resting.empty()) widen(mechanism, file_.table);
   for (const auto& [name, position] : resting) {
     const Names& all = file_.table.joints;

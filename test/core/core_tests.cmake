@@ -34,7 +34,6 @@ set(core_test_files
   test/core/closed_loop_tree_test.cpp
   test/core/description_deviations_test.cpp
   test/core/deviation_rows_test.cpp
-  test/core/deviations_allocation_test.cpp
   test/core/deviations_test.cpp
   test/core/dynamics_test.cpp
   test/core/dynamics_use_test.cpp
