@@ -230,12 +230,8 @@ void CoordinateTrack::adapt(double normalized_square, StreamState<kOrder>& state
   const double factor = std::min(kBoost, most / model_.density);
   if (factor <= 1) return;
   model_.density *= factor;
-  // The covariance that a filter of this density settles at.
-  for (int i = 0; i < kOrder; ++i) {
-    const double scale = std::pow(factor, (i + 0.5) / (2 * kOrder));
-    state.P.row(i) *= scale;
-    state.P.col(i) *= scale;
-  }
+  // One factor for all, so that what is added is a covariance.
+  state.P *= factor;
   wanted_blocks_ = std::min(wanted_blocks_, StreamIdentification::kFewest);
 }
 

@@ -60,14 +60,15 @@ StreamUpdate<N> update(int row, double residual, double variance, StreamState<N>
   done.gain = column * done.precision;
   done.scaled = residual * done.precision;
   state.x += done.gain * residual;
+  // Joseph's form stays positive where the plain difference P - K S K^T loses its digits: first
+  // (I - K H) P, then that times (I - K H)^T, plus K R K^T.
   state.P.noalias() -= done.gain * column.transpose();
-  // In this row the difference would cancel where the measurement is far better than the
-  // prediction. An asymmetry would stay for good, as no measurement takes it away.
+  const Eigen::Matrix<double, N, 1> rest = state.P.col(row);
+  state.P.noalias() -= rest * done.gain.transpose();
+  state.P.noalias() += variance * done.gain * done.gain.transpose();
+  // An asymmetry would stay for good, as no measurement takes it away.
   for (int i = 0; i < N; ++i)
-    for (int k = 0; k <= i; ++k) {
-      if (i == row || k == row) state.P(i, k) = column[i + k - row] * (variance * done.precision);
-      state.P(k, i) = state.P(i, k);
-    }
+    for (int k = 0; k < i; ++k) state.P(k, i) = state.P(i, k);
   return done;
 }
 

@@ -55,12 +55,22 @@ StreamState<N> firstState(const StreamModel& model, double interval, int count,
     for (int i = 0; i < terms; ++i) powers(row, i) = power *= t / span;
     positions[row] = q;
   }
+  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, N, N>;
+  const auto qr = powers.householderQr();
   const Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, N, 1> coefficients =
-      powers.householderQr().solve(positions);
+      qr.solve(positions);
+  // Deviations of the coefficients: the rows of the inverse of R.
+  const Square inverse = qr.matrixQR()
+                             .topLeftCorner(terms, terms)
+                             .template triangularView<Eigen::Upper>()
+                             .solve(Square::Identity(terms, terms));
+  constexpr double kMargin = 100;  // in variances: the samples are taken in once more
   double scale = 1;
   for (int i = 0; i < terms; ++i) {
     scale *= (i + 1) / span;  // derivative i + 1 of (t / span)^(i + 1)
     state.x[i + 1] = coefficients[i] * scale;
+    state.P(i + 1, i + 1) +=
+        kMargin * model.position_variance * inverse.row(i).squaredNorm() * scale * scale;
   }
   return state;
 }
