@@ -257,8 +257,14 @@ void CoordinateTrack::noteStep() {
     return;
   }
   model_ = firstModel();
-  // Until now the joint has been at rest, at a position that seemed to be exact.
-  if (first) entry(1).filtered = startAlone();
+  if (!first) return;
+  if (std::all_of(positions, positions + kStepPositions - 1,
+                  [&](double position) { return position == positions[0]; })) {
+    // Until now the joint has been at rest, at a position that seemed to be exact.
+    entry(1).filtered = startAlone();
+  } else if (stretch_ <= kMostStarting) {
+    restart();
+  }
 }
 
 /// Learns from the latest steps whether positions jump to and fro.
