@@ -55,6 +55,9 @@ struct Joint {
   double offset = 0;      ///< + offset, rad or m
   double damping = 0;   ///< as described, viscous, N m s/rad or N s/m; see Scene::use_urdf_dynamics
   double friction = 0;  ///< as described, dry, N m or N
+  /// Limits as described, rad or m; equal: none. They do not limit motions, and serve only to tell
+  /// what a driver that wraps has left out (TurnCounter).
+  double lower = 0, upper = 0;
 };
 
 /// What the position of a joint that moves measures.

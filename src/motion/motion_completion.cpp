@@ -9,35 +9,10 @@
 #include "motion/polynomial_fit.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/motion_estimator.h"
+#include "virtual_work_dynamics/unwrap.h"
 
 namespace virtual_work_dynamics {
 namespace {
-
-constexpr double kTurn = 6.283185307179586476925286766559;
-
-// Removes the jumps by whole turns that a driver which wraps makes in positions of a continuous
-// joint, rad.
-void unwrap(Eigen::Ref<Eigen::VectorXd> q) {
-  double turns = 0;  // counted, not summed up as angles, so that nothing accumulates
-  double previous = q.size() > 0 ? q[0] : 0;
-  for (Eigen::Index row = 1; row < q.size(); ++row) {
-    const double wrapped = q[row];
-    turns -= std::round((wrapped - previous) / kTurn);
-    previous = wrapped;
-    q[row] = wrapped + turns * kTurn;
-  }
-}
-
-Eigen::MatrixXd unwrappedPositions(const Mechanism& mechanism, const MotionTable& motion) {
-  Eigen::MatrixXd positions = motion.positions;
-  for (Eigen::Index column = 0; column < positions.cols(); ++column) {
-    const int joint = mechanism.jointIndex(motion.joints[static_cast<std::size_t>(column)]);
-    if (mechanism.joints()[static_cast<std::size_t>(joint)].type == JointType::kContinuous) {
-      unwrap(positions.col(column));
-    }
-  }
-  return positions;
-}
 
 void checkShapes(const Mechanism& mechanism, const MotionTable& motion) {
   for (const std::string& name : motion.joints) {
@@ -80,10 +55,8 @@ void checkRows(const MotionTable& motion) {
 // Fits the rows around a row and gives the derivatives there.
 class CentredFit {
  public:
-  CentredFit(const MotionTable& given, Eigen::MatrixXd positions)
-      : given_(given),
-        positions_(std::move(positions)),
-        rows_(static_cast<Eigen::Index>(given.times.size())) {
+  explicit CentredFit(const MotionTable& given)
+      : given_(given), rows_(static_cast<Eigen::Index>(given.times.size())) {
     const EstimatorSettings settings;
     window_ = std::min(settings.window, static_cast<int>(rows_));
     order_ = std::min(settings.order, window_ - 1);
@@ -101,7 +74,7 @@ class CentredFit {
   }
 
   void evaluate(Eigen::Index column, double& velocity, double& acceleration) const {
-    const double* q = positions_.col(column).data() + start_;
+    const double* q = given_.positions.col(column).data() + start_;
     const double* qd =
         given_.hasVelocities() ? given_.velocities.col(column).data() + start_ : nullptr;
     double position = 0;
@@ -110,7 +83,6 @@ class CentredFit {
 
  private:
   const MotionTable& given_;
-  Eigen::MatrixXd positions_;
   Eigen::Index rows_;
   int window_ = 0;
   int order_ = 0;
@@ -130,10 +102,11 @@ std::size_t firstTimeThatDoesNotIncrease(const std::vector<double>& times) {
 
 MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion) {
   checkShapes(mechanism, motion);
+  unwrapPositions(mechanism, motion);
   const bool complete = motion.hasVelocities() && motion.hasAccelerations();
   if (complete || motion.positions.size() == 0) return motion;
   checkRows(motion);
-  CentredFit fit(motion, unwrappedPositions(mechanism, motion));
+  CentredFit fit(motion);
   Eigen::MatrixXd velocities(motion.positions.rows(), motion.positions.cols());
   Eigen::MatrixXd accelerations(motion.positions.rows(), motion.positions.cols());
   for (Eigen::Index row = 0; row < motion.positions.rows(); ++row) {

@@ -4,4 +4,5 @@ vwd_core(
   motion_estimator.cpp
   motion_law.cpp
   polynomial_fit.cpp
-  spline.cpp)
+  spline.cpp
+  unwrap.cpp)

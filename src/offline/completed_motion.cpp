@@ -7,6 +7,7 @@
 #include "dynamics/given_joints.h"
 #include "dynamics/sample_rows.h"
 #include "virtual_work_dynamics/error.h"
+#include "virtual_work_dynamics/unwrap.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -73,6 +74,7 @@ CompletedMotion::CompletedMotion(const std::string& path, const Mechanism& mecha
       file_(readMotion(path, mechanism, choiceOf(path, mechanism, dynamics))),
       row_(dynamics.coordinates()),
       passive_(mechanism, dynamics) {
+  unwrapPositions(mechanism, file_.table);
   positions_follow_ = file_.table.joints.size() < mechanism.coordinateNames().size();
   if (dynamics.closuresDetermine() && !scene.static_motion) {
     velocities_follow_ = positions_follow_ || !file_.table.hasVelocities();

@@ -211,6 +211,7 @@ class Reader {
     if (joint.type != JointType::kFixed) {
       joint.axis_K = axisOf(source);
       readDynamics(source, joint);
+      readLimits(source, joint);
       if (!source.mimic) joint.coordinate = coordinates_++;
     } else if (source.mimic) {
       doubts_.push_back({"joint '" + source.name + "': is fixed, its <mimic> has no meaning"});
@@ -225,6 +226,14 @@ class Reader {
     if (!std::isfinite(joint.damping) || !std::isfinite(joint.friction)) {
       throw UrdfError("joint '" + source.name + "': damping or friction is not finite");
     }
+  }
+
+  // Limits that contradict each other, as those that a description leaves out, are none.
+  static void readLimits(const urdf::Joint& source, Joint& joint) {
+    const bool bounded = joint.type == JointType::kRevolute || joint.type == JointType::kPrismatic;
+    if (!bounded || !source.limits || !(source.limits->lower < source.limits->upper)) return;
+    joint.lower = source.limits->lower;
+    joint.upper = source.limits->upper;
   }
 
   static JointType typeOf(const urdf::Joint& source) {

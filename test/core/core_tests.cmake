@@ -61,6 +61,7 @@ set(core_test_files
   test/core/offline_loops_threads_test.cpp
   test/core/offline_plan_test.cpp
   test/core/offline_test.cpp
+  test/core/offline_wrapped_test.cpp
   test/core/passive_joints_test.cpp
   test/core/plan_merging_test.cpp
   test/core/plan_reduction_test.cpp
@@ -86,6 +87,7 @@ set(core_test_files
   test/core/spline_test.cpp
   test/core/stability_test.cpp
   test/core/summation_test.cpp
+  test/core/unwrap_test.cpp
   test/core/urdf_reader_test.cpp
   test/core/urdf_writer_test.cpp
   ${stability_scenes})

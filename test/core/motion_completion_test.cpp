@@ -187,15 +187,26 @@ TEST(MotionCompletion, ContinuousJointsMayWrap) {
   }
   ASSERT_GT((wrapped.positions - truth.positions).cwiseAbs().maxCoeff(), 6);
   const MotionTable completed = completeMotion(twoJoints(), wrapped);
-  EXPECT_EQ(completed.positions, wrapped.positions);
+  // Whole turns before the first row stay unknown.
+  MotionTable from_first = truth;
+  from_first.positions.col(1).array() += wrapped.positions(0, 1) - truth.positions(0, 1);
+  expectNear(completed.positions, from_first.positions, 40 * kExactVelocity);
   // The wheel's positions are 40 times larger, and so is their rounding.
   expectNear(completed.velocities, truth.velocities, 40 * kExactVelocity);
   expectNear(completed.accelerations, truth.accelerations, 40 * kExactAcceleration);
 }
 
-TEST(MotionCompletion, RevoluteJointsAreNotUnwrapped) {
+TEST(MotionCompletion, PositionsOfACompleteMotionAreUnwrapped) {
+  MotionTable motion = cubicMotion(unevenTimes(9));
+  motion.positions.col(1).tail(4).array() -= 2 * kPi;
+  const MotionTable completed = completeMotion(twoJoints(), motion);
+  expectNear(completed.positions, cubicMotion(unevenTimes(9)).positions, kExactVelocity);
+  EXPECT_EQ(completed.velocities, motion.velocities);
+}
+
+TEST(MotionCompletion, RevoluteJointsMayGoTheLongerWay) {
   MotionTable motion = without(cubicMotion(unevenTimes(9)), true, true);
-  motion.positions.col(0).tail(4).array() += 2 * kPi;  // a real jump
+  motion.positions.col(0).tail(4).array() += 4;  // more than half a turn
   const MotionTable completed = completeMotion(twoJoints(), motion);
   EXPECT_GT(completed.velocities.col(0).maxCoeff(), 10);
 }

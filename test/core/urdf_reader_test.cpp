@@ -60,6 +60,21 @@ int doubtsWith(const Mechanism& mechanism, const std::string& part) {
   return count;
 }
 
+TEST(UrdfReader, LimitsAreThoseOfTheDescription) {
+  const auto limits = [](const std::string& type, const std::string& limit) {
+    const Mechanism read = readUrdf(robot(link("a") + link("b") + "<joint name='j' type='" + type +
+                                          "'><parent link='a'/><child link='b'/>"
+                                          "<axis xyz='0 0 1'/><limit effort='1' velocity='1' " +
+                                          limit + "/></joint>"));
+    return Eigen::Vector2d(read.joints()[0].lower, read.joints()[0].upper);
+  };
+  EXPECT_EQ(limits("revolute", "lower='-0.5' upper='5'"), Eigen::Vector2d(-0.5, 5));
+  EXPECT_EQ(limits("prismatic", "lower='1' upper='2'"), Eigen::Vector2d(1, 2));
+  EXPECT_EQ(limits("revolute", ""), Eigen::Vector2d(0, 0));
+  EXPECT_EQ(limits("revolute", "lower='2' upper='1'"), Eigen::Vector2d(0, 0));
+  EXPECT_EQ(limits("continuous", "lower='-1' upper='1'"), Eigen::Vector2d(0, 0));
+}
+
 TEST(UrdfReader, OrdersDepthFirstByJointName) {
   const Mechanism mechanism =
       readUrdf(robot(link("base") + link("z") + link("a") + link("m") + link("tip") +
