@@ -44,7 +44,10 @@ std::unique_ptr<MotionLaw> sineSweepLaw(const Eigen::VectorXd& amplitudes, doubl
 ///   not finite.
 std::unique_ptr<MotionLaw> minimumJerkLaw(const MotionTable& via_points);
 
-/// The Spline through a table, shifted in time so that the first row is at t = 0.
+/// The Spline through a table, shifted in time so that the first row is at t = 0. Without
+/// velocities it starts and ends with the table's own slopes: those of the polynomials through its
+/// first and last five rows, or at rest where these slopes are not larger than what a row less
+/// makes of them.
 /// @throws MotionError as the constructor of Spline.
 std::unique_ptr<MotionLaw> tableLaw(const MotionTable& table);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/number_text.h"
+#include "motion/end_slopes.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/spline.h"
 
@@ -91,7 +92,7 @@ class SineSweepLaw : public MotionLaw {
 
 class SplineLaw : public MotionLaw {
  public:
-  explicit SplineLaw(MotionTable knots) : spline_(std::move(knots)) {}
+  explicit SplineLaw(Spline spline) : spline_(std::move(spline)) {}
 
   Index coordinates() const override { return spline_.coordinates(); }
   double duration() const override { return spline_.endTime(); }
@@ -201,11 +202,15 @@ std::unique_ptr<MotionLaw> minimumJerkLaw(const MotionTable& via_points) {
   points.accelerations.resize(0, 0);
   const Spline checked(points);  // refuses bad points
   fillMinimumJerk(points);
-  return std::make_unique<SplineLaw>(std::move(points));
+  return std::make_unique<SplineLaw>(Spline(std::move(points)));
 }
 
 std::unique_ptr<MotionLaw> tableLaw(const MotionTable& table) {
-  return std::make_unique<SplineLaw>(fromZero(table));
+  MotionTable rows = fromZero(table);
+  Spline at_rest(rows);  // refuses bad rows
+  if (rows.hasVelocities()) return std::make_unique<SplineLaw>(std::move(at_rest));
+  const EndSlopes slopes = endSlopes(rows);
+  return std::make_unique<SplineLaw>(Spline(std::move(rows), slopes.start, slopes.end));
 }
 
 }  // namespace virtual_work_dynamics

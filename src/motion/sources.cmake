@@ -1,4 +1,5 @@
 vwd_core(
+  end_slopes.cpp
   motion_completion.cpp
   motion_csv.cpp
   motion_estimator.cpp
