@@ -4,6 +4,7 @@ foreach(file
     closure_frames.cpp
     counters.cpp
     cross_check.cpp
+    described_robot.cpp
     determinacy_message.cpp
     diagnostics.cpp
     inverse_dynamics_node.cpp

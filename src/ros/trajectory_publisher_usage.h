@@ -22,7 +22,8 @@ parameters (in brackets: the defaults, which play the paper's pendulum)
   ~duration              of cosine and sweep, s (6)
   ~via_points            of minimum_jerk, list of {time: s, positions: [rad or m]} ([])
   ~file                  of the table: CSV, columns time, position.<joint>, velocity.<joint>,
-                         acceleration.<joint> ("")
+                         acceleration.<joint> (""); robot_description, if there is one, says which
+                         joints are continuous: whole turns that their driver left out are added
   ~message               joint_state | joint_trajectory (joint_state)
   ~rate                  samples per second, Hz (1000)
   ~velocities            whether joint states carry velocities (true)

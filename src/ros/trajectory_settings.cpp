@@ -7,6 +7,7 @@
 #include "ros/message_text.h"
 #include "ros/sample_times.h"
 #include "virtual_work_dynamics/motion_csv.h"
+#include "virtual_work_dynamics/unwrap.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -86,14 +87,27 @@ MotionTable viaPoints(const XmlRpcValue& points, const std::vector<std::string>&
   return table;
 }
 
+/// Reads the table of the file, without the turns by which a driver wraps its positions.
+MotionTable readTable(const std::string& file, const std::vector<std::string>& joints,
+                      const Mechanism* robot) {
+  MotionTable table = readMotionCsv(file, joints);
+  if (robot) {
+    unwrapPositions(*robot, table);
+  } else {
+    unwrapPositions(table);
+  }
+  return table;
+}
+
 /// Makes the motion law that the parameters describe.
+/// @param robot whose joints the table has; null: not known.
 /// @param joints the parameter `joints`; when it is empty and the law is `table`, it receives the
 ///   joints of the file.
-std::shared_ptr<const MotionLaw> makeLaw(const LawParameters& parameters,
+std::shared_ptr<const MotionLaw> makeLaw(const LawParameters& parameters, const Mechanism* robot,
                                          std::vector<std::string>& joints) {
   if (parameters.law == "table") {
     if (parameters.file.empty()) throw parameterError("file", "the law `table` needs a file");
-    const MotionTable table = readMotionCsv(parameters.file, joints);
+    const MotionTable table = readTable(parameters.file, joints, robot);
     joints = table.joints;
     checkJoints(joints);
     return tableLaw(table);
@@ -165,7 +179,7 @@ void checkSampling(const TrajectorySettings& settings) {
 
 }  // namespace
 
-TrajectorySettings readTrajectorySettings(PrivateParameters& parameters) {
+TrajectorySettings readTrajectorySettings(PrivateParameters& parameters, const Mechanism* robot) {
   TrajectorySettings settings;
   settings.joints = parameters.texts("joints", {"joint_1", "joint_2"});
   const LawParameters law = readLawParameters(parameters);
@@ -182,7 +196,7 @@ TrajectorySettings readTrajectorySettings(PrivateParameters& parameters) {
     throw parameterError("wait_for_subscribers", "expected a number from 0 on, got " +
                                                      std::to_string(settings.wait_for_subscribers));
   }
-  settings.law = makeLaw(law, settings.joints);
+  settings.law = makeLaw(law, robot, settings.joints);
   checkSampling(settings);
   return settings;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "ros/private_parameters.h"
+#include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion_law.h"
 
 namespace virtual_work_dynamics {
@@ -25,8 +26,10 @@ struct TrajectorySettings {
 
 /// Reads the settings; parameters that are not set have the values of
 /// config/trajectory_publisher.yaml.
+/// @param robot tells which joints of a table are continuous (unwrapPositions()); null: not known.
 /// @throws ParameterError naming a parameter that is unknown or has a wrong type, length or value;
 ///   MotionError as the motion laws and for durations out of range; FileError as readMotionCsv().
-TrajectorySettings readTrajectorySettings(PrivateParameters& parameters);
+TrajectorySettings readTrajectorySettings(PrivateParameters& parameters,
+                                          const Mechanism* robot = nullptr);
 
 }  // namespace virtual_work_dynamics

@@ -180,6 +180,32 @@ TEST(TrajectorySettings, TableOfNamedJointsOrOfAll) {
   EXPECT_EQ(motionAt(all, 1).q, Eigen::Vector2d(2, 20));
 }
 
+/// The angle at the end of a table of one joint, the wheel.
+double wheelAtTheEnd(const std::string& rows, const Mechanism* robot) {
+  const TemporaryFile file("time,position.wheel\n" + rows);
+  PrivateParameters parameters(
+      parameter(YAML::Load("{joints: [], law: table, file: '" + file.path() + "'}")));
+  const TrajectorySettings settings = readTrajectorySettings(parameters, robot);
+  return motionAt(settings, settings.law->duration()).q[0];
+}
+
+TEST(TrajectorySettings, PositionsOfATableThatWrapAreUnwrapped) {
+  std::vector<Link> links(2);
+  std::vector<Joint> joints(1);
+  joints[0].name = "wheel";
+  joints[0].type = JointType::kContinuous;
+  joints[0].child_link = 1;
+  joints[0].coordinate = 0;
+  links[1].parent_joint = 0;
+  const Mechanism robot("robot", links, joints);
+  // A row a second at 3 rad/s: only a description tells that the wheel turns on.
+  const std::string slow = "0,3\n1,-0.28318530717958623\n";
+  EXPECT_NEAR(wheelAtTheEnd(slow, &robot), 6, kClosedForm);
+  EXPECT_LT(wheelAtTheEnd(slow, nullptr), 0);
+  // In ten milliseconds nothing turns back as far.
+  EXPECT_NEAR(wheelAtTheEnd("0,3\n0.01,-3.26\n", nullptr), 2 * kPi - 3.26, kClosedForm);
+}
+
 TEST(TrajectorySettings, RefusalsNameTheParameter) {
   expectRefused("{rates: 5}", "unknown parameter ~rates;");
   expectRefused("{rate: fast}", "~rate: expected a number");

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+
+#include "virtual_work_dynamics/mechanism.h"
+
+namespace ros {
+class NodeHandle;
+}
+
+namespace virtual_work_dynamics {
+
+/// The robot of robot_description, which is searched upwards from the private namespace, for a node
+/// that can do without it: nothing when there is none, or, with a warning, when it is broken.
+/// @param private_node the handle NodeHandle("~").
+std::optional<Mechanism> describedRobot(const ros::NodeHandle& private_node);
+
+}  // namespace virtual_work_dynamics
