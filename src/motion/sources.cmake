@@ -6,4 +6,5 @@ vwd_core(
   motion_law.cpp
   polynomial_fit.cpp
   spline.cpp
+  trajectory_curve.cpp
   unwrap.cpp)

@@ -29,6 +29,7 @@ struct Counters {
   Counter restarts;
   Counter samples;  ///< samples computed from joint states
   Counter points;   ///< points of trajectories computed
+  Counter sampled;  ///< samples of trajectories between their points computed
   Counter skipped;  ///< samples not computed because nobody listened
   Counter outputs;  ///< samples and points published
   Counter late;     ///< samples published later than the threshold

@@ -137,6 +137,7 @@ void Diagnostics::addCounts(DiagnosticStatusWrapper& status) const {
   status.add("trajectories received", counters_.trajectories.value());
   status.add("samples computed", counters_.samples.value());
   status.add("trajectory points computed", counters_.points.value());
+  status.add("trajectory samples computed", counters_.sampled.value());
   status.add("samples nobody listened for", counters_.skipped.value());
   status.add("restarts", counters_.restarts.value());
   status.add("late outputs", counters_.late.value());

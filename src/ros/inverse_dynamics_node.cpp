@@ -29,7 +29,8 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       late_threshold_(parameters.late_threshold),
       checks_{parameters.self_check.cross_check_rate > 0, parameters.self_check.certificates},
       joint_states_(task_.mechanism),
-      trajectories_(task_.mechanism, task_.scene.static_motion, task_.passive()),
+      trajectories_(task_.mechanism, task_.scene.static_motion, task_.passive(),
+                    parameters.trajectory_sampling),
       estimator_(task_.mechanism, task_.estimator),
       loops_(task_.everything, task_.reactions.size(), parameters.loop_limits),
       completer_(task_.mechanism, task_.everything, task_.scene.static_motion),
@@ -205,33 +206,41 @@ void InverseDynamicsNode::take(const trajectory_msgs::JointTrajectory& message, 
     drop(topic, rejection->reason, rejection->text);
     return;
   }
-  completer_.complete(trajectory_, plan.dynamics, plan.workspace);
-  const std::size_t points = message.points.size();
+  const bool of_points = !trajectory_.samples || plan.wantsTrajectories();
+  if (of_points) completer_.complete(trajectory_, plan.dynamics, plan.workspace);
+  const std::size_t results = trajectory_.results();
+  const char* what = trajectory_.samples ? "samples" : "points";
   if (!trajectory_.completion.empty() && completion_throttle_.open()) {
-    ROS_INFO("%s: %zu points, %s", topic.c_str(), points, trajectory_.completion.c_str());
+    ROS_INFO("%s: %zu points, %s", topic.c_str(), message.points.size(),
+             trajectory_.completion.c_str());
   }
-  if (at_once_ && points > static_cast<std::size_t>(output_queue_) && queue_throttle_.open()) {
-    ROS_WARN("%s: %zu points are more than ~queue_size/output = %d; subscribers may lose some",
-             topic.c_str(), points, output_queue_);
+  if (at_once_ && results > static_cast<std::size_t>(output_queue_) && queue_throttle_.open()) {
+    ROS_WARN("%s: %zu %s are more than ~queue_size/output = %d; subscribers may lose some",
+             topic.c_str(), results, what, output_queue_);
   }
   respond(plan, message);
 }
 
 void InverseDynamicsNode::respond(ActivePlan& plan,
                                   const trajectory_msgs::JointTrajectory& message) {
-  if (at_once_ || plan.wantsTrajectories()) {
+  const bool points_at_once = at_once_ && !trajectory_.samples;
+  if (points_at_once || plan.wantsTrajectories()) {
     for (ActiveOutput& output : plan.outputs) output.message->begin(message, trajectory_);
     for (std::size_t i = 0; i < trajectory_.stamps_ns.size(); ++i) {
-      const Outcome outcome = samples_.computeNext(plan, trajectory_, i, at_once_);
+      const Outcome outcome = samples_.computeNext(plan, trajectory_, i, points_at_once);
       if (outcome != Outcome::kDone) {
         dropPoint(outcome, trajectory_, i);
-      } else if (at_once_) {
+      } else if (points_at_once) {
         publishSample(plan);
       }
     }
     outputs_.publishTrajectory(plan);
   }
-  if (at_once_ || !plan.wantsSamples()) return;
+  if (!plan.wantsSamples()) return;
+  if (at_once_ && trajectory_.samples) {
+    for (std::size_t i = 0; i < trajectory_.results(); ++i) play(plan, trajectory_, i);
+  }
+  if (at_once_) return;
   played_.add(std::move(trajectory_), Clock::now());
   player_.start();
 }
@@ -239,25 +248,41 @@ void InverseDynamicsNode::respond(ActivePlan& plan,
 void InverseDynamicsNode::playDue() {
   guard(trajectory_subscriber_, [this] {
     ActivePlan& plan = plans_.current();
-    played_.playDue(Clock::now(), [&](const TrajectoryMotion& trajectory, std::size_t point) {
-      if (!plan.wantsSamples()) return;
-      const Outcome outcome = samples_.compute(plan, trajectory, point);
-      if (outcome != Outcome::kDone) {
-        dropPoint(outcome, trajectory, point);
-        return;
-      }
-      publishSample(plan);
+    played_.playDue(Clock::now(), [&](const TrajectoryMotion& trajectory, std::size_t place) {
+      play(plan, trajectory, place);
     });
   });
   if (played_.empty()) player_.stop();
 }
 
+// Publishes one point of a trajectory, or one sample if it has samples.
+void InverseDynamicsNode::play(ActivePlan& plan, const TrajectoryMotion& trajectory,
+                               std::size_t place) {
+  if (trajectory.samples && place == 0) completer_.startSamples(trajectory);
+  if (!plan.wantsSamples()) return;
+  const Outcome outcome = trajectory.samples ? samples_.computeSample(plan, trajectory, place)
+                                             : samples_.compute(plan, trajectory, place);
+  if (outcome == Outcome::kDone) {
+    publishSample(plan);
+  } else if (!trajectory.samples) {
+    dropPoint(outcome, trajectory, place);
+  } else {
+    const bool open = outcome == Outcome::kOpenLoop;
+    dropResult(outcome, open ? completer_.problem(plan.dynamics, plan.workspace) : std::string(),
+               "stamp " + stampText(trajectory.samples->stampNs(place)));
+  }
+}
+
 void InverseDynamicsNode::dropPoint(Outcome outcome, const TrajectoryMotion& trajectory,
                                     std::size_t point) {
+  dropResult(outcome, trajectory.problem, "point " + std::to_string(point + 1));
+}
+
+void InverseDynamicsNode::dropResult(Outcome outcome, const std::string& problem,
+                                     const std::string& where) {
   const bool open = outcome == Outcome::kOpenLoop;
   drop(trajectory_subscriber_.getTopic(), open ? DropReason::kOpenLoop : DropReason::kOverflow,
-       (open ? trajectory.problem + ", at" : std::string("not finite at")) + " point " +
-           std::to_string(point + 1));
+       (open ? problem + "," : std::string("not finite")) + " at " + where);
 }
 
 void InverseDynamicsNode::drop(const std::string& topic, DropReason reason,

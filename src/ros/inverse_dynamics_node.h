@@ -66,9 +66,12 @@ class InverseDynamicsNode {
   void take(const trajectory_msgs::JointTrajectory& message, ros::Time receipt);
   void respond(ActivePlan& plan, const trajectory_msgs::JointTrajectory& message);
   void playDue();
+  void play(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t place);
   void publishSample(const ActivePlan& plan);
   void dropPoint(SampleComputation::Outcome outcome, const TrajectoryMotion& trajectory,
                  std::size_t point);
+  void dropResult(SampleComputation::Outcome outcome, const std::string& problem,
+                  const std::string& where);
   void drop(const std::string& topic, DropReason reason, const std::string& text);
 
   // The node's own thread.

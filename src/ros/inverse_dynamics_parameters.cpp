@@ -63,6 +63,17 @@ double readTrajectoryRate(PrivateParameters& parameters, double fallback) {
   return rate;
 }
 
+double readTrajectorySampling(PrivateParameters& parameters, double fallback) {
+  constexpr double kSlowest = 0.001, kFastest = 100000;
+  const double rate = parameters.number("trajectory_sampling", fallback);
+  if (rate != 0 && !(rate >= kSlowest && rate <= kFastest)) {
+    throw parameterError("trajectory_sampling", numberText(rate) + " Hz is neither 0 nor from " +
+                                                    numberText(kSlowest) + " to " +
+                                                    numberText(kFastest));
+  }
+  return rate;
+}
+
 double readCrossCheckRate(PrivateParameters& parameters, double fallback) {
   constexpr double kSlowest = 0.001, kFastest = 1000;
   const double rate = parameters.number("cross_check_rate", fallback);
@@ -117,6 +128,7 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   result.input_queue = readQueueSize(parameters, "queue_size/input", result.input_queue);
   result.output_queue = readQueueSize(parameters, "queue_size/output", result.output_queue);
   result.trajectory_rate = readTrajectoryRate(parameters, result.trajectory_rate);
+  result.trajectory_sampling = readTrajectorySampling(parameters, result.trajectory_sampling);
   result.diagnostic_period = readPeriod(parameters, "diagnostic_period", result.diagnostic_period);
   result.late_threshold = readPeriod(parameters, "late_threshold", result.late_threshold);
   result.self_check = readSelfCheck(parameters);

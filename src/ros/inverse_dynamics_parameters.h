@@ -32,6 +32,7 @@ struct InverseDynamicsParameters {
   int input_queue = 1000;          ///< messages
   int output_queue = 20000;        ///< messages
   double trajectory_rate = 0;      ///< points/s; 0: all points of a trajectory at once
+  double trajectory_sampling = 0;  ///< Hz, of the motion between points; 0: at the points
   double diagnostic_period = 1.0;  ///< s
   double late_threshold = 0.001;   ///< s, from receipt of a joint state to its published result
   LoopLimits loop_limits;          ///< samples beyond them are a WARN

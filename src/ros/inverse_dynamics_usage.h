@@ -36,6 +36,7 @@ parameters
   ~queue_size/input          messages (1000)
   ~queue_size/output         messages (20000)
   ~trajectory_rate           points a second of a trajectory's results; 0: all at once (0)
+  ~trajectory_sampling       samples a second of the motion between points, Hz; 0: at the points (0)
   ~diagnostic_period         s (1.0)
   ~late_threshold            an output this long after its joint state's receipt is late, s (0.001)
   ~cross_check_rate          samples a second that Lagrange's equations check; 0: none (0)

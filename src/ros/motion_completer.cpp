@@ -15,6 +15,7 @@ MotionCompleter::MotionCompleter(const Mechanism& mechanism, const Dynamics& dyn
       rule_(mechanism, dynamics),
       joint_states_(mechanism, dynamics),
       trajectories_(mechanism, dynamics),
+      samples_(mechanism, dynamics),
       needed_(actuated_),
       seen_(actuated_.size(), false),
       motion_(dynamics.coordinates()) {
@@ -75,6 +76,25 @@ void MotionCompleter::complete(TrajectoryMotion& trajectory, const Dynamics& dyn
     return;
   }
   if (!trajectory.completion.empty()) trajectory.completion += "; passive joints from the closures";
+}
+
+void MotionCompleter::startSamples(const TrajectoryMotion& trajectory) {
+  if (!closures_determine_) return;
+  samples_give_passive_ = rule_.givesPassive(given(trajectory));
+  if (evaluated_) samples_.moveTo(joint_states_.position());
+}
+
+bool MotionCompleter::completeSample(Motion& motion, const Dynamics& dynamics,
+                                     Dynamics::Workspace& workspace) {
+  if (!closures_determine_) return true;
+  if (static_motion_) {
+    motion.qd.setZero();
+    motion.qdd.setZero();
+  }
+  if (samples_give_passive_) samples_.moveTo(motion.q);
+  if (samples_.complete(motion, dynamics, workspace)) return true;
+  motion_ = motion;
+  return false;
 }
 
 void MotionCompleter::follow(TrajectoryMotion& trajectory, const Dynamics& dynamics,

@@ -49,6 +49,13 @@ class MotionCompleter {
   void complete(TrajectoryMotion& trajectory, const Dynamics& dynamics,
                 Dynamics::Workspace& workspace);
 
+  /// Begins with the samples of a trajectory; one trajectory is sampled at a time.
+  void startSamples(const TrajectoryMotion& trajectory);
+  /// Gives a sample's passive joints the motion that the closures demand, which is not that of a
+  /// curve through the points, even where these give it. Returns false when that is not possible;
+  /// see problem(). Does not allocate.
+  bool completeSample(Motion& motion, const Dynamics& dynamics, Dynamics::Workspace& workspace);
+
  private:
   std::vector<bool> given(const TrajectoryMotion& trajectory) const;
   void follow(TrajectoryMotion& trajectory, const Dynamics& dynamics,
@@ -60,7 +67,8 @@ class MotionCompleter {
   const bool closures_determine_;  // the passive joints' motion from the actuated ones'
   const std::vector<bool> actuated_;
   const GivenJoints rule_;
-  PassiveJoints joint_states_, trajectories_;
+  PassiveJoints joint_states_, trajectories_, samples_;
+  bool samples_give_passive_ = false;
   bool passive_given_;
   bool evaluated_ = false;  // whether a joint state was completed
   std::vector<bool> needed_, seen_;

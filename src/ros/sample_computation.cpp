@@ -28,6 +28,19 @@ SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan,
   return computeOne(plan, trajectory.stamps_ns[point], Clock::now());
 }
 
+SampleComputation::Outcome SampleComputation::computeSample(ActivePlan& plan,
+                                                            const TrajectoryMotion& trajectory,
+                                                            std::size_t sample) {
+  trajectory.samples->evaluate(sample, motion_);
+  if (static_motion_) motion_.qd.setZero();
+  records_.counters.sampled.add();
+  const auto start = Clock::now();
+  if (!completer_.completeSample(motion_, plan.dynamics, plan.workspace)) {
+    return Outcome::kOpenLoop;
+  }
+  return computeOne(plan, trajectory.samples->stampNs(sample), start);
+}
+
 SampleComputation::Outcome SampleComputation::computeNext(ActivePlan& plan,
                                                           const TrajectoryMotion& trajectory,
                                                           std::size_t point, bool as_sample) {

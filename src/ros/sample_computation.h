@@ -41,6 +41,8 @@ class SampleComputation {
   Outcome compute(ActivePlan& plan, std::int64_t stamp_ns);
   /// Computes one point of a trajectory by itself.
   Outcome compute(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t point);
+  /// Computes one of TrajectoryMotion::samples, which there must be.
+  Outcome computeSample(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t sample);
   /// Computes the next point of a trajectory, beginning with the first, as many at once as the plan
   /// takes. Writes messages of trajectories, and also those of samples if `as_sample`.
   Outcome computeNext(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t point,

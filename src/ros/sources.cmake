@@ -25,6 +25,7 @@ foreach(file
     topic_names.cpp
     trajectory_conversion.cpp
     trajectory_publisher.cpp
+    trajectory_samples.cpp
     trajectory_settings.cpp
     xmlrpc_to_yaml.cpp)
   list(APPEND ros_files ${CMAKE_CURRENT_LIST_DIR}/${file})

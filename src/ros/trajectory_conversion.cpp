@@ -11,6 +11,7 @@
 #include "ros/message_text.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/spline.h"
+#include "virtual_work_dynamics/unwrap.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -112,13 +113,43 @@ void select(const std::vector<int>& columns, const std::vector<double>& values,
   for (const int column : columns) selected.push_back(values[static_cast<std::size_t>(column)]);
 }
 
+// The points with what all of them have.
+MotionTable knotsOf(const JointTrajectory& message, const MotionTable& points) {
+  MotionTable knots = points;
+  const bool velocities = allHave(message, &JointTrajectoryPoint::velocities);
+  if (!velocities) knots.velocities.resize(0, 0);
+  if (!velocities || !allHave(message, &JointTrajectoryPoint::accelerations)) {
+    knots.accelerations.resize(0, 0);
+  }
+  return knots;
+}
+
+Eigen::VectorXd startOf(const MotionTable& points) {
+  return points.velocities.row(0).transpose();
+}
+
+Eigen::VectorXd endOf(const MotionTable& points) {
+  return points.velocities.bottomRows(1).transpose();
+}
+
+// Takes the motion at the points from the curve through them.
+void takeFrom(const TrajectoryCurve& curve, MotionTable& points) {
+  Motion motion;
+  for (std::size_t i = 0; i < points.times.size(); ++i) {
+    curve.evaluate(points.times[i], motion);
+    points.velocities.row(static_cast<Eigen::Index>(i)) = motion.qd.transpose();
+    points.accelerations.row(static_cast<Eigen::Index>(i)) = motion.qdd.transpose();
+  }
+}
+
 }  // namespace
 
 TrajectoryConversion::TrajectoryConversion(const Mechanism& mechanism, bool static_motion,
-                                           std::vector<bool> passive)
+                                           std::vector<bool> passive, double sampling)
     : mechanism_(mechanism),
       static_motion_(static_motion),
       passive_(std::move(passive)),
+      sampling_(sampling),
       coordinate_of_(coordinatesByName(mechanism)) {}
 
 std::optional<Rejection> TrajectoryConversion::convert(const JointTrajectory& message,
@@ -146,8 +177,9 @@ std::optional<Rejection> TrajectoryConversion::convert(const JointTrajectory& me
     rejection = gather(message, &JointTrajectoryPoint::accelerations, "acceleration", motion,
                        table.accelerations);
   }
-  if (!rejection) rejection = holdOthers(joint_states, motion);
-  return rejection;
+  if (rejection) return rejection;
+  unwrapPositions(mechanism_, table, TurnCounter::Source::kPoints);
+  return holdOthers(joint_states, motion);
 }
 
 std::optional<Rejection> TrajectoryConversion::resolveNames(const JointTrajectory& message,
@@ -195,27 +227,45 @@ std::optional<Rejection> TrajectoryConversion::complete(const JointTrajectory& m
   motion.completion.clear();
   motion.open.clear();
   motion.problem.clear();
+  motion.samples.reset();
   const bool velocities = allHave(message, &JointTrajectoryPoint::velocities);
   motion.has_velocities = velocities;
-  if (static_motion_ || (velocities && allHave(message, &JointTrajectoryPoint::accelerations))) {
-    return std::nullopt;
-  }
-  MotionTable knots = motion.table;
-  knots.accelerations.resize(0, 0);
-  if (!velocities) knots.velocities.resize(0, 0);
   try {
-    // The row of an end that has no velocities is zero.
-    motion.table = Spline(std::move(knots), motion.table.velocities.row(0).transpose(),
-                          motion.table.velocities.bottomRows(1).transpose())
-                       .knots();
+    if (sampling_ > 0) {
+      if (auto rejection = sample(message, motion)) return rejection;
+    }
+    if (static_motion_ || (velocities && allHave(message, &JointTrajectoryPoint::accelerations))) {
+      return std::nullopt;
+    }
+    if (motion.samples) {
+      takeFrom(motion.samples->curve(), motion.table);
+    } else {
+      // The row of an end that has no velocities is zero.
+      motion.table =
+          Spline(knotsOf(message, motion.table), startOf(motion.table), endOf(motion.table))
+              .knots();
+    }
   } catch (const MotionError& error) {
     return Rejection{DropReason::kTimes, error.what()};
   }
-  motion.completion = velocities ? "accelerations are those of a quintic spline through its "
-                                   "positions and velocities"
-                                 : "velocities and accelerations are those of a cubic spline "
-                                   "through its positions";
+  motion.completion = !velocities      ? "velocities and accelerations are those of a cubic spline "
+                                         "through its positions"
+                      : motion.samples ? "accelerations are those of cubics from point to point"
+                                       : "accelerations are those of a quintic spline through its "
+                                         "positions and velocities";
   return std::nullopt;
+}
+
+std::optional<Rejection> TrajectoryConversion::sample(const JointTrajectory& message,
+                                                      TrajectoryMotion& motion) const {
+  motion.samples.emplace(
+      TrajectoryCurve(knotsOf(message, motion.table), startOf(motion.table), endOf(motion.table)),
+      sampling_, motion.stamps_ns.front());
+  if (motion.samples->count() <= TrajectorySamples::kMost) return std::nullopt;
+  return Rejection{DropReason::kTimes,
+                   "it lasts " + numberText(motion.table.times.back()) + " s, more than the " +
+                       std::to_string(TrajectorySamples::kMost) +
+                       " samples of ~trajectory_sampling = " + numberText(sampling_) + " Hz"};
 }
 
 JointTrajectory withEfforts(const JointTrajectory& message, const TrajectoryMotion& motion,

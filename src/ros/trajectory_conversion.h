@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ros/rejection.h"
+#include "ros/trajectory_samples.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion_estimator.h"
 #include "virtual_work_dynamics/motion_table.h"
@@ -26,7 +27,11 @@ struct TrajectoryMotion {
   bool has_velocities = false;          ///< whether the message has them at every point
   std::vector<bool> open;               ///< points whose loops cannot be closed; empty: no point
   std::string problem;                  ///< why the first such point cannot be closed
+  /// Where the results of samples are wanted, between the points too; empty: at the points.
+  std::optional<TrajectorySamples> samples;
 
+  /// Number of results of samples.
+  std::size_t results() const { return samples ? samples->count() : stamps_ns.size(); }
   bool isOpen(std::size_t point) const { return point < open.size() && open[point]; }
 };
 
@@ -37,20 +42,22 @@ class TrajectoryConversion {
   ///   completed.
   /// @param passive by coordinate, true where a message may leave it out although no joint state
   ///   has shown it, because closed loops complete it; empty: nowhere.
-  TrajectoryConversion(const Mechanism& mechanism, bool static_motion, std::vector<bool> passive);
+  /// @param sampling samples/s of the motion between points, Hz; 0: none.
+  TrajectoryConversion(const Mechanism& mechanism, bool static_motion, std::vector<bool> passive,
+                       double sampling = 0);
 
   /// Checks and converts a message. Joints that the robot does not have and mimic joints are
   /// ignored; coordinates that the message leaves out rest where the joint states showed them last,
-  /// passive ones at zero. Velocities and accelerations that the message lacks are zero until
-  /// complete().
+  /// passive ones at zero. Whole turns left out of positions are added (unwrapPositions()).
+  /// Velocities and accelerations that the message lacks are zero until complete().
   /// @param start_ns instant from which `time_from_start` counts, ns.
   /// @returns why the message is to be dropped, or nothing.
   std::optional<Rejection> convert(const trajectory_msgs::JointTrajectory& message,
                                    std::int64_t start_ns, const MotionEstimator& joint_states,
                                    TrajectoryMotion& motion) const;
 
-  /// Fills in velocities and accelerations by a Spline through the points where not every point of
-  /// the message has them.
+  /// Fills in velocities and accelerations where not every point of the message has them: by a
+  /// Spline through the points, or by the TrajectoryCurve of the samples if there are any.
   /// @param motion the motion that convert() made of the message.
   /// @returns why the message is to be dropped, or nothing.
   std::optional<Rejection> complete(const trajectory_msgs::JointTrajectory& message,
@@ -59,12 +66,15 @@ class TrajectoryConversion {
  private:
   std::optional<Rejection> resolveNames(const trajectory_msgs::JointTrajectory& message,
                                         TrajectoryMotion& motion) const;
+  std::optional<Rejection> sample(const trajectory_msgs::JointTrajectory& message,
+                                  TrajectoryMotion& motion) const;
   std::optional<Rejection> holdOthers(const MotionEstimator& joint_states,
                                       TrajectoryMotion& motion) const;
 
   const Mechanism& mechanism_;
   bool static_motion_;
   std::vector<bool> passive_;
+  double sampling_;
   std::unordered_map<std::string, int> coordinate_of_;
 };
 

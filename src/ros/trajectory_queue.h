@@ -10,8 +10,8 @@
 
 namespace virtual_work_dynamics {
 
-/// Trajectories that wait for their points to be played in order at a rate. To be used by one
-/// thread.
+/// Trajectories that wait for their points, or their samples, to be played in order at a rate. To
+/// be used by one thread.
 class TrajectoryQueue {
  public:
   using Clock = std::chrono::steady_clock;
@@ -28,22 +28,22 @@ class TrajectoryQueue {
       : spacing_(rate > 0 ? static_cast<Clock::rep>(1e9 / rate) : 0) {}
 
   bool empty() const { return trajectories_.empty(); }
-  /// Number of points that have not been played.
+  /// Number of points and samples that have not been played.
   std::size_t waiting() const { return waiting_; }
 
   void add(TrajectoryMotion&& trajectory, Clock::time_point now) {
     if (empty()) next_ = std::max(next_, now);
-    waiting_ += trajectory.stamps_ns.size();
+    waiting_ += trajectory.results();
     trajectories_.push_back(std::move(trajectory));
   }
 
-  /// Calls play(trajectory, point) for every point that is due. A point whose call throws counts as
-  /// played.
+  /// Calls play(trajectory, place) for every point or sample that is due. One whose call throws
+  /// counts as played.
   template <typename Play>
   void playDue(Clock::time_point now, Play play) {
     for (int i = 0; i < kMostAtOnce && waiting_ > 0 && next_ <= now; ++i) {
       next_ += spacing_;
-      while (point_ == trajectories_.front().stamps_ns.size()) {
+      while (point_ == trajectories_.front().results()) {
         point_ = 0;
         trajectories_.pop_front();
       }

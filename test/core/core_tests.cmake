@@ -88,6 +88,7 @@ set(core_test_files
   test/core/stability_test.cpp
   test/core/summation_test.cpp
   test/core/table_law_test.cpp
+  test/core/trajectory_curve_test.cpp
   test/core/unwrap_test.cpp
   test/core/urdf_reader_test.cpp
   test/core/urdf_writer_test.cpp

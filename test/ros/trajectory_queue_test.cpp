@@ -67,6 +67,25 @@ TEST_F(TrajectoryQueues, EndWithTheLastPointHoweverLate) {
   EXPECT_EQ(play(), Stamps{6});
 }
 
+// Two points a second apart, sampled at 4 Hz.
+TEST_F(TrajectoryQueues, PlaySamplesWhereThereAreSome) {
+  MotionTable points;
+  points.times = {0, 1};
+  points.positions = Eigen::MatrixXd::Zero(2, 1);
+  TrajectoryMotion trajectory;
+  trajectory.stamps_ns = {10, 1000000010};
+  trajectory.samples.emplace(TrajectoryCurve(points), 4, 10);
+  queue.add(std::move(trajectory), now);
+  EXPECT_EQ(queue.waiting(), 5u);
+  now += kHeldUp;
+  Stamps stamps;
+  queue.playDue(now, [&](const TrajectoryMotion& played, std::size_t sample) {
+    stamps.push_back(played.samples->stampNs(sample));
+  });
+  EXPECT_EQ(stamps, (Stamps{10, 250000010, 500000010, 750000010, 1000000010}));
+  EXPECT_TRUE(queue.empty());
+}
+
 TEST_F(TrajectoryQueues, DoNotCatchUpInABurst) {
   add(Stamps(100, 0));
   now += std::chrono::seconds(1);
