@@ -15,6 +15,7 @@
 #include "loops/forces.h"
 #include "loops/groups.h"
 #include "loops/kinematics.h"
+#include "motion/trajectory_curve.h"
 #include "robot_builder.h"
 #include "sample_robots.h"
 #include "scene/resolved_loops.h"
@@ -28,6 +29,7 @@
 #include "virtual_work_dynamics/motion_estimator.h"
 #include "virtual_work_dynamics/passive_joints.h"
 #include "virtual_work_dynamics/spline.h"
+#include "virtual_work_dynamics/unwrap.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {
@@ -394,6 +396,28 @@ TEST(Spline, EvaluateDoesNotAllocate) {
   const AllocationGuard guard;
   for (double t = -0.5; t < 2.5; t += 0.1) spline.evaluate(t, motion);
   EXPECT_EQ(guard.allocations(), 0u);
+}
+
+TEST(TrajectoryCurve, EvaluateDoesNotAllocate) {
+  MotionTable table;
+  table.times = {0, 1, 2};
+  table.positions.resize(3, 2);
+  table.positions << 0, 0, 1, 2, 0, 1;
+  table.velocities = 2 * table.positions;
+  const TrajectoryCurve cubics(table);
+  Motion motion(2);
+  const AllocationGuard guard;
+  for (double t = -0.5; t < 2.5; t += 0.1) cubics.evaluate(t, motion);
+  EXPECT_EQ(guard.allocations(), 0u);
+}
+
+TEST(TurnCounter, CountsWithoutAllocating) {
+  const AllocationGuard guard;
+  TurnCounter counter;
+  double turns = 0;
+  for (int i = 0; i < 100; ++i) turns += counter.turns(i % 2 == 0 ? 3 : -3, 0.001);
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_EQ(turns, 50);
 }
 
 }  // namespace
