@@ -1,9 +1,11 @@
 #!/usr/bin/python3
 """~trajectory_sampling: results on the curve between the points of a trajectory."""
+import math
+
 from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectory
 
-from closed_loops import CLOSED_FORM, JOINTS, LoopTest, SLIDER_CRANK_SCENE, SliderCrank
+from closed_loops import CLOSED_FORM, JOINTS, L, LoopTest, R, SLIDER_CRANK_SCENE, SliderCrank
 from node_under_test import (EPOCH, Node, NodeTest, Polynomials, read, ros_time, run,
                              trajectory_point)
 from rigid_bodies import RigidBodies
@@ -192,6 +194,22 @@ class SampledLoops(LoopTest):
             values = self.node.wait_for_count('trajectory samples computed', 2 * len(samples))
             self.assertEqual(values['trajectory points computed'], '0')
             self.assertEqual(values['samples that violate a loop'], '0')
+
+    def test_given_passive_joints_tell_the_branch(self):
+        self.start('effort', parameters={'trajectory_sampling': RATE})
+        # The rod points the other way, to a slider behind the crank.
+        angle = 0.4
+        closed = SliderCrank(angle, 0, 0).q
+        rod = closed['rod_joint'] + angle
+        q = {'crank_joint': angle, 'rod_joint': math.pi - rod - angle,
+             'slider_joint': R * math.cos(angle) - L * math.cos(rod)}
+        zero = dict.fromkeys(JOINTS, 0)
+        trajectory = JointTrajectory(joint_names=JOINTS)
+        trajectory.header.stamp = ros_time(EPOCH)
+        trajectory.points = [trajectory_point(ns, JOINTS, (q, zero, zero)) for ns in (0, 20 * MS)]
+        self.trajectories.publish(trajectory)
+        for effort in self.recorders['effort'].wait(6):
+            self.assertClose(effort.position, [q[name] for name in JOINTS], CLOSED_FORM, 'closed')
 
     def test_samples_where_a_loop_cannot_be_closed(self):
         # The slider is driven: 0.4 m is as far as crank and rod reach.
