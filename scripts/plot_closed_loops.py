@@ -281,6 +281,7 @@ def main(arguments):
     unknown = set(arguments[2:]) - set(EXAMPLES)
     if unknown:
         raise SystemExit('No such example: %s' % ', '.join(sorted(unknown)))
+    os.makedirs(folder, exist_ok=True)
     for name in arguments[2:] or EXAMPLES:
         draw(tool, name, os.path.join(folder, name + '.png'))
     return 0
