@@ -74,7 +74,12 @@ CompletedMotion::CompletedMotion(const std::string& path, const Mechanism& mecha
       file_(readMotion(path, mechanism, choiceOf(path, mechanism, dynamics))),
       row_(dynamics.coordinates()),
       passive_(mechanism, dynamics) {
-  unwrapPositions(mechanism, file_.table);
+  const Names wrapped = unwrapPositions(mechanism, file_.table);
+  if (!wrapped.empty()) {
+    std::cerr << "note: " << path
+              << ": whole turns that a driver left out are added to the positions of "
+              << joined(wrapped) << "\n";
+  }
   positions_follow_ = file_.table.joints.size() < mechanism.coordinateNames().size();
   if (dynamics.closuresDetermine() && !scene.static_motion) {
     velocities_follow_ = positions_follow_ || !file_.table.hasVelocities();
