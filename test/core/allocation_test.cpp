@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "allocation_guard.h"
-#include "base/run_time_histogram.h"
 #include "condition_kinds.h"
 #include "dynamics/sample_rows.h"
 #include "four_bar.h"
@@ -15,7 +14,6 @@
 #include "loops/forces.h"
 #include "loops/groups.h"
 #include "loops/kinematics.h"
-#include "motion/trajectory_curve.h"
 #include "robot_builder.h"
 #include "sample_robots.h"
 #include "scene/resolved_loops.h"
@@ -26,10 +24,7 @@
 #include "virtual_work_dynamics/error_bound.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/lagrange_dynamics.h"
-#include "virtual_work_dynamics/motion_estimator.h"
 #include "virtual_work_dynamics/passive_joints.h"
-#include "virtual_work_dynamics/spline.h"
-#include "virtual_work_dynamics/unwrap.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {
@@ -361,63 +356,6 @@ TEST(BlockInverseDynamics, ComputeDoesNotAllocate) {
       expectBlocksDoNotAllocate<float>(layout, threads);
     }
   }
-}
-
-TEST(MotionEstimator, SamplesDoNotAllocate) {
-  const Mechanism mechanism = readUrdf(pendulumUrdf());
-  MotionEstimator estimator(mechanism, EstimatorSettings());
-  Motion motion(2);
-  const int coordinates[] = {0, 1};
-  const double q[] = {0.1, 0.2}, qd[] = {1, 2};
-  RunTimeHistogram histogram;
-  int outputs = 0;
-  const AllocationGuard guard;
-  for (int i = 1; i < 50; ++i) {
-    // Uneven stamps, so that every window is fitted anew; one restart on the way.
-    const std::int64_t stamp = (i == 25 ? 1 : i) * 1000000LL + i % 3;
-    estimator.push(stamp, coordinates, q, i % 2 ? qd : nullptr, 2);
-    if (estimator.ready()) {
-      estimator.evaluate(motion);
-      ++outputs;
-    }
-    histogram.record(i);
-  }
-  EXPECT_EQ(guard.allocations(), 0u);
-  EXPECT_GT(outputs, 10);
-}
-
-TEST(Spline, EvaluateDoesNotAllocate) {
-  MotionTable table;
-  table.times = {0, 1, 2};
-  table.positions.resize(3, 2);
-  table.positions << 0, 0, 1, 2, 0, 1;
-  const Spline spline(table);
-  Motion motion(2);
-  const AllocationGuard guard;
-  for (double t = -0.5; t < 2.5; t += 0.1) spline.evaluate(t, motion);
-  EXPECT_EQ(guard.allocations(), 0u);
-}
-
-TEST(TrajectoryCurve, EvaluateDoesNotAllocate) {
-  MotionTable table;
-  table.times = {0, 1, 2};
-  table.positions.resize(3, 2);
-  table.positions << 0, 0, 1, 2, 0, 1;
-  table.velocities = 2 * table.positions;
-  const TrajectoryCurve cubics(table);
-  Motion motion(2);
-  const AllocationGuard guard;
-  for (double t = -0.5; t < 2.5; t += 0.1) cubics.evaluate(t, motion);
-  EXPECT_EQ(guard.allocations(), 0u);
-}
-
-TEST(TurnCounter, CountsWithoutAllocating) {
-  const AllocationGuard guard;
-  TurnCounter counter;
-  double turns = 0;
-  for (int i = 0; i < 100; ++i) turns += counter.turns(i % 2 == 0 ? 3 : -3, 0.001);
-  EXPECT_EQ(guard.allocations(), 0u);
-  EXPECT_EQ(turns, 50);
 }
 
 }  // namespace
