@@ -16,14 +16,15 @@ struct EstimatorSettings {
   int lag = 4;               ///< motions hold this many samples behind the newest one, < window
   bool use_velocity = true;  ///< whether velocities are fitted too where messages carry them
   double max_gap = 0.25;     ///< s between samples; a longer gap restarts the window
-  /// False: motions are the joint states as they come (velocity zero where none is given) with zero
-  /// acceleration; window, order and lag have no effect.
+  /// False: motions are the joint states as they come, unwrapped (velocity zero where none is
+  /// given), with zero acceleration; window, order and lag have no effect.
   bool estimate = true;
 };
 
 /// Positions, velocities and accelerations at an instant from a stream of joint states: a causal
-/// least-squares polynomial over the last samples of each joint, with their real stamps.
-/// Continuous joints are unwrapped. Does not allocate after construction.
+/// least-squares polynomial over the last samples of each joint, with their real stamps. Whole
+/// turns that a driver leaves out of positions are put back (TurnCounter). Does not allocate after
+/// construction.
 class MotionEstimator {
  public:
   /// What push() did with a joint state.
@@ -65,8 +66,8 @@ class MotionEstimator {
   /// that instant, not around its own newest samples. Every coordinate then has to be refreshed
   /// before ready() is true again.
   /// @param motion has one entry for each generalized coordinate; entries of coordinates that are
-  ///   not waited for keep their values. Continuous joints are unwrapped, from the first sample
-  ///   after a restart on.
+  ///   not waited for keep their values. Positions are unwrapped from the first sample after a
+  ///   restart on.
   /// @returns the instant, ns.
   /// @throws MotionError unless ready(), or for a motion of another size.
   std::int64_t evaluate(Motion& motion);
@@ -77,7 +78,7 @@ class MotionEstimator {
   /// Forgets all samples.
   void reset();
 
-  /// Gives the latest position of a coordinate as it came, rad or m, also after reset(). Returns
+  /// Gives the latest position of a coordinate, unwrapped, rad or m, also after reset(). Returns
   /// false when the coordinate has never been seen.
   bool latestPosition(int coordinate, double& q) const;
 

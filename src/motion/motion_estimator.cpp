@@ -12,24 +12,23 @@
 
 #include "motion/polynomial_fit.h"
 #include "virtual_work_dynamics/error.h"
+#include "virtual_work_dynamics/unwrap.h"
 
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kTurn = 6.283185307179586476925286766559;
 constexpr int kMaxWindow = PolynomialFit::kMaxWindow;
 /// Number of samples held of a coordinate, a power of two. They are more than a window, so that a
 /// coordinate that comes more often than the others still has samples around the common instant.
 constexpr int kHistory = 512;
 /// Number of sets of weights held; more groups of coordinates than that are fitted anew each time.
 constexpr std::size_t kMaxFits = 32;
-/// Longest jump that is unwrapped, rad: in a longer one a double does not resolve the turns well.
-constexpr double kLongestJump = 1e9;
 
 struct Sample {
   std::int64_t stamp;  // ns
   double q;            // position as it came
-  double turns;        // 2 pi turns + q is the unwrapped position
+  double turns;        // q and so many whole turns are the unwrapped position
   double qd;
   bool has_qd;
 };
@@ -61,9 +60,9 @@ class History {
 };
 
 struct Coordinate {
-  Coordinate(bool is_continuous, int capacity) : continuous(is_continuous), history(capacity) {}
+  Coordinate(const Joint& joint, int capacity) : turn_counter(joint), history(capacity) {}
 
-  bool continuous;
+  TurnCounter turn_counter;
   bool needed = true;
   bool fresh = false;  // refreshed since the last evaluate() or skip()
   bool seen = false;   // whether any sample ever came
@@ -112,12 +111,6 @@ std::int64_t nanoseconds(double seconds) {
   return std::llround(seconds * 1e9);
 }
 
-/// Number of whole turns by which a jump is taken back: zero unless it is longer than half a turn.
-double turnsIn(double jump) {
-  const double length = std::abs(jump);
-  return length > kPi && length < kLongestJump ? std::round(jump / (2 * kPi)) : 0;
-}
-
 }  // namespace
 
 struct MotionEstimator::Impl {
@@ -159,8 +152,7 @@ MotionEstimator::Impl::Impl(const Mechanism& mechanism, const EstimatorSettings&
       max_gap(estimate ? nanoseconds(settings.max_gap) : std::numeric_limits<std::int64_t>::max()) {
   coordinates.reserve(mechanism.coordinates().size());
   for (const int joint : mechanism.coordinates()) {
-    const JointType type = mechanism.joints()[static_cast<std::size_t>(joint)].type;
-    coordinates.emplace_back(estimate && type == JointType::kContinuous, estimate ? kHistory : 1);
+    coordinates.emplace_back(mechanism.joint(joint), estimate ? kHistory : 1);
   }
   if (estimate) fits.resize(std::min(coordinates.size(), kMaxFits));
 }
@@ -184,7 +176,10 @@ MotionEstimator::Verdict MotionEstimator::Impl::judge(std::int64_t stamp, const 
 }
 
 void MotionEstimator::Impl::clear() {
-  for (Coordinate& coordinate : coordinates) coordinate.history.clear();
+  for (Coordinate& coordinate : coordinates) {
+    coordinate.history.clear();
+    coordinate.turn_counter.restart();
+  }
   markStale();
 }
 
@@ -272,7 +267,7 @@ void MotionEstimator::Impl::fitAt(std::int64_t instant, Motion& motion) {
       const Sample& sample = history[newest + window - 1 - i];
       const auto at = static_cast<std::size_t>(i);
       stamps[at] = sample.stamp - instant;
-      positions[at] = (sample.q - first.q) + 2 * kPi * (sample.turns - first.turns);
+      positions[at] = (sample.q - first.q) + kTurn * (sample.turns - first.turns);
       velocities[at] = sample.qd;
       all_velocities = all_velocities && sample.has_qd;
     }
@@ -280,7 +275,7 @@ void MotionEstimator::Impl::fitAt(std::int64_t instant, Motion& motion) {
     weights(all_velocities)
         .evaluate(positions.data(), velocities.data(), motion.q[out], motion.qd[out],
                   motion.qdd[out]);
-    motion.q[out] += first.q + 2 * kPi * first.turns;
+    motion.q[out] += first.q + kTurn * first.turns;
   }
 }
 
@@ -289,7 +284,7 @@ void MotionEstimator::Impl::copyNewest(Motion& motion) const {
     if (!coordinates[c].needed) continue;
     const Sample& newest = coordinates[c].history[0];
     const auto out = static_cast<Eigen::Index>(c);
-    motion.q[out] = newest.q;
+    motion.q[out] = newest.q + kTurn * newest.turns;
     motion.qd[out] = newest.qd;
     motion.qdd[out] = 0;
   }
@@ -310,11 +305,11 @@ MotionEstimator::Verdict MotionEstimator::push(std::int64_t stamp_ns, const int*
   for (int i = 0; i < count; ++i) {
     Coordinate& coordinate = impl_->coordinates[static_cast<std::size_t>(coordinates[i])];
     History& history = coordinate.history;
-    double turns = 0;
-    if (coordinate.continuous && history.size() > 0)
-      turns = history[0].turns - turnsIn(q[i] - history[0].q);
+    const double since =
+        history.size() > 0 ? static_cast<double>(stamp_ns - history[0].stamp) * 1e-9 : 0;
+    const double turns = coordinate.turn_counter.turns(q[i], since);
     history.push({stamp_ns, q[i], turns, qd ? qd[i] : 0, qd != nullptr});
-    coordinate.latest = q[i];
+    coordinate.latest = q[i] + kTurn * turns;
     coordinate.seen = true;
     coordinate.fresh = true;
   }

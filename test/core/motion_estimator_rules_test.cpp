@@ -140,10 +140,10 @@ TEST(MotionEstimator, WithoutEstimatePassesStatesOn) {
   const std::int64_t hour = 3600 * 1000 * kMillisecond;  // no gap is too long
   EXPECT_EQ(stream.push(hour, {1}, {2}, {0.5}), Verdict::kAccepted);
   EXPECT_FALSE(stream.estimator.ready());
-  EXPECT_EQ(stream.push(hour + 1, {0}, {-3}), Verdict::kAccepted);  // not unwrapped
+  EXPECT_EQ(stream.push(hour + 1, {0}, {-3}), Verdict::kAccepted);
   ASSERT_TRUE(stream.estimator.ready());
   EXPECT_EQ(stream.evaluate(), hour);
-  EXPECT_EQ(stream.motion.q, Eigen::Vector2d(-3, 2));
+  EXPECT_EQ(stream.motion.q, Eigen::Vector2d(-3 + 2 * std::acos(-1.0), 2)) << "not unwrapped";
   EXPECT_EQ(stream.motion.qd, Eigen::Vector2d(0, 0.5));
   EXPECT_EQ(stream.push(hour, {1}, {2}), Verdict::kEqualStamp);
   EXPECT_EQ(stream.push(hour, {0}, {2}), Verdict::kRestartedBack);
