@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <exception>
 #include <string>
-#include <utility>
 
 #include "ros/described_robot.h"
 #include "ros/private_parameters.h"
@@ -25,9 +24,8 @@ int main(int argc, char** argv) {
   try {
     if (argc > 1) throw ParameterError(std::string("unknown argument ") + argv[1]);
     PrivateParameters parameters(private_node);
-    const auto robot = describedRobot(private_node);
-    TrajectorySettings settings = readTrajectorySettings(parameters, robot ? &*robot : nullptr);
-    TrajectoryPublisher(ros::NodeHandle(), std::move(settings)).run();
+    const auto robot = [&private_node] { return describedRobot(private_node); };
+    TrajectoryPublisher(ros::NodeHandle(), readTrajectorySettings(parameters, robot)).run();
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());
     return 1;

@@ -18,8 +18,8 @@ struct EstimatorSettings {
   double hold_after =
       0.25;             ///< s without a sample after which a joint is held at its last position
   NoiseSettings noise;  ///< what is known beforehand of the samples
-  /// False: motions are the joint states as they come (velocity zero where none is given) with zero
-  /// acceleration; neither lag nor noise has an effect.
+  /// False: motions are the joint states as they come, unwrapped (velocity zero where none is
+  /// given) with zero acceleration; neither lag nor noise has an effect.
   bool estimate = true;
 };
 
@@ -28,8 +28,9 @@ struct EstimatorSettings {
 /// (Bryson and Frazier 1963), in which the fourth derivative of the motion is white noise. The
 /// noises of positions, velocities and stamps and the density of the motion are learnt from the
 /// latest seconds of each joint: those under which they are most likely (Schweppe 1965).
-/// Velocities are used once they have been seen to agree with the positions. Continuous joints are
-/// unwrapped. Does not allocate after construction.
+/// Velocities are used once they have been seen to agree with the positions. Whole turns
+/// that a driver leaves out of positions are put back (TurnCounter). Does not allocate after
+/// construction.
 class MotionEstimator {
  public:
   /// What push() did with a joint state.
@@ -77,7 +78,8 @@ class MotionEstimator {
   /// others are evaluated at this instant by their own samples; one without a sample for longer
   /// than hold_after before it is held at its last position.
   /// @param motion has one entry for each generalized coordinate; entries of coordinates that are
-  ///   not waited for keep their values. Continuous joints are unwrapped.
+  ///   not waited for keep their values. Positions are unwrapped from the first sample after
+  ///   a restart on.
   /// @param covariance receives the covariances when not null; it has one entry for each
   ///   coordinate. That of a coordinate that is held or rests is zero.
   /// @returns the instant, ns.
@@ -90,7 +92,7 @@ class MotionEstimator {
   /// Forgets all samples.
   void reset();
 
-  /// Gives the latest position of a coordinate as it came, rad or m, also after reset(). Returns
+  /// Gives the latest position of a coordinate, unwrapped, rad or m, also after reset(). Returns
   /// false when the coordinate has never been seen.
   bool latestPosition(int coordinate, double& q) const;
 

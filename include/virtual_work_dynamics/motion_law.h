@@ -46,8 +46,8 @@ std::unique_ptr<MotionLaw> minimumJerkLaw(const MotionTable& via_points);
 
 /// The Spline through a table, shifted in time so that the first row is at t = 0. Without
 /// velocities it starts and ends with the table's own slopes: those of the polynomials through its
-/// first and last five rows, or at rest where these slopes are not larger than what a row less
-/// makes of them.
+/// first and last five rows, or at rest where such a slope is not larger than three times the
+/// difference that a row less makes to it. The spline goes through the rows, their noise included.
 /// @throws MotionError as the constructor of Spline.
 std::unique_ptr<MotionLaw> tableLaw(const MotionTable& table);
 

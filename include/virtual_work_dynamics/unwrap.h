@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion_table.h"
 
@@ -14,8 +17,8 @@ namespace virtual_work_dynamics {
 ///
 /// A revolute joint may well go the longer way, and so may the points of a trajectory, which can be
 /// far apart. There, a jump is a turn left out only when
-///   - it is a whole turn give or take a quarter,
 ///   - the joint would have moved faster than kFastest to make it,
+///   - it is a whole turn give or take a quarter, and no more than kFastest makes of it,
 ///   - all positions so far lie within one turn, as those of a driver that wraps do, and
 ///   - the turn does not lead out of the joint's limits.
 /// Everything else stays as it came. Prismatic and fixed joints have no turns.
@@ -24,10 +27,10 @@ class TurnCounter {
   /// What the positions are: samples of the motion itself, or points that a motion is to pass.
   enum class Source { kSamples, kPoints };
 
-  /// Slowest motion, rad/s, that a jump by about a turn is not believed to be.
+  /// Fastest motion, rad/s, that a jump by about a turn may still be.
   static constexpr double kFastest = 20;
 
-  /// Of a joint that is not known: as a revolute one without limits.
+  /// For a joint that nothing is known of: the rule of a revolute joint without limits.
   TurnCounter() = default;
   explicit TurnCounter(const Joint& joint, Source source = Source::kSamples);
 
@@ -55,11 +58,13 @@ class TurnCounter {
 
 /// Adds the whole turns that a driver has left out to the positions of a table (see TurnCounter).
 /// Columns of joints that the mechanism does not have, or that mimic others, stay as they are.
+/// @returns the joints whose positions were changed.
 /// @throws MotionError when positions, times and joints disagree in number.
-void unwrapPositions(const Mechanism& mechanism, MotionTable& table,
-                     TurnCounter::Source source = TurnCounter::Source::kSamples);
+std::vector<std::string> unwrapPositions(
+    const Mechanism& mechanism, MotionTable& table,
+    TurnCounter::Source source = TurnCounter::Source::kSamples);
 
-/// Does the same where no description says what the joints are.
-void unwrapPositions(MotionTable& table);
+/// Adds them where no description says what the joints are.
+std::vector<std::string> unwrapPositions(MotionTable& table);
 
 }  // namespace virtual_work_dynamics

@@ -239,7 +239,7 @@ MotionEstimator::Verdict MotionEstimator::push(std::int64_t stamp_ns, const int*
       case CoordinateTrack::Verdict::kTaken:
         break;
     }
-    coordinate.latest = q[i];
+    coordinate.latest = track.unwrappedPosition();
     coordinate.seen = true;
     impl.newest = std::max(impl.newest, stamp_ns);
     impl.chooseLead(coordinates[i]);

@@ -14,8 +14,8 @@ using Eigen::Index;
 constexpr double kTurn = 6.283185307179586476925286766559;
 // Longest jump that is unwrapped, rad: in a longer one a double does not resolve the turns well.
 constexpr double kLongestJump = 1e9;
-// By how much a position may be beyond its limits, or positions spread over more than a turn,
-// because descriptions and encoders are not exact, rad.
+// By how much a position may be beyond its limits, positions spread over more than a turn, or what
+// is left of a jump be more than the motion, because descriptions and encoders are not exact, rad.
 constexpr double kSlack = 0.1;
 
 void checkShape(const MotionTable& table) {
@@ -28,14 +28,19 @@ void checkShape(const MotionTable& table) {
                     " rows x " + std::to_string(columns) + " joints");
 }
 
-void unwrapColumn(TurnCounter counter, Index column, MotionTable& table) {
+/// Returns whether a turn was added.
+bool unwrapColumn(TurnCounter counter, Index column, MotionTable& table) {
+  bool changed = false;
   for (Index row = 0; row < table.positions.rows(); ++row) {
     const auto at = static_cast<std::size_t>(row);
     double& q = table.positions(row, column);
     const double since = at > 0 ? table.times[at] - table.times[at - 1] : 0;
     const double turns = counter.turns(q, since);
-    if (turns != 0) q += kTurn * turns;
+    if (turns == 0) continue;
+    q += kTurn * turns;
+    changed = true;
   }
+  return changed;
 }
 
 }  // namespace
@@ -62,8 +67,10 @@ double TurnCounter::turns(double position, double since_previous) {
   }
   const double jump = position - previous_;
   const double length = std::abs(jump);
-  if (rule_ != Rule::kNone && length > kTurn / 2 && length < kLongestJump &&
-      (rule_ == Rule::kShorterWay || evident(position, jump, since_previous))) {
+  if (!(length < kLongestJump)) {
+    turns_ = 0;
+  } else if (rule_ != Rule::kNone && length > kTurn / 2 &&
+             (rule_ == Rule::kShorterWay || evident(position, jump, since_previous))) {
     turns_ -= std::round(jump / kTurn);
   }
   previous_ = position;
@@ -78,8 +85,9 @@ void TurnCounter::restart() {
 
 bool TurnCounter::evident(double position, double jump, double since_previous) const {
   const double length = std::abs(jump);
-  if (std::abs(length - kTurn) > kTurn / 4) return false;
-  if (!(since_previous > 0 && length > kFastest * since_previous)) return false;
+  const double farthest = kFastest * since_previous;
+  if (!(since_previous > 0 && length > farthest)) return false;
+  if (std::abs(length - kTurn) > std::min(kTurn / 4, farthest + kSlack)) return false;
   const double spread = std::max(highest_, position) - std::min(lowest_, position);
   if (spread > kTurn + kSlack) return false;
   const double after = turns_ - std::round(jump / kTurn);
@@ -92,20 +100,28 @@ bool TurnCounter::leavesLimits(double position, double turns) const {
   return q < lower_ - kSlack || q > upper_ + kSlack;
 }
 
-void unwrapPositions(const Mechanism& mechanism, MotionTable& table, TurnCounter::Source source) {
+std::vector<std::string> unwrapPositions(const Mechanism& mechanism, MotionTable& table,
+                                         TurnCounter::Source source) {
   checkShape(table);
+  std::vector<std::string> changed;
   for (std::size_t column = 0; column < table.joints.size(); ++column) {
-    const int index = mechanism.jointIndex(table.joints[column]);
+    const std::string& name = table.joints[column];
+    const int index = mechanism.jointIndex(name);
     if (index < 0 || mechanism.joint(index).mimics) continue;
-    unwrapColumn(TurnCounter(mechanism.joint(index), source), static_cast<Index>(column), table);
+    const TurnCounter counter(mechanism.joint(index), source);
+    if (unwrapColumn(counter, static_cast<Index>(column), table)) changed.push_back(name);
   }
+  return changed;
 }
 
-void unwrapPositions(MotionTable& table) {
+std::vector<std::string> unwrapPositions(MotionTable& table) {
   checkShape(table);
-  for (Index column = 0; column < table.positions.cols(); ++column) {
-    unwrapColumn(TurnCounter(), column, table);
+  std::vector<std::string> changed;
+  for (std::size_t column = 0; column < table.joints.size(); ++column) {
+    if (unwrapColumn(TurnCounter(), static_cast<Index>(column), table))
+      changed.push_back(table.joints[column]);
   }
+  return changed;
 }
 
 }  // namespace virtual_work_dynamics

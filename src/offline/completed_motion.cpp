@@ -112,7 +112,12 @@ CompletedMotion::CompletedMotion(const std::string& path, const Mechanism& mecha
       file_(readMotion(path, mechanism, choiceOf(path, mechanism, dynamics, options))),
       row_(dynamics.coordinates()),
       passive_(mechanism, dynamics) {
-  unwrapPositions(mechanism, file_.table);
+  const Names wrapped = unwrapPositions(mechanism, file_.table);
+  if (!wrapped.empty()) {
+    std::cerr << "note: " << path
+              << ": whole turns that a driver left out are added to the positions of "
+              << joined(wrapped) << "\n";
+  }
   std::vector<std::pair<std::string, double>> resting;
   for (const auto& joint : options.rest) {
     if (!contains(file_.table.joints, joint.first)) resting.push_back(joint);

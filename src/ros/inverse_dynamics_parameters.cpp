@@ -105,42 +105,22 @@ double readPeriod(PrivateParameters& parameters, const std::string& name, double
   return period;
 }
 
-double readTrajectoryRate(PrivateParameters& parameters, double fallback) {
+// A rate, or 0 for none.
+double readRate(PrivateParameters& parameters, const std::string& name, const std::string& unit,
+                double fallback, double fastest) {
   constexpr double kSlowest = 0.001;
-  const double rate = parameters.number("trajectory_rate", fallback);
-  if (rate != 0 && !(rate >= kSlowest && rate <= TrajectoryQueue::kFastest)) {
-    throw parameterError("trajectory_rate", numberText(rate) + " points/s is neither 0 nor from " +
-                                                numberText(kSlowest) + " to " +
-                                                numberText(TrajectoryQueue::kFastest));
-  }
-  return rate;
-}
-
-double readTrajectorySampling(PrivateParameters& parameters, double fallback) {
-  constexpr double kSlowest = 0.001, kFastest = 100000;
-  const double rate = parameters.number("trajectory_sampling", fallback);
-  if (rate != 0 && !(rate >= kSlowest && rate <= kFastest)) {
-    throw parameterError("trajectory_sampling", numberText(rate) + " Hz is neither 0 nor from " +
-                                                    numberText(kSlowest) + " to " +
-                                                    numberText(kFastest));
-  }
-  return rate;
-}
-
-double readCrossCheckRate(PrivateParameters& parameters, double fallback) {
-  constexpr double kSlowest = 0.001, kFastest = 1000;
-  const double rate = parameters.number("cross_check_rate", fallback);
-  if (rate != 0 && !(rate >= kSlowest && rate <= kFastest)) {
-    throw parameterError("cross_check_rate", numberText(rate) + " checks/s is neither 0 nor from " +
-                                                 numberText(kSlowest) + " to " +
-                                                 numberText(kFastest));
+  const double rate = parameters.number(name, fallback);
+  if (rate != 0 && !(rate >= kSlowest && rate <= fastest)) {
+    throw parameterError(name, numberText(rate) + " " + unit + " is neither 0 nor from " +
+                                   numberText(kSlowest) + " to " + numberText(fastest));
   }
   return rate;
 }
 
 SelfCheckSettings readSelfCheck(PrivateParameters& parameters) {
   SelfCheckSettings settings;
-  settings.cross_check_rate = readCrossCheckRate(parameters, settings.cross_check_rate);
+  settings.cross_check_rate =
+      readRate(parameters, "cross_check_rate", "checks/s", settings.cross_check_rate, 1000);
   settings.certificates = parameters.boolean("certificates", settings.certificates);
   settings.residual_warn = parameters.number("residual_warn", settings.residual_warn);
   settings.residual_error = parameters.number("residual_error", settings.residual_error);
@@ -187,8 +167,10 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   result.twist = parameters.boolean("twist", result.twist);
   result.input_queue = readQueueSize(parameters, "queue_size/input", result.input_queue);
   result.output_queue = readQueueSize(parameters, "queue_size/output", result.output_queue);
-  result.trajectory_rate = readTrajectoryRate(parameters, result.trajectory_rate);
-  result.trajectory_sampling = readTrajectorySampling(parameters, result.trajectory_sampling);
+  result.trajectory_rate = readRate(parameters, "trajectory_rate", "points/s",
+                                    result.trajectory_rate, TrajectoryQueue::kFastest);
+  result.trajectory_sampling =
+      readRate(parameters, "trajectory_sampling", "Hz", result.trajectory_sampling, 100000);
   result.diagnostic_period = readPeriod(parameters, "diagnostic_period", result.diagnostic_period);
   result.late_threshold = readPeriod(parameters, "late_threshold", result.late_threshold);
   result.self_check = readSelfCheck(parameters);

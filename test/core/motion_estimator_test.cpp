@@ -146,6 +146,32 @@ TEST(MotionEstimator, UnwrapsContinuousJointsOnly) {
   }
 }
 
+// A driver that wraps a revolute joint, at 200 Hz, with an encoder's noise: what it leaves out is
+// put back with and without estimates, and where trajectories look for the latest position.
+TEST(MotionEstimator, UnwrapsARevoluteJointWhoseDriverWraps) {
+  constexpr double kSpeed = 3, kNoise = 1e-4;
+  std::mt19937 generator(1);
+  std::normal_distribution<double> noise(0, kNoise);
+  for (const bool estimate : {true, false}) {
+    EstimatorSettings settings = settingsOf(0.02);
+    settings.estimate = estimate;
+    Stream stream({kR}, settings);
+    int results = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const double q = kSpeed * 0.005 * i;
+      stream.push(i * 5 * kMillisecond, {0}, {std::remainder(q + noise(generator), 2 * kPi)});
+      if (!stream.estimator.ready()) continue;
+      const double instant = static_cast<double>(stream.evaluate()) * 1e-9;
+      ASSERT_NEAR(stream.motion.q[0], kSpeed * instant, 6 * kNoise) << i;
+      double latest = 0;
+      ASSERT_TRUE(stream.estimator.latestPosition(0, latest));
+      ASSERT_NEAR(latest, q, 6 * kNoise) << i;
+      ++results;
+    }
+    EXPECT_GE(results, 1990);
+  }
+}
+
 TEST(MotionEstimator, KeepsTheDigitsOfAJointThatHasTurnedFar) {
   Stream stream({kC}, {});
   // The driver counts a million turns, then starts again from zero. Until then a double resolves

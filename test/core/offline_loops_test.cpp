@@ -167,7 +167,10 @@ TEST_F(OfflineLoops, TheMechanismStaysOnItsBranch) {
   }
   write("m.csv", far);
   write("all.csv", all);
-  const NumberTable of_drive = table("--scene s.yaml --motion m.csv", kFollow);
+  const NumberTable of_drive = table(
+      "--scene s.yaml --motion m.csv",
+      "note: m.csv: whole turns that a driver left out are added to the positions of drive\n" +
+          std::string(kFollow));
   const NumberTable of_all = table("--scene s.yaml --motion all.csv", "");
   ASSERT_EQ(of_drive.rows.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 #include <vector>
 
 #include "spline_oracles.h"
@@ -100,6 +101,27 @@ TEST(TableLaw, ARecordingAtRestAtItsEndsStaysSo) {
       ASSERT_EQ(at(*law, t).qd, expected.qd) << t;
       ASSERT_EQ(at(*law, t).qdd, expected.qdd) << t;
     }
+  }
+}
+
+TEST(TableLaw, NoiseAtTheEndsIsLikeNoiseInTheMiddle) {
+  // A spline through noisy rows is noisy: where a recording moves and where it rests, its ends
+  // shall be of the same kind. In the first row 1.8 to 2.4 times the middle's acceleration was
+  // seen; an end taken as at rest while it moves at 3 rad/s makes 57 times.
+  constexpr double kMost = 3.5;
+  constexpr int kTrials = 100, kRows = 60;
+  std::mt19937 generator(1);
+  std::normal_distribution<double> noise(0, 3e-5);
+  for (const double speed : {0.0, 0.2, 3.0}) {
+    double ends = 0, middle = 0;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      const MotionTable table =
+          recording([&](double t) { return speed * t + noise(generator); }, 0, 0.001, kRows);
+      const auto law = tableLaw(table);
+      for (const double t : {0.0, law->duration()}) ends += std::pow(at(*law, t).qdd[0], 2) / 2;
+      middle += std::pow(at(*law, table.times[kRows / 2]).qdd[0], 2);
+    }
+    EXPECT_LE(std::sqrt(ends / middle), kMost) << speed;
   }
 }
 

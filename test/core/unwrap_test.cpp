@@ -130,18 +130,20 @@ TEST(TurnCounter, OtherJumpsOfRevoluteJointsStay) {
   expectAsItCame(counter, {-3, 3}, 0);          // no time between them
   expectAsItCame(counter, {-3, 3}, -1);         // time goes back
   expectAsItCame(counter, {0, 3, 6.5, 0.3});    // not within one turn
+  expectAsItCame(counter, {2.5, -2.5}, 0.02);   // nor does a turn make it a motion
   expectAsItCame(counter, {-3, -3.5, 2.9, 3});  // not within one turn after the jump
 }
 
 TEST(TurnCounter, TurnsThatLeadOutOfTheLimitsStay) {
-  expectAsItCame(TurnCounter(jointOf(JointType::kRevolute, -2.9, 2.9)), {2.85, -2.85, 2.85});
+  expectAsItCame(TurnCounter(jointOf(JointType::kRevolute, -2.9, 2.9)), {2.85, -2.85, 2.85}, 0.05);
   const auto jump = [](double lower, double upper) {
-    return unwrapped(TurnCounter(jointOf(JointType::kRevolute, lower, upper)), {2.85, -2.85})[1];
+    return unwrapped(TurnCounter(jointOf(JointType::kRevolute, lower, upper)), {2.85, -2.85},
+                     0.05)[1];
   };
   EXPECT_EQ(jump(-3, 3.2), -2.85);
   EXPECT_EQ(jump(-3, 3.5), 2 * kPi - 2.85);
   const auto jump_down = [](double lower) {
-    return unwrapped(TurnCounter(jointOf(JointType::kRevolute, lower, 3)), {-2.85, 2.85})[1];
+    return unwrapped(TurnCounter(jointOf(JointType::kRevolute, lower, 3)), {-2.85, 2.85}, 0.05)[1];
   };
   EXPECT_EQ(jump_down(-3.2), 2.85);
   EXPECT_EQ(jump_down(-3.5), 2.85 - 2 * kPi);
@@ -164,6 +166,8 @@ TEST(TurnCounter, JointsWithoutTurnsStay) {
 
 TEST(TurnCounter, JumpsThatADoubleDoesNotResolveStay) {
   expectAsItCame(TurnCounter(kContinuousJoint), {0, 1e12, 1e300, -1e300});
+  // Nor do they keep turns that were counted before.
+  EXPECT_EQ(unwrapped(TurnCounter(kContinuousJoint), {3, -3, 1e12})[2], 1e12);
 }
 
 // --- tables -----------------------------------------------------------------------------------

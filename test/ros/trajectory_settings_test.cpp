@@ -181,7 +181,7 @@ TEST(TrajectorySettings, TableOfNamedJointsOrOfAll) {
 }
 
 /// The angle at the end of a table of one joint, the wheel.
-double wheelAtTheEnd(const std::string& rows, const Mechanism* robot) {
+double wheelAtTheEnd(const std::string& rows, const RobotSource& robot) {
   const TemporaryFile file("time,position.wheel\n" + rows);
   PrivateParameters parameters(
       parameter(YAML::Load("{joints: [], law: table, file: '" + file.path() + "'}")));
@@ -200,10 +200,22 @@ TEST(TrajectorySettings, PositionsOfATableThatWrapAreUnwrapped) {
   const Mechanism robot("robot", links, joints);
   // A row a second at 3 rad/s: only a description tells that the wheel turns on.
   const std::string slow = "0,3\n1,-0.28318530717958623\n";
-  EXPECT_NEAR(wheelAtTheEnd(slow, &robot), 6, kClosedForm);
-  EXPECT_LT(wheelAtTheEnd(slow, nullptr), 0);
+  const auto described = [&robot] { return robot; };
+  EXPECT_NEAR(wheelAtTheEnd(slow, described), 6, kClosedForm);
+  EXPECT_LT(wheelAtTheEnd(slow, {}), 0);
+  EXPECT_LT(wheelAtTheEnd(slow, [] { return std::nullopt; }), 0) << "none is described";
   // In ten milliseconds nothing turns back as far.
-  EXPECT_NEAR(wheelAtTheEnd("0,3\n0.01,-3.26\n", nullptr), 2 * kPi - 3.26, kClosedForm);
+  EXPECT_NEAR(wheelAtTheEnd("0,3\n0.01,-3.26\n", {}), 2 * kPi - 3.26, kClosedForm);
+}
+
+TEST(TrajectorySettings, OnlyATableAsksForTheRobot) {
+  PrivateParameters parameters(parameter(YAML::Load("{law: cosine}")));
+  const TrajectorySettings settings =
+      readTrajectorySettings(parameters, []() -> std::optional<Mechanism> {
+        ADD_FAILURE() << "asked for";
+        return std::nullopt;
+      });
+  EXPECT_NE(settings.law, nullptr);
 }
 
 TEST(TrajectorySettings, RefusalsNameTheParameter) {
