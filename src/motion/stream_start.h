@@ -30,12 +30,15 @@ inline int startingSamples(const StreamModel& model, int order, double interval)
 template <int N, typename Sample>
 StreamState<N> firstState(const StreamModel& model, double interval, int count,
                           const Sample& sample) {
-  // So many that little is known, but not so many that the variance of the velocity would lose its
-  // digits when it falls to that of the samples.
+  // So many that little is known, but not so many that what the velocity's deviation makes of the
+  // next position loses its digits when it falls to that of the samples.
   constexpr double kManyTimeConstants = 100;
   constexpr double kLargest = 1e10;
-  const double many = std::min(kManyTimeConstants, std::pow(kLargest, 1.0 / (2 * N - 3)));
-  const double time = many * std::max(timeConstant(model, N, interval), interval);
+  const double longest =
+      std::pow(kLargest * model.position_variance / (model.density * interval * interval),
+               1.0 / (2 * N - 3));
+  const double time =
+      std::min(kManyTimeConstants * std::max(timeConstant(model, N, interval), interval), longest);
   StreamState<N> state;
   state.x.setZero();
   state.P.setZero();
