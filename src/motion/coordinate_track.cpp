@@ -146,9 +146,8 @@ CoordinateTrack::Verdict CoordinateTrack::push(std::int64_t stamp, double q, dou
   } else {
     stretch_ = std::min(stretch_ + 1, capacity());
     noteStep();
-    const bool power_of_two = (stretch_ & (stretch_ - 1)) == 0;
-    if (power_of_two && stretch_ >= kFewest && stretch_ <= startingCount()) {
-      restart(stretch_);
+    if (startIsStale()) {
+      restart(std::min(stretch_, kMostStarting));
     } else {
       follow(entry(1), now, true);
     }
@@ -228,8 +227,18 @@ int CoordinateTrack::startingCount() const {
   return startingSamples(model_, kOrder, interval_);
 }
 
+/// Whether the newest sample tells more of the start of the stretch than was known when the filter
+/// was started.
+bool CoordinateTrack::startIsStale() const {
+  if (!learnt_)
+    return stretch_ <= kMostStarting || model_.position_variance > 2 * started_variance_;
+  const bool power_of_two = (stretch_ & (stretch_ - 1)) == 0;
+  return power_of_two && stretch_ >= kFewest && stretch_ <= startingCount();
+}
+
 /// Starts the filter again so many samples ago, or with the stretch.
 void CoordinateTrack::restart(int samples) {
+  started_variance_ = model_.position_variance;
   const int oldest = std::min(std::max(samples, startingCount()), stretch_) - 1;
   Entry& first = entry(oldest);
   const int count = std::min(startingCount(), oldest + 1);
@@ -307,7 +316,6 @@ void CoordinateTrack::noteInterval(std::int64_t stamp) {
 /// Learns from the latest positions how finely they are resolved.
 void CoordinateTrack::noteStep() {
   if (stretch_ < 3 || entry(2).turns != entry(0).turns) return;
-  const bool known = std::isfinite(steps_.step());
   steps_.take(entry(2).q, entry(1).q, entry(0).q);
   least_position_ = leastNoise(steps_.step(), entry(0).q);
   if (learnt_) {
@@ -317,9 +325,6 @@ void CoordinateTrack::noteStep() {
   }
   noteNoise();
   model_ = firstModel();
-  if (known || std::isinf(steps_.step())) return;
-  // Until now positions seemed to be exact.
-  restart(kMostStarting);
 }
 
 /// Learns from the latest positions how large their noise is, from differences of fourth order:

@@ -94,6 +94,7 @@ class CoordinateTrack {
   void begin(Entry& entry);
   StreamState<kOrder> startAlone() const;
   int startingCount() const;
+  bool startIsStale() const;
   void restart(int samples);
   void follow(const Entry& before, Entry& entry, bool judge);
   Verdict insert(std::int64_t stamp, double q, double qd);
@@ -127,16 +128,17 @@ class CoordinateTrack {
   int jumps_ = 0;
 
   StreamModel model_;
-  StepFinder steps_;  // that positions are rounded to
-  double least_position_;  // standard deviation that no sample can be better than
-  int differences_ = 0;     // of fourth order, of the latest stretch
-  double difference_ = 0;   // the latest of them
-  double squares_ = 0;      // mean of their squares
-  double products_ = 0;     // mean of the products of those that follow each other
-  double surprise_ = 1;  // mean square of the latest innovations over their variances
-  double one_way_ = 0;   // mean product of each with the one before
+  StepFinder steps_;             // that positions are rounded to
+  double least_position_;        // standard deviation that no sample can be better than
+  double started_variance_ = 0;  // of positions, when the filter was last started
+  int differences_ = 0;          // of fourth order, of the latest stretch
+  double difference_ = 0;        // the latest of them
+  double squares_ = 0;           // mean of their squares
+  double products_ = 0;          // mean of the products of those that follow each other
+  double surprise_ = 1;          // mean square of the latest innovations over their variances
+  double one_way_ = 0;           // mean product of each with the one before
   double previous_innovation_ = 0;
-  bool learnt_ = false;    // whether model_ is from the samples
+  bool learnt_ = false;  // whether model_ is from the samples
   bool velocities_proven_ = false;
   double velocity_ratio_ = 1;
 

@@ -27,9 +27,9 @@ class StepFinder {
   double noDifference() const;
 
   double divisor_ = 0;
-  double largest_ = 0;     // difference
-  double magnitude_ = 0;   // of the positions
-  int differences_ = 0;    // that are not zero
+  double largest_ = 0;    // difference
+  double magnitude_ = 0;  // of the positions
+  int differences_ = 0;   // that are not zero
 };
 
 /// Positions that noiseDifference() takes.

@@ -134,8 +134,7 @@ SimplexSearch::Point StreamIdentification::whole(const SimplexSearch::Point& sea
 /// The model of blocks at a point, held within what makes sense.
 StreamModel StreamIdentification::modelAt(const SimplexSearch::Point& point) const {
   StreamModel model;
-  const double time = std::clamp(std::exp(point[kTime]), kShortestTime * interval_,
-                                 longestTime());
+  const double time = std::clamp(std::exp(point[kTime]), kShortestTime * interval_, longestTime());
   const double position = std::max(
       {std::exp(point[kPosition]), knowledge_.least_position / std::sqrt(samples_), kTiny});
   model.position_variance = position * position;
