@@ -559,8 +559,10 @@ void CoordinateTrack::startIdentification() {
 void CoordinateTrack::useIdentified() {
   model_ = identification_.model();
   // What later samples say of earlier ones is weighed with one model.
-  const double forgotten =
-      std::max(kForgotten * timeConstant(model_, kOrder, interval_) / interval_, kForgottenSamples);
+  StreamModel at_speed = model_;
+  at_speed.position_variance = model_.variance(entry(0).filtered.x[1]);
+  const double time = timeConstant(at_speed, kOrder, interval_);
+  const double forgotten = std::max(kForgotten * time / interval_, kForgottenSamples);
   restart(static_cast<int>(std::min(lag_ / interval_ + forgotten, kCapacity + 0.0)));
   learnt_ = true;
   expectNothing();

@@ -68,12 +68,13 @@ StreamState<N> firstState(const StreamModel& model, double interval, int count,
                              .template triangularView<Eigen::Upper>()
                              .solve(Square::Identity(terms, terms));
   constexpr double kMargin = 100;  // in variances: the samples are taken in once more
+  const double variance = model.variance(coefficients[0] / span);
+  state.P(0, 0) = variance;
   double scale = 1;
   for (int i = 0; i < terms; ++i) {
     scale *= (i + 1) / span;  // derivative i + 1 of (t / span)^(i + 1)
     state.x[i + 1] = coefficients[i] * scale;
-    state.P(i + 1, i + 1) +=
-        kMargin * model.position_variance * inverse.row(i).squaredNorm() * scale * scale;
+    state.P(i + 1, i + 1) += kMargin * variance * inverse.row(i).squaredNorm() * scale * scale;
   }
   return state;
 }
