@@ -39,6 +39,8 @@ constexpr double kQuickIntervals = 0.5;
 constexpr double kSurprising = 6;
 constexpr double kSurpriseSamples = 6;
 constexpr double kLargestInnovation = 5;
+/// Innovations of which two in a row are of no motion that the model could follow.
+constexpr double kJump = 1e4;
 /// Part of this mean that products of successive innovations make when it is the motion that is
 /// quicker; those of noise alternate.
 constexpr double kOneWay = 0.3;
@@ -117,6 +119,8 @@ void CoordinateTrack::forgetRecord() {
   summed_ = 0;
   block_count_ = 0;
   new_blocks_ = 0;
+  wanted_blocks_ = StreamIdentification::kFewest;
+  identification_.stop();
 }
 
 double CoordinateTrack::moved(const Entry& from, const Entry& to) {
@@ -151,6 +155,7 @@ CoordinateTrack::Verdict CoordinateTrack::push(std::int64_t stamp, double q, dou
       restart(std::min(stretch_, kMostStarting));
     } else {
       follow(entry(1), now, true);
+      if (jumped_) beginAnew();
     }
     identify();
   }
@@ -208,6 +213,17 @@ StreamModel CoordinateTrack::firstModel() const {
   knowledge.time_constant =
       noise_.bandwidth > 0 ? 1 / (kTwoPi * noise_.bandwidth) : firstTime(noise, interval);
   return unlearnt(knowledge, interval);
+}
+
+/// Takes the two newest samples for the first ones of another motion, with nothing learnt.
+void CoordinateTrack::beginAnew() {
+  jumped_ = false;
+  learnt_ = false;
+  forgetRecord();
+  startStretch(entry(1).stamp);
+  begin(entry(1));
+  stretch_ = 2;
+  restart(2);
 }
 
 void CoordinateTrack::begin(Entry& entry) {
@@ -277,13 +293,16 @@ void CoordinateTrack::adapt(const StreamUpdate<kOrder>& update, StreamState<kOrd
   const double square = limited(innovation) * limited(innovation);
   const double product = limited(innovation) * limited(previous_innovation_);
   // What two samples in a row say is no outlier.
-  const double seen_twice = std::min(std::abs(innovation), std::abs(previous_innovation_));
+  const bool same_side = innovation * previous_innovation_ > 0;
+  const double seen_twice =
+      same_side ? std::min(std::abs(innovation), std::abs(previous_innovation_)) : 0;
   surprise_ += (square - surprise_) / kSurpriseSamples;
   one_way_ += (product - one_way_) / kSurpriseSamples;
   previous_innovation_ = innovation;
-  if (surprise_ < kSurprising) return;
-  const double surprise = std::max(surprise_, seen_twice * seen_twice);
-  const bool quicker = one_way_ > kOneWay * surprise_;
+  jumped_ = seen_twice > kJump;
+  if (jumped_ || surprise_ < kSurprising) return;
+  const double surprise = surprise_;
+  const bool quicker = one_way_ > kOneWay * surprise;
   expectNothing();
   if (quicker) {
     if (noise_.bandwidth > 0) return;
@@ -291,11 +310,12 @@ void CoordinateTrack::adapt(const StreamUpdate<kOrder>& update, StreamState<kOrd
     const double most = densityFor(quickest, model_.position_variance, kOrder, interval_);
     model_.density = std::max(model_.density, std::min(kBoost * model_.density, most));
     // What so quick a motion does in one time constant, as much of it as explains the innovations.
+    const double explained = std::max(surprise, seen_twice * seen_twice);
     const double time = timeConstant(model_, kOrder, interval_);
     StreamState<kOrder> noise;
     noise.P.setZero();
     addNoise<kOrder>(time, 1, noise);
-    state.P += surprise * foreseen / noise.P(0, 0) * noise.P;
+    state.P += explained * foreseen / noise.P(0, 0) * noise.P;
   } else {
     if (noise_.position_noise >= 0) return;
     model_.position_variance *= surprise;

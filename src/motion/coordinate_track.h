@@ -92,6 +92,7 @@ class CoordinateTrack {
   int ageAt(std::int64_t instant) const;
   static double moved(const Entry& from, const Entry& to);
   void begin(Entry& entry);
+  void beginAnew();
   StreamState<kOrder> startAlone() const;
   int startingCount() const;
   bool startIsStale() const;
@@ -138,6 +139,7 @@ class CoordinateTrack {
   double surprise_ = 1;          // mean square of the latest innovations over their variances
   double one_way_ = 0;           // mean product of each with the one before
   double previous_innovation_ = 0;
+  bool jumped_ = false;
   bool learnt_ = false;  // whether model_ is from the samples
   bool velocities_proven_ = false;
   double velocity_ratio_ = 1;

@@ -15,8 +15,10 @@ constexpr double kLastDigits = std::numeric_limits<double>::epsilon() / 4;
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
 /// What is so many times larger than its error is not zero.
 constexpr double kCertain = 10;
-/// Of so many differences of a step, one at least has another sign than the one before.
+/// Of so many differences of a step, one at least has another sign than the one before; a jump of
+/// the positions makes two such changes.
 constexpr int kAlternating = 4;
+constexpr int kFewestAlternations = 4;
 constexpr double kLeast = 1e-12;  // rad or m: less than any encoder resolves
 /// Time constant of a model that follows its samples, in intervals.
 constexpr double kFollowing = 0.2;
@@ -77,7 +79,8 @@ void StepFinder::take(double oldest, double middle, double newest) {
 }
 
 double StepFinder::step() const {
-  const bool found = alternations_ > 0 && kAlternating * alternations_ >= differences_ &&
+  const bool found = alternations_ >= kFewestAlternations &&
+                     kAlternating * alternations_ >= differences_ &&
                      divisor_.value > kCertain * kCertain * divisor_.error;
   return found ? divisor_.value : std::numeric_limits<double>::infinity();
 }

@@ -49,6 +49,7 @@ class StreamIdentification {
              const StreamModel* guess);
 
   bool running() const { return running_; }
+  void stop() { running_ = false; }
   /// Goes over `steps` blocks; returns true in the slice that finishes.
   bool advance(int steps);
   /// To the end.

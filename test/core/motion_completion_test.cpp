@@ -168,11 +168,11 @@ TEST(MotionCompletion, PlayedBackwardsAMotionHasTheSameAccelerations) {
   MotionTable forward;
   MotionTable backward;
   forward.joints = backward.joints = {"hinge"};
-  forward.times = unevenTimes(30);
-  forward.positions.resize(30, 1);
-  for (int i = 0; i < 30; ++i) {
+  forward.times = unevenTimes(120);
+  forward.positions.resize(120, 1);
+  for (int i = 0; i < 120; ++i) {
     forward.positions(i, 0) = std::sin(40 * (forward.times[static_cast<std::size_t>(i)] - 100));
-    backward.times.push_back(-forward.times[static_cast<std::size_t>(29 - i)]);
+    backward.times.push_back(-forward.times[static_cast<std::size_t>(119 - i)]);
   }
   backward.positions = forward.positions.colwise().reverse();
   // With one model: what is found from rows after the first few depends on which these are.
@@ -181,8 +181,11 @@ TEST(MotionCompletion, PlayedBackwardsAMotionHasTheSameAccelerations) {
   settings.noise.bandwidth = 20;
   const MotionTable one = completeMotion(twoJoints(), forward, settings);
   const MotionTable other = completeMotion(twoJoints(), backward, settings);
-  expectNear(other.velocities.colwise().reverse(), -one.velocities, kVelocity);
-  expectNear(other.accelerations.colwise().reverse(), one.accelerations, kAcceleration);
+  // Near an end it counts whether the filter was started there.
+  const auto inside = [](const Eigen::MatrixXd& rows) { return rows.middleRows(40, 40); };
+  expectNear(inside(other.velocities.colwise().reverse()), -inside(one.velocities), kVelocity);
+  expectNear(inside(other.accelerations.colwise().reverse()), inside(one.accelerations),
+             kAcceleration);
 }
 
 TEST(MotionCompletion, ContinuousJointsMayWrap) {
