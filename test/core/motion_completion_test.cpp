@@ -177,15 +177,17 @@ TEST(MotionCompletion, PlayedBackwardsAMotionHasTheSameAccelerations) {
   backward.positions = forward.positions.colwise().reverse();
   // With one model: what is found from rows after the first few depends on which these are.
   CompletionSettings settings;
-  settings.noise.position_noise = 1e-2;
+  settings.noise.position_noise = 1e-6;
+  settings.noise.stamp_noise = 0;
   settings.noise.bandwidth = 20;
   const MotionTable one = completeMotion(twoJoints(), forward, settings);
   const MotionTable other = completeMotion(twoJoints(), backward, settings);
-  // Near an end it counts whether the filter was started there.
+  // Near an end it counts whether the filter was started there. Covariances fall by 1e10 from the
+  // start on, which costs estimates their last digits.
+  constexpr double kDigits = 1e-9;
   const auto inside = [](const Eigen::MatrixXd& rows) { return rows.middleRows(40, 40); };
-  expectNear(inside(other.velocities.colwise().reverse()), -inside(one.velocities), kVelocity);
-  expectNear(inside(other.accelerations.colwise().reverse()), inside(one.accelerations),
-             kAcceleration);
+  expectNear(inside(other.velocities.colwise().reverse()), -inside(one.velocities), kDigits);
+  expectNear(inside(other.accelerations.colwise().reverse()), inside(one.accelerations), kDigits);
 }
 
 TEST(MotionCompletion, ContinuousJointsMayWrap) {
