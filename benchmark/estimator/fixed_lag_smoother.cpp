@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include "motion/stream_filter.h"
+#include "motion/stream_model.h"
+#include "motion/stream_start.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -24,7 +28,12 @@ class FilteredJoint {
     model.velocity_variance = spec.hasVelocities() ? std::pow(spec.velocityNoise(), 2) : -1;
     model.stamp_variance = spec.jitter * spec.jitter;
     model.density = densityFor(time_constant, model.position_variance, kOrder, 1.0 / spec.rate);
-    StreamState<kOrder> state = firstState<kOrder>(model, 1.0 / spec.rate);
+    const double interval = 1.0 / spec.rate;
+    StreamState<kOrder> state = firstState<kOrder>(
+        model, interval, startingSamples(model, kOrder, interval), [&](int i) {
+          return std::pair(recording.stamps[static_cast<std::size_t>(i)] - recording.stamps[0],
+                           recording.positions(i, joint) - recording.positions(0, joint));
+        });
     steps_[0].filtered = state;
     for (std::size_t row = 1; row < steps_.size(); ++row) follow(model, row, state);
   }

@@ -17,20 +17,35 @@ constexpr int kCapacity = 1024;
 /// Samples that a late one may be put before.
 constexpr int kMostLate = 64;
 
-/// Time constant before anything is learnt, s and intervals.
-constexpr double kFirstTime = 0.02;
-constexpr double kFirstIntervals = 3;
+/// Before anything is learnt, the time constant is one with which noise of the positions makes so
+/// much acceleration, rad/s^2 or m/s^2, within these bounds, s and intervals.
+constexpr double kFirstAcceleration = 0.1;
+constexpr double kLongestFirstTime = 0.05;
+constexpr double kShortestFirstIntervals = 0.5;
+/// Differences that noise can be told from.
+constexpr int kFewestDifferences = 6;
+/// Time between samples where it is not known, s.
+constexpr double kUsualInterval = 0.005;
 /// A model is no stiffer than this, so that a motion that begins is not overlooked.
 constexpr double kLongestTime = 1.0;  // s
 /// Shortest time constant that a surprise leads to, s and intervals; less has to be learnt.
 constexpr double kQuickTime = 0.004;
 constexpr double kQuickIntervals = 0.5;
 
-/// Mean square of innovations over their variance that the model cannot have foreseen, the factor
-/// by which the density of the motion then grows, and the samples that the mean goes over.
+/// Mean square of innovations over their variance that the model cannot have foreseen, the samples
+/// that the mean goes over, and the largest square that counts: one sample alone is no surprise.
 constexpr double kSurprising = 6;
-constexpr double kBoost = 10;
 constexpr double kSurpriseSamples = 6;
+constexpr double kLargestSquare = 25;
+/// Part of this mean that products of successive innovations make when it is the motion that is
+/// quicker; those of noise alternate.
+constexpr double kOneWay = 0.3;
+/// The factor by which the density of the motion then grows.
+constexpr double kBoost = 10;
+/// Variance that a step of the positions adds to what is foreseen, in that of their rounding.
+constexpr double kStepVariance = 3;
+/// Part of the time of the blocks that a time constant found from them can be.
+constexpr double kLongestPart = 1.0 / 3;
 
 /// Blocks that the model is found from: their time, s, and how many of them.
 constexpr double kBlockTime = 0.004;
@@ -59,6 +74,13 @@ constexpr double kAbsurdSpeed = 1e4;
 
 double secondsBetween(std::int64_t from, std::int64_t to) {
   return static_cast<double>(to - from) * 1e-9;
+}
+
+/// Time constant before anything is learnt of the motion, s.
+double firstTime(double position_noise, double interval) {
+  const double time =
+      std::pow(std::pow(position_noise / kFirstAcceleration, 2) * interval, 1.0 / 5);
+  return std::max(std::min(time, kLongestFirstTime), kShortestFirstIntervals * interval);
 }
 
 }  // namespace
@@ -134,6 +156,8 @@ void CoordinateTrack::startStretch(std::int64_t stamp) {
   stretch_ = 1;
   stretch_start_ = stamp;
   summed_ = 0;
+  differences_ = 0;
+  alternation_ = 0;
 }
 
 /// Puts a late sample in its place, and filters those after it again.
@@ -161,16 +185,23 @@ CoordinateTrack::Verdict CoordinateTrack::insert(std::int64_t stamp, double q, d
   return Verdict::kInserted;
 }
 
+double CoordinateTrack::usualInterval() const {
+  return std::isfinite(interval_) ? interval_ : kUsualInterval;
+}
+
 /// The model before anything is learnt.
 StreamModel CoordinateTrack::firstModel() const {
   StreamKnowledge knowledge;
   knowledge.least_position = least_position_;
   knowledge.position_noise = noise_.position_noise;
+  if (knowledge.position_noise < 0 && differences_ > kFewestDifferences && alternation_ > 0)
+    knowledge.position_noise = std::sqrt(alternation_);
   knowledge.stamp_noise = noise_.stamp_noise;
   knowledge.use_velocities = false;
-  const double interval = std::isfinite(interval_) ? interval_ : kFirstTime / kFirstIntervals;
-  knowledge.time_constant = noise_.bandwidth > 0 ? 1 / (kTwoPi * noise_.bandwidth)
-                                                 : std::max(kFirstTime, kFirstIntervals * interval);
+  const double interval = usualInterval();
+  const double noise = std::max(knowledge.position_noise, least_position_);
+  knowledge.time_constant =
+      noise_.bandwidth > 0 ? 1 / (kTwoPi * noise_.bandwidth) : firstTime(noise, interval);
   return unlearnt(knowledge, interval);
 }
 
@@ -179,13 +210,12 @@ void CoordinateTrack::begin(Entry& entry) {
   entry.first = true;
   entry.has_velocity = false;
   entry.filtered = startAlone();
-  surprise_ = 1;
+  expectNothing();
 }
 
 /// The state at a first sample, with nothing to start from but itself.
 StreamState<CoordinateTrack::kOrder> CoordinateTrack::startAlone() const {
-  const double interval = std::isfinite(interval_) ? interval_ : kFirstTime / kFirstIntervals;
-  return firstState<kOrder>(model_, interval, 1, [](int) { return std::pair(0.0, 0.0); });
+  return firstState<kOrder>(model_, usualInterval(), 1, [](int) { return std::pair(0.0, 0.0); });
 }
 
 /// Samples that the filter is started from, in the end.
@@ -216,23 +246,50 @@ void CoordinateTrack::follow(const Entry& before, Entry& entry, bool judge) {
   entry.has_velocity = model_.usesVelocities() && std::isfinite(entry.qd);
   if (entry.has_velocity)
     entry.velocity = update<kOrder>(1, entry.qd - state.x[1], model_.velocity_variance, state);
-  if (judge && stretch_ > kFewest) adapt(entry.position.normalizedSquare(), state);
+  if (judge && stretch_ > kFewest) adapt(entry.position, state);
 }
 
-/// Makes the model follow more quickly when innovations are much larger than it foresees: the joint
-/// moves faster than it did when the model was learnt.
-void CoordinateTrack::adapt(double normalized_square, StreamState<kOrder>& state) {
-  surprise_ += (std::min(normalized_square, 100.0) - surprise_) / kSurpriseSamples;
-  if (surprise_ < kSurprising || noise_.bandwidth > 0) return;
-  surprise_ = 1;
-  const double quickest = std::max(kQuickTime, kQuickIntervals * interval_);
-  const double most = densityFor(quickest, model_.position_variance, kOrder, interval_);
-  const double factor = std::min(kBoost, most / model_.density);
-  if (factor <= 1) return;
-  model_.density *= factor;
-  // One factor for all, so that what is added is a covariance.
-  state.P *= factor;
+/// Changes the model when innovations are much larger than it foresees: the joint moves faster than
+/// it did when the model was learnt, or its positions are worse.
+void CoordinateTrack::adapt(const StreamUpdate<kOrder>& update, StreamState<kOrder>& state) {
+  // A step of a slow joint's positions is one of the encoder's, and stays for many samples.
+  const double foreseen = 1 / update.precision + kStepVariance * least_position_ * least_position_;
+  const double largest = std::sqrt(kLargestSquare);
+  const double innovation =
+      std::clamp(update.scaled / update.precision / std::sqrt(foreseen), -largest, largest);
+  surprise_ += (innovation * innovation - surprise_) / kSurpriseSamples;
+  one_way_ += (innovation * previous_innovation_ - one_way_) / kSurpriseSamples;
+  previous_innovation_ = innovation;
+  if (surprise_ < kSurprising) return;
+  const double surprise = surprise_;
+  const bool quicker = one_way_ > kOneWay * surprise;
+  expectNothing();
+  if (quicker) {
+    if (noise_.bandwidth > 0) return;
+    const double quickest = std::max(kQuickTime, kQuickIntervals * interval_);
+    const double most = densityFor(quickest, model_.position_variance, kOrder, interval_);
+    model_.density = std::max(model_.density, std::min(kBoost * model_.density, most));
+    // What so quick a motion does in one time constant, as much of it as explains the innovations.
+    const double time = timeConstant(model_, kOrder, interval_);
+    StreamState<kOrder> noise;
+    noise.P.setZero();
+    addNoise<kOrder>(time, 1, noise);
+    state.P += surprise * foreseen / noise.P(0, 0) * noise.P;
+  } else {
+    if (noise_.position_noise >= 0) return;
+    // One factor for all leaves the gains, and so what is estimated, as they are.
+    model_.position_variance *= surprise;
+    model_.density *= surprise;
+    state.P *= surprise;
+  }
   wanted_blocks_ = std::min(wanted_blocks_, StreamIdentification::kFewest);
+}
+
+/// Forgets the surprises so far.
+void CoordinateTrack::expectNothing() {
+  surprise_ = 1;
+  one_way_ = 0;
+  previous_innovation_ = 0;
 }
 
 void CoordinateTrack::noteInterval(std::int64_t stamp) {
@@ -248,6 +305,7 @@ void CoordinateTrack::noteStep() {
   double positions[kStepPositions];
   for (int i = 0; i < kStepPositions; ++i)
     positions[i] = entry(0).q - moved(entry(kStepPositions - 1 - i), entry(0));
+  if (!learnt_) noteNoise(positions);
   const bool first = std::isinf(least_step_);
   least_step_ = std::min(least_step_, leastStep(positions));
   least_position_ = leastNoise(least_step_, entry(0).q);
@@ -265,6 +323,18 @@ void CoordinateTrack::noteStep() {
   } else if (stretch_ <= kMostStarting) {
     restart();
   }
+}
+
+/// Learns from the latest positions how large their noise is: fourth differences that follow each
+/// other have a mean product of -56 variances where noise is white, and a positive one where the
+/// motion makes them.
+void CoordinateTrack::noteNoise(const double* positions) {
+  const double* q = positions;
+  const double difference = (q[0] - q[2]) - 4 * (q[1] - q[2]) - 4 * (q[3] - q[2]) + (q[4] - q[2]);
+  if (differences_ > 0)
+    alternation_ += (-difference * difference_ / 56 - alternation_) / differences_;
+  difference_ = difference;
+  ++differences_;
 }
 
 /// Learns from the latest steps whether positions jump to and fro.
@@ -448,13 +518,15 @@ void CoordinateTrack::startIdentification() {
     wanted_blocks_ = StreamIdentification::kFewest;
   }
   knowledge.use_velocities = noise_.use_velocity && velocities_proven_;
+  knowledge.longest_time =
+      std::min(kLongestTime, kLongestPart * interval * static_cast<double>(blocks.size()));
   knowledge.longest_gap = std::max(static_cast<double>(max_gap_) * 1e-9, 2.5 * interval);
   if (noise_.bandwidth > 0) {
     knowledge.time_constant = 1 / (kTwoPi * noise_.bandwidth);
   } else if (most - least < kMovingSteps * deviation) {
     // At rest noise can be learnt, but not how fast the joint will move; nor shall that wait behind
     // the rest.
-    const double first = std::max(kFirstTime, kFirstIntervals * interval_);
+    const double first = firstTime(std::sqrt(model_.position_variance), interval_);
     knowledge.time_constant = std::max(timeConstant(model_, kOrder, interval_), first);
     block_count_ = std::min(block_count_, kBlocksOfRest);
     blocks.erase(blocks.begin(), blocks.end() - static_cast<std::ptrdiff_t>(block_count_));
@@ -465,10 +537,8 @@ void CoordinateTrack::startIdentification() {
 
 void CoordinateTrack::useIdentified() {
   model_ = identification_.model();
-  const double least = densityFor(kLongestTime, model_.position_variance, kOrder, interval_);
-  if (!(noise_.bandwidth > 0)) model_.density = std::max(model_.density, least);
   learnt_ = true;
-  surprise_ = 1;
+  expectNothing();
 }
 
 }  // namespace virtual_work_dynamics

@@ -97,9 +97,12 @@ class CoordinateTrack {
   void follow(const Entry& before, Entry& entry, bool judge);
   Verdict insert(std::int64_t stamp, double q, double qd);
   void noteStep();
+  void noteNoise(const double* positions);
   void noteJump();
   void noteInterval(std::int64_t stamp);
-  void adapt(double normalized_square, StreamState<kOrder>& state);
+  void adapt(const StreamUpdate<kOrder>& update, StreamState<kOrder>& state);
+  void expectNothing();
+  double usualInterval() const;
   void startStretch(std::int64_t stamp);
   void forgetRecord();
   StreamModel firstModel() const;
@@ -123,7 +126,12 @@ class CoordinateTrack {
   StreamModel model_;
   double least_step_ = std::numeric_limits<double>::infinity();  // that positions are rounded to
   double least_position_;  // standard deviation that no sample can be better than
-  double surprise_ = 1;    // mean square of the latest innovations over their variances
+  int differences_ = 0;     // of fourth order, of the latest stretch
+  double difference_ = 0;   // the latest of them
+  double alternation_ = 0;  // mean of what products of those that follow each other say of noise
+  double surprise_ = 1;  // mean square of the latest innovations over their variances
+  double one_way_ = 0;   // mean product of each with the one before
+  double previous_innovation_ = 0;
   bool learnt_ = false;    // whether model_ is from the samples
   bool velocities_proven_ = false;
   double velocity_ratio_ = 1;

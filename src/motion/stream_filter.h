@@ -33,6 +33,16 @@ std::array<double, N> taylorWeights(double dt) {
   return weights;
 }
 
+/// Adds what white noise of this density does to a state within `dt`.
+template <int N>
+void addNoise(double dt, double density, StreamState<N>& state) {
+  // Q_ij is the density times the integral of f_(N-1-i) f_(N-1-j) from 0 to dt.
+  const std::array<double, N> f = taylorWeights<N>(dt);
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j)
+      state.P(i, j) += density * dt * f[N - 1 - i] * f[N - 1 - j] / (2 * N - 1 - i - j);
+}
+
 /// Takes a state from its time to a time `dt` later: x <- F x, P <- F P F^T + Q.
 template <int N>
 void predict(double dt, double density, StreamState<N>& state) {
@@ -45,10 +55,7 @@ void predict(double dt, double density, StreamState<N>& state) {
     }
   for (int i = 0; i < N; ++i)
     for (int k = i + 1; k < N; ++k) state.P.col(i) += f[k - i] * state.P.col(k);
-  // Q_ij is the density times the integral of f_(N-1-i) f_(N-1-j) from 0 to dt.
-  for (int i = 0; i < N; ++i)
-    for (int j = 0; j < N; ++j)
-      state.P(i, j) += density * dt * f[N - 1 - i] * f[N - 1 - j] / (2 * N - 1 - i - j);
+  addNoise<N>(dt, density, state);
 }
 
 /// Takes in a measurement of derivative `row`, of this residual and variance > 0.

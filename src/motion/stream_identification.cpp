@@ -14,7 +14,7 @@ namespace {
 constexpr int kUnjudged = 5;
 /// Time constants that make sense, in intervals: below, everything is followed.
 constexpr double kShortestTime = 0.1;
-constexpr double kLongestTime = 3.0;  // s
+constexpr double kLeastLongest = 8;
 constexpr double kGridFactor = 3;
 /// The search ends when all parameters are known to this logarithm: a twentieth changes estimates
 /// by far less than their error.
@@ -85,15 +85,19 @@ void StreamIdentification::start(const StreamKnowledge& knowledge, double interv
     if (!std::isnan(fixedValue(i)) || (i == kVelocity && !knowledge.use_velocities)) continue;
     searched_[static_cast<std::size_t>(dimensions_++)] = i;
   }
-  const SimplexSearch::Point first = firstGuess(guess);
   best_value_ = std::numeric_limits<double>::infinity();
-  searching_ = guess != nullptr || knowledge.time_constant >= 0;
-  best_ = first;
+  searching_ = knowledge.time_constant >= 0;
+  best_ = candidate_ = firstGuess(guess);
   if (searching_) {
-    beginSearch(first);
+    beginSearch(best_);
   } else {
-    grid_time_ = logarithm(interval);
-    candidate_ = first;
+    // Also with a guess: a motion that begins is not found from a model of rest step by step.
+    grid_ = firstGuess(nullptr);
+    if (guess != nullptr) {
+      for (const Parameter other : {kVelocity, kStamp}) grid_[other] = best_[other];
+    } else {
+      grid_[kTime] += std::log(kGridFactor);
+    }
   }
   beginCandidate();
 }
@@ -112,6 +116,10 @@ void StreamIdentification::beginSearch(const SimplexSearch::Point& from) {
   candidate_ = whole(search_.asked());
 }
 
+double StreamIdentification::longestTime() const {
+  return std::max(knowledge_.longest_time, kLeastLongest * interval_);
+}
+
 /// All four parameters, of those that are searched.
 SimplexSearch::Point StreamIdentification::whole(const SimplexSearch::Point& searched) const {
   SimplexSearch::Point point = best_;
@@ -124,7 +132,7 @@ SimplexSearch::Point StreamIdentification::whole(const SimplexSearch::Point& sea
 StreamModel StreamIdentification::modelAt(const SimplexSearch::Point& point) const {
   StreamModel model;
   const double time = std::clamp(std::exp(point[kTime]), kShortestTime * interval_,
-                                 std::max(kLongestTime, 10 * interval_));
+                                 longestTime());
   const double position = std::max(
       {std::exp(point[kPosition]), knowledge_.least_position / std::sqrt(samples_), kTiny});
   model.position_variance = position * position;
@@ -139,7 +147,7 @@ StreamModel StreamIdentification::modelAt(const SimplexSearch::Point& point) con
 double StreamIdentification::penalty(const SimplexSearch::Point& point) const {
   const auto below = [](double value, double bound) { return std::max(0.0, bound - value); };
   const double shortest = logarithm(kShortestTime * interval_);
-  const double longest = logarithm(std::max(kLongestTime, 10 * interval_));
+  const double longest = logarithm(longestTime());
   const double least = logarithm(knowledge_.least_position / std::sqrt(samples_));
   double distance =
       below(point[kTime], shortest) + below(longest, point[kTime]) + below(point[kPosition], least);
@@ -244,9 +252,9 @@ void StreamIdentification::endCandidate() {
     best_value_ = value;
     best_ = candidate_;
   }
-  grid_time_ += std::log(kGridFactor);
-  if (grid_time_ < std::log(std::max(kLongestTime, 10 * interval_))) {
-    candidate_[kTime] = grid_time_;
+  if (grid_[kTime] < std::log(longestTime())) {
+    candidate_ = grid_;
+    grid_[kTime] += std::log(kGridFactor);
   } else {
     beginSearch(best_);
   }

@@ -25,6 +25,7 @@ struct StreamKnowledge {
   double velocity_noise = -1;  ///< rad/s or m/s
   double stamp_noise = -1;     ///< s
   double time_constant = -1;   ///< s
+  double longest_time = 3;     ///< s, that the time constant may be, or eight blocks
   bool use_velocities = true;  ///< where blocks carry them
   double longest_gap = 0.25;   ///< s between blocks, across which nothing is assumed
 };
@@ -64,6 +65,7 @@ class StreamIdentification {
   SimplexSearch::Point firstGuess(const StreamModel* guess) const;
   double positionNoiseFromDifferences() const;
   double fixedValue(int parameter) const;
+  double longestTime() const;
   void beginCandidate();
   int startingBlocks() const;
   double step();
@@ -81,7 +83,7 @@ class StreamIdentification {
   int samples_ = 1;
   bool running_ = false;
   bool searching_ = false;       // else still looking at time constants on a grid
-  double grid_time_ = 0;         // logarithm of the time constant looked at
+  SimplexSearch::Point grid_{};  // the next of these
   SimplexSearch::Point best_{};  // logarithms of the four parameters
   double best_value_ = 0;
   SimplexSearch search_;
