@@ -1,6 +1,7 @@
 #include "motion/coordinate_track.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -47,6 +48,10 @@ constexpr double kStepVariance = 3;
 /// Part of the time of the blocks that a time constant found from them can be.
 constexpr double kLongestPart = 1.0 / 3;
 
+/// Time constants, and samples, after which a filter has forgotten how it was started.
+constexpr double kForgotten = 5;
+constexpr double kForgottenSamples = 16;
+
 /// Blocks that the model is found from: their time, s, and how many of them.
 constexpr double kBlockTime = 0.004;
 constexpr std::size_t kBlocks = 768;
@@ -88,9 +93,10 @@ double firstTime(double position_noise, double interval) {
 CoordinateTrack::CoordinateTrack(const Joint& joint, const EstimatorSettings& settings)
     : turn_counter_(joint),
       noise_(settings.noise),
+      lag_(settings.lag),
       max_gap_(std::llround(settings.max_gap * 1e9)),
       entries_(settings.estimate ? kCapacity : 1),
-      least_position_(leastNoise(least_step_, 0)),
+      least_position_(leastNoise(steps_.step(), 0)),
       wanted_blocks_(StreamIdentification::kFewest) {
   if (!settings.estimate) return;
   blocks_.resize(kBlocks);
@@ -140,9 +146,8 @@ CoordinateTrack::Verdict CoordinateTrack::push(std::int64_t stamp, double q, dou
   } else {
     stretch_ = std::min(stretch_ + 1, capacity());
     noteStep();
-    const bool power_of_two = (stretch_ & (stretch_ - 1)) == 0;
-    if (power_of_two && stretch_ >= kFewest && stretch_ <= startingCount()) {
-      restart();
+    if (startIsStale()) {
+      restart(std::min(stretch_, kMostStarting));
     } else {
       follow(entry(1), now, true);
     }
@@ -157,7 +162,7 @@ void CoordinateTrack::startStretch(std::int64_t stamp) {
   stretch_start_ = stamp;
   summed_ = 0;
   differences_ = 0;
-  alternation_ = 0;
+  squares_ = products_ = 0;
 }
 
 /// Puts a late sample in its place, and filters those after it again.
@@ -194,8 +199,7 @@ StreamModel CoordinateTrack::firstModel() const {
   StreamKnowledge knowledge;
   knowledge.least_position = least_position_;
   knowledge.position_noise = noise_.position_noise;
-  if (knowledge.position_noise < 0 && differences_ > kFewestDifferences && alternation_ > 0)
-    knowledge.position_noise = std::sqrt(alternation_);
+  if (knowledge.position_noise < 0) knowledge.position_noise = shownNoise();
   knowledge.stamp_noise = noise_.stamp_noise;
   knowledge.use_velocities = false;
   const double interval = usualInterval();
@@ -223,11 +227,22 @@ int CoordinateTrack::startingCount() const {
   return startingSamples(model_, kOrder, interval_);
 }
 
-/// Starts the filter again at the first sample of the stretch, now that there are more of them.
-void CoordinateTrack::restart() {
-  const int oldest = stretch_ - 1;
+/// Whether the newest sample tells more of the start of the stretch than was known when the filter
+/// was started.
+bool CoordinateTrack::startIsStale() const {
+  if (!learnt_)
+    return stretch_ <= kMostStarting || model_.position_variance > 2 * started_variance_;
+  const bool power_of_two = (stretch_ & (stretch_ - 1)) == 0;
+  return power_of_two && stretch_ >= kFewest && stretch_ <= startingCount();
+}
+
+/// Starts the filter again so many samples ago, or with the stretch.
+void CoordinateTrack::restart(int samples) {
+  started_variance_ = model_.position_variance;
+  const int oldest = std::min(std::max(samples, startingCount()), stretch_) - 1;
   Entry& first = entry(oldest);
-  first.filtered = firstState<kOrder>(model_, interval_, stretch_, [&](int i) {
+  const int count = std::min(startingCount(), oldest + 1);
+  first.filtered = firstState<kOrder>(model_, interval_, count, [&](int i) {
     const Entry& other = entry(oldest - i);
     return std::pair(secondsBetween(first.stamp, other.stamp), moved(first, other));
   });
@@ -277,7 +292,6 @@ void CoordinateTrack::adapt(const StreamUpdate<kOrder>& update, StreamState<kOrd
     state.P += surprise * foreseen / noise.P(0, 0) * noise.P;
   } else {
     if (noise_.position_noise >= 0) return;
-    // One factor for all leaves the gains, and so what is estimated, as they are.
     model_.position_variance *= surprise;
     model_.density *= surprise;
     state.P *= surprise;
@@ -299,42 +313,49 @@ void CoordinateTrack::noteInterval(std::int64_t stamp) {
   interval_ = std::isfinite(interval_) ? interval_ + weight * (dt - interval_) : dt;
 }
 
-/// Learns from the latest steps how finely positions are resolved.
+/// Learns from the latest positions how finely they are resolved.
 void CoordinateTrack::noteStep() {
-  if (stretch_ < kStepPositions || entry(0).q == entry(1).q) return;
-  double positions[kStepPositions];
-  for (int i = 0; i < kStepPositions; ++i)
-    positions[i] = entry(0).q - moved(entry(kStepPositions - 1 - i), entry(0));
-  if (!learnt_) noteNoise(positions);
-  const bool first = std::isinf(least_step_);
-  least_step_ = std::min(least_step_, leastStep(positions));
-  least_position_ = leastNoise(least_step_, entry(0).q);
+  if (stretch_ < 3 || entry(2).turns != entry(0).turns) return;
+  steps_.take(entry(2).q, entry(1).q, entry(0).q);
+  least_position_ = leastNoise(steps_.step(), entry(0).q);
   if (learnt_) {
     model_.position_variance =
         std::max(model_.position_variance, least_position_ * least_position_);
     return;
   }
+  noteNoise();
   model_ = firstModel();
-  if (!first) return;
-  if (std::all_of(positions, positions + kStepPositions - 1,
-                  [&](double position) { return position == positions[0]; })) {
-    // Until now the joint has been at rest, at a position that seemed to be exact.
-    entry(1).filtered = startAlone();
-  } else if (stretch_ <= kMostStarting) {
-    restart();
-  }
 }
 
-/// Learns from the latest positions how large their noise is: fourth differences that follow each
-/// other have a mean product of -56 variances where noise is white, and a positive one where the
-/// motion makes them.
-void CoordinateTrack::noteNoise(const double* positions) {
-  const double* q = positions;
-  const double difference = (q[0] - q[2]) - 4 * (q[1] - q[2]) - 4 * (q[3] - q[2]) + (q[4] - q[2]);
-  if (differences_ > 0)
-    alternation_ += (-difference * difference_ / 56 - alternation_) / differences_;
+/// Learns from the latest positions how large their noise is, from differences of fourth order:
+/// products of those that follow each other are negative in the mean where noise is white, and as
+/// large as the squares where the motion makes them.
+void CoordinateTrack::noteNoise() {
+  if (stretch_ < static_cast<int>(kDifferenced)) return;
+  std::array<double, kDifferenced> times{};
+  std::array<double, kDifferenced> positions{};
+  for (std::size_t i = 0; i < kDifferenced; ++i) {
+    const Entry& other = entry(static_cast<int>(i));
+    times[i] = secondsBetween(entry(0).stamp, other.stamp);
+    positions[i] = moved(entry(0), other);
+  }
+  const double difference = noiseDifference(times, positions);
+  if (differences_ > 0) {
+    squares_ += (difference * difference - squares_) / differences_;
+    products_ += (difference * difference_ - products_) / differences_;
+  }
   difference_ = difference;
   ++differences_;
+}
+
+/// Standard deviation of positions that the differences show; zero where there are too few.
+double CoordinateTrack::shownNoise() const {
+  constexpr double kCorrelation = -56.0 / 70;  // of differences of white noise, evenly spaced
+  constexpr double kOfMotion = 70;             // square of a difference that is not scaled
+  // A model cannot follow what the motion does between samples that are far apart.
+  if (differences_ > 1 && products_ > squares_ / 2) return std::sqrt(kOfMotion * squares_);
+  if (differences_ < kFewestDifferences) return 0;
+  return std::sqrt(std::max(0.0, (squares_ - products_) / (1 - kCorrelation)));
 }
 
 /// Learns from the latest steps whether positions jump to and fro.
@@ -537,6 +558,12 @@ void CoordinateTrack::startIdentification() {
 
 void CoordinateTrack::useIdentified() {
   model_ = identification_.model();
+  // What later samples say of earlier ones is weighed with one model.
+  StreamModel at_speed = model_;
+  at_speed.position_variance = model_.variance(entry(0).filtered.x[1]);
+  const double time = timeConstant(at_speed, kOrder, interval_);
+  const double forgotten = std::max(kForgotten * time / interval_, kForgottenSamples);
+  restart(static_cast<int>(std::min(lag_ / interval_ + forgotten, kCapacity + 0.0)));
   learnt_ = true;
   expectNothing();
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "motion/sample_blocks.h"
 #include "motion/stream_filter.h"
 #include "motion/stream_identification.h"
 #include "virtual_work_dynamics/mechanism.h"
@@ -93,11 +94,13 @@ class CoordinateTrack {
   void begin(Entry& entry);
   StreamState<kOrder> startAlone() const;
   int startingCount() const;
-  void restart();
+  bool startIsStale() const;
+  void restart(int samples);
   void follow(const Entry& before, Entry& entry, bool judge);
   Verdict insert(std::int64_t stamp, double q, double qd);
   void noteStep();
-  void noteNoise(const double* positions);
+  void noteNoise();
+  double shownNoise() const;
   void noteJump();
   void noteInterval(std::int64_t stamp);
   void adapt(const StreamUpdate<kOrder>& update, StreamState<kOrder>& state);
@@ -114,6 +117,7 @@ class CoordinateTrack {
 
   TurnCounter turn_counter_;
   const NoiseSettings noise_;
+  const double lag_;  // s
   const std::int64_t max_gap_;
   std::vector<Entry> entries_;  // a ring; the oldest makes room for the newest
   int newest_ = -1;
@@ -124,15 +128,17 @@ class CoordinateTrack {
   int jumps_ = 0;
 
   StreamModel model_;
-  double least_step_ = std::numeric_limits<double>::infinity();  // that positions are rounded to
-  double least_position_;  // standard deviation that no sample can be better than
-  int differences_ = 0;     // of fourth order, of the latest stretch
-  double difference_ = 0;   // the latest of them
-  double alternation_ = 0;  // mean of what products of those that follow each other say of noise
-  double surprise_ = 1;  // mean square of the latest innovations over their variances
-  double one_way_ = 0;   // mean product of each with the one before
+  StepFinder steps_;             // that positions are rounded to
+  double least_position_;        // standard deviation that no sample can be better than
+  double started_variance_ = 0;  // of positions, when the filter was last started
+  int differences_ = 0;          // of fourth order, of the latest stretch
+  double difference_ = 0;        // the latest of them
+  double squares_ = 0;           // mean of their squares
+  double products_ = 0;          // mean of the products of those that follow each other
+  double surprise_ = 1;          // mean square of the latest innovations over their variances
+  double one_way_ = 0;           // mean product of each with the one before
   double previous_innovation_ = 0;
-  bool learnt_ = false;    // whether model_ is from the samples
+  bool learnt_ = false;  // whether model_ is from the samples
   bool velocities_proven_ = false;
   double velocity_ratio_ = 1;
 

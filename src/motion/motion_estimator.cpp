@@ -16,8 +16,9 @@ namespace virtual_work_dynamics {
 namespace {
 
 constexpr double kLongestLag = 1;  // s
-/// Samples that come too late one after the other before time is taken to have gone back.
-constexpr int kPatience = 20;
+/// Joint states one after the other that are behind the newest ones before time is taken to have
+/// gone back.
+constexpr int kPatience = 10;
 /// A coordinate leads in place of another one when it comes so much more often.
 constexpr double kFaster = 0.7;
 
@@ -90,7 +91,7 @@ struct MotionEstimator::Impl {
   std::int64_t newest = std::numeric_limits<std::int64_t>::min();
   std::int64_t latest_gap = 0;  // ns
   int gap_coordinate = 0;
-  int too_late = 0;  // samples in a row
+  int behind = 0;  // joint states in a row
 };
 
 MotionEstimator::Impl::Impl(const Mechanism& mechanism, const EstimatorSettings& the_settings)
@@ -120,7 +121,7 @@ void MotionEstimator::Impl::clear() {
   }
   lead = -1;
   latest_instant = newest = std::numeric_limits<std::int64_t>::min();
-  too_late = 0;
+  behind = 0;
 }
 
 /// Makes a coordinate that just came lead where none does, where the leading one has gone silent,
@@ -206,18 +207,20 @@ MotionEstimator::Verdict MotionEstimator::push(std::int64_t stamp_ns, const int*
   Impl& impl = *impl_;
   Verdict verdict = Verdict::kAccepted;
   impl.latest_gap = 0;
-  if (impl.farBack(stamp_ns, coordinates, count) || impl.too_late >= kPatience) {
+  if (impl.farBack(stamp_ns, coordinates, count) || impl.behind >= kPatience) {
     impl.clear();
     verdict = Verdict::kRestartedBack;
   }
   int equal = 0;
   int late = 0;
   bool reordered = false;
+  bool behind = count > 0;
   for (int i = 0; i < count; ++i) {
     Impl::Coordinate& coordinate = impl.at(coordinates[i]);
     CoordinateTrack& track = coordinate.track;
     if (track.empty()) coordinate.first = stamp_ns;
     const std::int64_t gap = track.empty() ? 0 : stamp_ns - track.newest();
+    behind = behind && gap < 0;
     const double velocity = qd != nullptr ? qd[i] : std::numeric_limits<double>::quiet_NaN();
     switch (track.push(stamp_ns, q[i], velocity)) {
       case CoordinateTrack::Verdict::kEqualStamp:
@@ -244,7 +247,7 @@ MotionEstimator::Verdict MotionEstimator::push(std::int64_t stamp_ns, const int*
     impl.newest = std::max(impl.newest, stamp_ns);
     impl.chooseLead(coordinates[i]);
   }
-  impl.too_late = late > 0 ? impl.too_late + 1 : 0;
+  impl.behind = behind ? impl.behind + 1 : 0;
   if (equal == count) return Verdict::kEqualStamp;
   if (equal + late == count) return Verdict::kTooLate;
   return reordered && verdict == Verdict::kAccepted ? Verdict::kReordered : verdict;

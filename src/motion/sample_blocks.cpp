@@ -10,9 +10,11 @@ namespace {
 
 /// Positions are good to so many units of their last digit, at best.
 constexpr double kLastDigits = std::numeric_limits<double>::epsilon() / 4;
-/// Rounding of one position, as a part of it: files print twelve digits or more.
-constexpr double kRounding = 1e-12;
-constexpr double kLeast = 1e-18;  // rad or m: less than any encoder or number resolves near zero
+/// Rounding of a difference of three positions, as a part of them.
+constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
+/// So many times larger than zero is certainly not zero.
+constexpr double kCertain = 20;
+constexpr double kLeast = 1e-12;  // rad or m: less than any encoder resolves
 /// Time constant of a model that follows its samples, in intervals.
 constexpr double kFollowing = 0.2;
 
@@ -41,23 +43,45 @@ std::vector<StreamBlock> averaged(const std::vector<StreamBlock>& samples, int s
   return blocks;
 }
 
-double leastStep(const double* positions) {
-  constexpr int kCount = kStepPositions;
-  double differences[kCount];
-  double most = 0;
-  for (int i = 0; i < kCount; ++i) {
-    differences[i] = positions[i] - positions[0];
-    most = std::max(most, std::abs(positions[i]));
+/// Differences of this magnitude are zero: remainders of numbers with this rounding, of which the
+/// largest is divided by the smallest.
+double StepFinder::noDifference() const {
+  return kCertain * std::sqrt(kRounding * magnitude_ * largest_);
+}
+
+void StepFinder::take(double oldest, double middle, double newest) {
+  magnitude_ = std::max({magnitude_, std::abs(oldest), std::abs(middle), std::abs(newest)});
+  const double difference = std::abs((newest - middle) - (middle - oldest));
+  if (difference <= kRounding * magnitude_) return;
+  ++differences_;
+  largest_ = std::max(largest_, difference);
+  const double zero = noDifference();
+  if (differences_ > 1 && divisor_ <= zero) return;  // there is none
+  for (double rest = difference; rest > zero;) {
+    const double smaller = rest;
+    rest = divisor_ > 0 ? std::abs(divisor_ - smaller * std::round(divisor_ / smaller)) : 0;
+    divisor_ = smaller;
   }
-  double least = std::numeric_limits<double>::infinity();
-  for (int order = 1; order < kCount; ++order) {
-    for (int i = 0; i + order < kCount; ++i) differences[i] = differences[i + 1] - differences[i];
-    if (order == 1) continue;
-    const double rounding = kRounding * most * (1 << order);
-    for (int i = 0; i + order < kCount; ++i)
-      if (std::abs(differences[i]) > rounding) least = std::min(least, std::abs(differences[i]));
+}
+
+double StepFinder::step() const {
+  const bool found = differences_ > 1 && divisor_ > kCertain * noDifference();
+  return found ? divisor_ : std::numeric_limits<double>::infinity();
+}
+
+double noiseDifference(const std::array<double, kDifferenced>& times,
+                       const std::array<double, kDifferenced>& positions) {
+  // Newton's divided difference, as a sum over the positions.
+  double difference = 0;
+  double squares = 0;
+  for (std::size_t i = 0; i < kDifferenced; ++i) {
+    double product = 1;
+    for (std::size_t k = 0; k < kDifferenced; ++k)
+      if (k != i) product *= times[i] - times[k];
+    difference += positions[i] / product;
+    squares += 1 / (product * product);
   }
-  return least;
+  return difference / std::sqrt(squares);
 }
 
 double leastNoise(double step, double position) {
@@ -66,14 +90,13 @@ double leastNoise(double step, double position) {
 }
 
 double leastNoise(const std::vector<double>& positions) {
-  double step = std::numeric_limits<double>::infinity();
+  StepFinder finder;
   double most = 0;
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (i + kStepPositions <= positions.size())
-      step = std::min(step, leastStep(positions.data() + i));
+    if (i > 1) finder.take(positions[i - 2], positions[i - 1], positions[i]);
     most = std::max(most, std::abs(positions[i]));
   }
-  return leastNoise(step, most);
+  return leastNoise(finder.step(), most);
 }
 
 StreamModel unlearnt(const StreamKnowledge& knowledge, double interval) {

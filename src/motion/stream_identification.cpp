@@ -1,10 +1,12 @@
 #include "motion/stream_identification.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "motion/sample_blocks.h"
 #include "motion/stream_start.h"
 
 namespace virtual_work_dynamics {
@@ -30,17 +32,20 @@ double logarithm(double value) {
 
 }  // namespace
 
-/// Standard deviation of a block: differences of fourth order leave little of a smooth motion, and
-/// their median little of its jumps.
+/// Standard deviation of a block, from differences that leave little of a smooth motion.
 double StreamIdentification::positionNoiseFromDifferences() const {
-  // Variance of (1, -4, 6, -4, 1) of white noise is 70; mean magnitude sqrt(2/pi) of deviation.
+  constexpr double kMeanMagnitude = 0.7978845608028654;  // of a deviation, sqrt(2/pi)
   double sum = 0;
-  for (std::size_t i = 4; i < blocks_.size(); ++i) {
-    const double origin = blocks_[i - 2].position;
-    sum += std::abs((blocks_[i].position - origin) - 4 * (blocks_[i - 1].position - origin) -
-                    4 * (blocks_[i - 3].position - origin) + (blocks_[i - 4].position - origin));
+  std::array<double, kDifferenced> times{};
+  std::array<double, kDifferenced> positions{};
+  for (std::size_t first = 0; first + kDifferenced <= blocks_.size(); ++first) {
+    for (std::size_t i = 0; i < kDifferenced; ++i) {
+      times[i] = blocks_[first + i].time - blocks_[first].time;
+      positions[i] = blocks_[first + i].position - blocks_[first].position;
+    }
+    sum += std::abs(noiseDifference(times, positions));
   }
-  return sum / static_cast<double>(blocks_.size() - 4) / std::sqrt(70 * 2 / 3.14159265358979);
+  return sum / static_cast<double>(blocks_.size() - (kDifferenced - 1)) / kMeanMagnitude;
 }
 
 /// Logarithm of a parameter that is known beforehand; NaN where it has to be found.
@@ -93,11 +98,9 @@ void StreamIdentification::start(const StreamKnowledge& knowledge, double interv
   } else {
     // Also with a guess: a motion that begins is not found from a model of rest step by step.
     grid_ = firstGuess(nullptr);
-    if (guess != nullptr) {
+    if (guess != nullptr)
       for (const Parameter other : {kVelocity, kStamp}) grid_[other] = best_[other];
-    } else {
-      grid_[kTime] += std::log(kGridFactor);
-    }
+    grid_[kTime] = logarithm(kShortestTime * interval);
   }
   beginCandidate();
 }
@@ -131,8 +134,7 @@ SimplexSearch::Point StreamIdentification::whole(const SimplexSearch::Point& sea
 /// The model of blocks at a point, held within what makes sense.
 StreamModel StreamIdentification::modelAt(const SimplexSearch::Point& point) const {
   StreamModel model;
-  const double time = std::clamp(std::exp(point[kTime]), kShortestTime * interval_,
-                                 longestTime());
+  const double time = std::clamp(std::exp(point[kTime]), kShortestTime * interval_, longestTime());
   const double position = std::max(
       {std::exp(point[kPosition]), knowledge_.least_position / std::sqrt(samples_), kTiny});
   model.position_variance = position * position;

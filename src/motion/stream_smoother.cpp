@@ -46,13 +46,19 @@ class Smoother {
   /// Smooths with samples up to `lag` s after each row only.
   template <typename Take>
   void smoothWithLag(std::size_t first, std::size_t last, double lag, const Take& take) {
-    const StreamState<N> state = start(first, last);
-    filter(first, last, state);
-    steps_[0].filtered = state;
+    const std::size_t wanted = std::min(last, first + startingRows());
+    std::size_t started = 0;  // rows that the filter was started from
     std::size_t newest = first;
     for (std::size_t row = first; row < last; ++row) {
       newest = std::max(newest, row);
       while (newest + 1 < last && samples_[newest + 1].time <= samples_[row].time + lag) ++newest;
+      const std::size_t known = std::min(newest + 1, wanted) - first;
+      if (known > started) {
+        started = known;
+        const StreamState<N> state = start(first, first + known);
+        filter(first, first + known < wanted ? newest + 1 : last, state);
+        steps_[0].filtered = state;
+      }
       StreamAdjoint<N> adjoint;
       for (std::size_t later = newest; later > row; --later)
         step(later, steps_[later - first], adjoint);
@@ -68,9 +74,13 @@ class Smoother {
     bool has_velocity = false;
   };
 
+  std::size_t startingRows() const {
+    return static_cast<std::size_t>(startingSamples(model_, N, interval_));
+  }
+
+  /// The state at row `first`, found from as many of the rows first … last - 1 as it takes.
   StreamState<N> start(std::size_t first, std::size_t last) const {
-    const int count = static_cast<int>(std::min<std::size_t>(
-        static_cast<std::size_t>(startingSamples(model_, N, interval_)), last - first));
+    const int count = static_cast<int>(std::min(startingRows(), last - first));
     StreamState<N> state = firstState<N>(model_, interval_, count, [&](int i) {
       const StreamBlock& other = samples_[first + static_cast<std::size_t>(i)];
       return std::pair(other.time - samples_[first].time,

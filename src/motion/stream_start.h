@@ -30,12 +30,15 @@ inline int startingSamples(const StreamModel& model, int order, double interval)
 template <int N, typename Sample>
 StreamState<N> firstState(const StreamModel& model, double interval, int count,
                           const Sample& sample) {
-  // So many that little is known, but not so many that the variance of the velocity would lose its
-  // digits when it falls to that of the samples.
+  // So many that little is known, but not so many that what the velocity's deviation makes of the
+  // next position loses its digits when it falls to that of the samples.
   constexpr double kManyTimeConstants = 100;
   constexpr double kLargest = 1e10;
-  const double many = std::min(kManyTimeConstants, std::pow(kLargest, 1.0 / (2 * N - 3)));
-  const double time = many * std::max(timeConstant(model, N, interval), interval);
+  const double longest =
+      std::pow(kLargest * model.position_variance / (model.density * interval * interval),
+               1.0 / (2 * N - 3));
+  const double time =
+      std::min(kManyTimeConstants * std::max(timeConstant(model, N, interval), interval), longest);
   StreamState<N> state;
   state.x.setZero();
   state.P.setZero();
@@ -65,12 +68,13 @@ StreamState<N> firstState(const StreamModel& model, double interval, int count,
                              .template triangularView<Eigen::Upper>()
                              .solve(Square::Identity(terms, terms));
   constexpr double kMargin = 100;  // in variances: the samples are taken in once more
+  const double variance = model.variance(coefficients[0] / span);
+  state.P(0, 0) = variance;
   double scale = 1;
   for (int i = 0; i < terms; ++i) {
     scale *= (i + 1) / span;  // derivative i + 1 of (t / span)^(i + 1)
     state.x[i + 1] = coefficients[i] * scale;
-    state.P(i + 1, i + 1) +=
-        kMargin * model.position_variance * inverse.row(i).squaredNorm() * scale * scale;
+    state.P(i + 1, i + 1) += kMargin * variance * inverse.row(i).squaredNorm() * scale * scale;
   }
   return state;
 }

@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <array>
@@ -116,11 +117,37 @@ std::vector<SmoothedSample> solved(const std::vector<StreamBlock>& samples, std:
     problem.add(row - begin, here, LongMatrix(),
                 LongVector::Constant(1, value * here(0, derivative)));
   };
-  // Of the derivatives in the first row: what the noise does within many time constants.
-  const Real time = (order < 5 ? 100 : 26.826957952797258) *
-                    std::max(timeConstant(model, order, interval), interval);
-  for (int i = 1; i < order; ++i)
-    measure(begin, i, 0, model.density * std::pow(time, 2 * (order - i) - 1));
+  // Of the derivatives in the first row: those of a polynomial through the rows of two time
+  // constants, within ten deviations of these and what the noise does within many time constants.
+  const double constant = timeConstant(model, order, interval);
+  // … that leave the second position known to 1e5 deviations of a sample, at least.
+  const Real time = std::min<Real>(
+      100 * std::max(constant, interval),
+      std::pow(1e10 * model.position_variance / model.density / interval / interval,
+               1.0 / (2 * order - 3)));
+  const auto rows = static_cast<Eigen::Index>(
+      std::min(std::clamp(2 * constant / interval, order + 0.0, 64.0), 0.0 + end - begin));
+  const Eigen::Index terms = std::min<Eigen::Index>(rows - 1, order - 1);
+  LongMatrix powers(std::max<Eigen::Index>(rows - 1, 0), std::max<Eigen::Index>(terms, 0));
+  LongVector positions(powers.rows());
+  for (Eigen::Index k = 0; k < powers.rows(); ++k) {
+    const StreamBlock& other = samples[begin + static_cast<std::size_t>(k) + 1];
+    for (Eigen::Index i = 0; i < terms; ++i)
+      powers(k, i) = std::pow(static_cast<Real>(other.time) - samples[begin].time, i + 1);
+    positions[k] = other.position - samples[begin].position;
+  }
+  const LongMatrix inverse = LongMatrix(powers.transpose() * powers).inverse();
+  const LongVector coefficients = inverse * powers.transpose() * positions;
+  for (int i = 1; i < order; ++i) {
+    const Real by_noise = model.density * std::pow(time, 2 * (order - i) - 1);
+    if (i > terms) {
+      measure(begin, i, 0, by_noise);
+      continue;
+    }
+    const Real variance = 100 * model.position_variance * inverse(i - 1, i - 1);
+    measure(begin, i, static_cast<double>(factorial(i) * coefficients[i - 1]),
+            by_noise + factorial(i) * factorial(i) * variance);
+  }
   for (std::size_t row = begin; row < end; ++row) {
     measure(row, 0, samples[row].position - samples[begin].position, model.position_variance);
     if (model.usesVelocities() && !std::isnan(samples[row].velocity))
