@@ -10,7 +10,7 @@ from trajectory_msgs.msg import JointTrajectory
 
 from encoder_streams import (ARM, COORDINATES, LATEST, LEARNT, MOTION, STEP, Encoders, StreamTest,
                              Swings)
-from node_under_test import EPOCH, run, trajectory_point, ros_time
+from node_under_test import EPOCH, ros_time, run, trajectory_point, wait_until
 from rigid_bodies import RigidBodies
 
 # The oracle's rounding.
@@ -116,9 +116,12 @@ class Deviations(StreamTest):
         self.assertEqual(values['computed'], 'efforts, deviations')
         self.send(STAMPS[200:400])
         self.assertStamps(deviations.wait(200), STAMPS[200 - LATEST:400 - LATEST])
-        doubts = {entry.value for status in self.node.statuses() for entry in status.values
-                  if entry.key == 'efforts in doubt'}
-        self.assertEqual(doubts, {'no deviations are computed', 'none'})
+
+        def said():
+            return {entry.value for status in self.node.statuses() for entry in status.values
+                    if entry.key == 'efforts in doubt'}
+        wait_until(lambda: 'none' in said(), lambda: 'no doubts, there are %s' % said())
+        self.assertEqual(said(), {'no deviations are computed', 'none'})
         deviations.stop()
         self.assertEqual(self.node.wait_for_plan('effort')['computed'], 'efforts')
         # A point of a trajectory is taken as exact.
