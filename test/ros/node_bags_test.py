@@ -228,8 +228,6 @@ class Bags(NodeTest):
         message.points = [trajectory_point(ns, COORDINATES, MOTION(EPOCH + ns)) for ns in times]
         trajectories.publish(message)
         # All at once, most would not come through the recorder's queue of 100, and it never ended.
-        self.node.wait_for_count('trajectory points computed', len(times))
-        recorder.interrupt()
         self.assertEqual(recorder.wait(), 0, recorder.output())
         recorded = {}
         with rosbag.Bag(path) as bag:
