@@ -84,7 +84,7 @@ class Deviations(StreamTest):
         messages = deviations.wait(len(efforts))
         self.assertStamps(messages, stamps[:-LATEST])
         # Of the first instant of all too little is known.
-        for message, effort in list(zip(messages, efforts))[1:]:
+        for message, effort in list(zip(messages, efforts)):
             self.assertEqual(message.name, effort.name)
             self.assertEqual((message.header.frame_id, message.position, message.velocity),
                              (effort.header.frame_id, (), ()))
