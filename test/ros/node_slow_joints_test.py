@@ -12,6 +12,7 @@ STAMPS = [EPOCH + STEP * i for i in range(COUNT)]
 GRIP = 0.02
 STILL = Swings(shoulder=(0.3, 0.6, 0.7), elbow=(-0.5, 0.9, 0.5), slide=(GRIP, 0, 0))
 MOVING = Swings(shoulder=(0.3, 0.6, 0.7), elbow=(-0.5, 0.9, 0.5), slide=(0.05, 0.04, 0.3))
+SLOWLY = Swings(shoulder=(0.3, 0.6, 0.7), elbow=(-0.5, 0.9, 0.5), slide=(0.05, 0.1, 0.05))
 # Of the rms effort: what encoders at 500 Hz allow within 50 ms, with a margin of three.
 ACCURACY = 0.01
 
@@ -93,6 +94,22 @@ class SlowJoints(StreamTest):
         self.assertEqual(values['joints held at their last position'], 'none')
         self.assertEqual((values['dropped'], values['restarts'], values['gaps']), ('0', '0', '0'))
         self.assertEqual(self.node.lines('WARN'), [])
+
+    def test_at_2_hz_with_more_patience(self):
+        self.start({'hold_after': 0.8, 'estimator': {'max_gap': 0.8}})
+        count = self.publish_arm(
+            SLOWLY, lambda i: SLOWLY(STAMPS[i] + 300000)[0]['slide'] if i % 250 == 0 else None)
+        messages = self.expect_stamps([ns for ns in STAMPS[1:] if STAMPS[-1] - ns >= LAG])
+        # Held until it has come four times, in 1.5 s; then it moves on between its samples.
+        for message in messages:
+            ns = message.header.stamp.to_nsec()
+            if ns > EPOCH + 2500 * MS:
+                self.assertClose([message.position[2]], [SLOWLY(ns)[0]['slide']], 2e-3, 'slide')
+                self.assertNotEqual(message.velocity[2], 0)
+        values = self.values_after(count)
+        self.assertLess(int(values['samples with a joint held']), 800)
+        self.assertEqual(values['joints held at their last position'], 'none')
+        self.assertEqual((values['dropped'], values['restarts'], values['gaps']), ('0', '0', '0'))
 
     def test_that_never_comes_and_rests(self):
         self.start({'rest': [{'name': 'slide', 'position': GRIP}]})
