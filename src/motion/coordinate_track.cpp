@@ -34,10 +34,11 @@ constexpr double kQuickTime = 0.004;
 constexpr double kQuickIntervals = 0.5;
 
 /// Mean square of innovations over their variance that the model cannot have foreseen, the samples
-/// that the mean goes over, and the largest square that counts: one sample alone is no surprise.
+/// that the mean goes over, and the largest innovation that counts in it, so that one sample alone
+/// is no surprise.
 constexpr double kSurprising = 6;
 constexpr double kSurpriseSamples = 6;
-constexpr double kLargestSquare = 25;
+constexpr double kLargestInnovation = 5;
 /// Part of this mean that products of successive innovations make when it is the motion that is
 /// quicker; those of noise alternate.
 constexpr double kOneWay = 0.3;
@@ -269,15 +270,20 @@ void CoordinateTrack::follow(const Entry& before, Entry& entry, bool judge) {
 void CoordinateTrack::adapt(const StreamUpdate<kOrder>& update, StreamState<kOrder>& state) {
   // A step of a slow joint's positions is one of the encoder's, and stays for many samples.
   const double foreseen = 1 / update.precision + kStepVariance * least_position_ * least_position_;
-  const double largest = std::sqrt(kLargestSquare);
-  const double innovation =
-      std::clamp(update.scaled / update.precision / std::sqrt(foreseen), -largest, largest);
-  surprise_ += (innovation * innovation - surprise_) / kSurpriseSamples;
-  one_way_ += (innovation * previous_innovation_ - one_way_) / kSurpriseSamples;
+  const double innovation = update.scaled / update.precision / std::sqrt(foreseen);
+  const auto limited = [](double value) {
+    return std::clamp(value, -kLargestInnovation, kLargestInnovation);
+  };
+  const double square = limited(innovation) * limited(innovation);
+  const double product = limited(innovation) * limited(previous_innovation_);
+  // What two samples in a row say is no outlier.
+  const double seen_twice = std::min(std::abs(innovation), std::abs(previous_innovation_));
+  surprise_ += (square - surprise_) / kSurpriseSamples;
+  one_way_ += (product - one_way_) / kSurpriseSamples;
   previous_innovation_ = innovation;
   if (surprise_ < kSurprising) return;
-  const double surprise = surprise_;
-  const bool quicker = one_way_ > kOneWay * surprise;
+  const double surprise = std::max(surprise_, seen_twice * seen_twice);
+  const bool quicker = one_way_ > kOneWay * surprise_;
   expectNothing();
   if (quicker) {
     if (noise_.bandwidth > 0) return;

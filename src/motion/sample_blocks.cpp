@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace virtual_work_dynamics {
 namespace {
@@ -12,8 +13,10 @@ namespace {
 constexpr double kLastDigits = std::numeric_limits<double>::epsilon() / 4;
 /// Rounding of a difference of three positions, as a part of them.
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
-/// So many times larger than zero is certainly not zero.
-constexpr double kCertain = 20;
+/// What is so many times larger than its error is not zero.
+constexpr double kCertain = 10;
+/// Of so many differences of a step, one at least has another sign than the one before.
+constexpr int kAlternating = 4;
 constexpr double kLeast = 1e-12;  // rad or m: less than any encoder resolves
 /// Time constant of a model that follows its samples, in intervals.
 constexpr double kFollowing = 0.2;
@@ -43,30 +46,40 @@ std::vector<StreamBlock> averaged(const std::vector<StreamBlock>& samples, int s
   return blocks;
 }
 
-/// Differences of this magnitude are zero: remainders of numbers with this rounding, of which the
-/// largest is divided by the smallest.
-double StepFinder::noDifference() const {
-  return kCertain * std::sqrt(kRounding * magnitude_ * largest_);
-}
-
-void StepFinder::take(double oldest, double middle, double newest) {
-  magnitude_ = std::max({magnitude_, std::abs(oldest), std::abs(middle), std::abs(newest)});
-  const double difference = std::abs((newest - middle) - (middle - oldest));
-  if (difference <= kRounding * magnitude_) return;
-  ++differences_;
-  largest_ = std::max(largest_, difference);
-  const double zero = noDifference();
-  if (differences_ > 1 && divisor_ <= zero) return;  // there is none
-  for (double rest = difference; rest > zero;) {
-    const double smaller = rest;
-    rest = divisor_ > 0 ? std::abs(divisor_ - smaller * std::round(divisor_ / smaller)) : 0;
-    divisor_ = smaller;
+/// Euclid's algorithm for numbers with errors: a remainder that its error may have made is zero.
+StepFinder::Inexact StepFinder::commonDivisor(Inexact larger, Inexact smaller) {
+  for (;;) {
+    if (larger.value < smaller.value) std::swap(larger, smaller);
+    const double quotient = std::round(larger.value / smaller.value);
+    const Inexact rest{std::abs(larger.value - quotient * smaller.value),
+                       larger.error + quotient * smaller.error};
+    if (rest.value <= kCertain * rest.error) {
+      const Inexact part{larger.value / quotient, larger.error / quotient};
+      return part.error < smaller.error ? part : smaller;
+    }
+    larger = smaller;
+    smaller = rest;
   }
 }
 
+void StepFinder::take(double oldest, double middle, double newest) {
+  const double rounding =
+      kRounding * std::max({std::abs(oldest), std::abs(middle), std::abs(newest)});
+  const double difference = (newest - middle) - (middle - oldest);
+  const bool zero = std::abs(difference) <= kCertain * rounding;
+  if (!zero) {
+    ++differences_;
+    alternations_ += difference * previous_ < 0 ? 1 : 0;
+    const Inexact now{std::abs(difference), rounding};
+    divisor_ = differences_ > 1 ? commonDivisor(divisor_, now) : now;
+  }
+  previous_ = zero ? 0 : difference;
+}
+
 double StepFinder::step() const {
-  const bool found = differences_ > 1 && divisor_ > kCertain * noDifference();
-  return found ? divisor_ : std::numeric_limits<double>::infinity();
+  const bool found = alternations_ > 0 && kAlternating * alternations_ >= differences_ &&
+                     divisor_.value > kCertain * kCertain * divisor_.error;
+  return found ? divisor_.value : std::numeric_limits<double>::infinity();
 }
 
 double noiseDifference(const std::array<double, kDifferenced>& times,

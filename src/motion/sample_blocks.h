@@ -15,7 +15,8 @@ int blockSize(double block_time, double interval);
 std::vector<StreamBlock> averaged(const std::vector<StreamBlock>& samples, int size);
 
 /// Finds the step that positions are rounded to, if they are: the greatest common divisor of their
-/// differences of second order. Those of first order would take a steady motion for a step.
+/// differences of second order, which also change sign all the time. Differences of first order
+/// would take a steady motion for a step, and a divisor alone a steady acceleration.
 class StepFinder {
  public:
   /// Takes three positions that follow each other, rad or m, of which two were taken before.
@@ -24,12 +25,17 @@ class StepFinder {
   double step() const;
 
  private:
-  double noDifference() const;
+  struct Inexact {
+    double value = 0;
+    double error = 0;
+  };
 
-  double divisor_ = 0;
-  double largest_ = 0;    // difference
-  double magnitude_ = 0;  // of the positions
+  static Inexact commonDivisor(Inexact larger, Inexact smaller);
+
+  Inexact divisor_;
+  double previous_ = 0;   // difference
   int differences_ = 0;   // that are not zero
+  int alternations_ = 0;  // of the sign from one of them to the very next
 };
 
 /// Positions that noiseDifference() takes.

@@ -22,8 +22,10 @@ constexpr double kGridFactor = 3;
 /// by far less than their error.
 constexpr double kTolerance = 0.05;
 constexpr int kMostValues = 160;
-/// Noise of stamps below which they are taken as true, in intervals.
+/// Noise of stamps below which they are taken as true, in intervals, or in what makes as much noise
+/// of the positions as is seen.
 constexpr double kLeastStampNoise = 1e-4;
+constexpr double kLeastStampPart = 100;
 constexpr double kTiny = 1e-150;
 
 double logarithm(double value) {
@@ -48,6 +50,15 @@ double StreamIdentification::positionNoiseFromDifferences() const {
   return sum / static_cast<double>(blocks_.size() - (kDifferenced - 1)) / kMeanMagnitude;
 }
 
+/// Usual speed, root of its mean square; positive.
+double StreamIdentification::speed() const {
+  double squares = 0;
+  for (std::size_t i = 1; i < blocks_.size(); ++i)
+    squares += std::pow(blocks_[i].position - blocks_[i - 1].position, 2);
+  const double step = std::sqrt(squares / static_cast<double>(blocks_.size() - 1));
+  return std::max(step / interval_, kTiny);
+}
+
 /// Logarithm of a parameter that is known beforehand; NaN where it has to be found.
 double StreamIdentification::fixedValue(int parameter) const {
   const double block = std::sqrt(samples_);  // noise of a block is less than that of a sample
@@ -66,12 +77,11 @@ SimplexSearch::Point StreamIdentification::firstGuess(const StreamModel* guess) 
     point[kVelocity] = guess->usesVelocities() ? 0.5 * logarithm(guess->velocity_variance / samples)
                                                : point[kPosition] - std::log(interval_);
     point[kStamp] = 0.5 * logarithm(guess->stamp_variance / samples);
-    point[kStamp] = std::max(point[kStamp], logarithm(3 * kLeastStampNoise * interval_));
+    point[kStamp] = std::max(point[kStamp], logarithm(3 * least_stamp_));
   } else {
-    point[kPosition] = logarithm(
-        std::max(positionNoiseFromDifferences(), knowledge_.least_position / std::sqrt(samples_)));
+    point[kPosition] = logarithm(shown_noise_);
     point[kVelocity] = point[kPosition] - std::log(interval_);
-    point[kStamp] = logarithm(0.01 * interval_);
+    point[kStamp] = logarithm(100 * least_stamp_);
     point[kTime] = logarithm(interval_);
   }
   for (int i = 0; i < 4; ++i)
@@ -90,6 +100,9 @@ void StreamIdentification::start(const StreamKnowledge& knowledge, double interv
     if (!std::isnan(fixedValue(i)) || (i == kVelocity && !knowledge.use_velocities)) continue;
     searched_[static_cast<std::size_t>(dimensions_++)] = i;
   }
+  shown_noise_ =
+      std::max(positionNoiseFromDifferences(), knowledge_.least_position / std::sqrt(samples_));
+  least_stamp_ = kLeastStampNoise * std::min(interval, kLeastStampPart * shown_noise_ / speed());
   best_value_ = std::numeric_limits<double>::infinity();
   searching_ = knowledge.time_constant >= 0;
   best_ = candidate_ = firstGuess(guess);
@@ -153,8 +166,7 @@ double StreamIdentification::penalty(const SimplexSearch::Point& point) const {
   const double least = logarithm(knowledge_.least_position / std::sqrt(samples_));
   double distance =
       below(point[kTime], shortest) + below(longest, point[kTime]) + below(point[kPosition], least);
-  if (std::isnan(fixedValue(kStamp)))
-    distance += below(point[kStamp], logarithm(kLeastStampNoise * interval_));
+  if (std::isnan(fixedValue(kStamp))) distance += below(point[kStamp], logarithm(least_stamp_));
   return 10 * distance * distance;
 }
 

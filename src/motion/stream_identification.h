@@ -64,6 +64,7 @@ class StreamIdentification {
 
   SimplexSearch::Point firstGuess(const StreamModel* guess) const;
   double positionNoiseFromDifferences() const;
+  double speed() const;
   double fixedValue(int parameter) const;
   double longestTime() const;
   void beginCandidate();
@@ -80,6 +81,8 @@ class StreamIdentification {
   std::vector<StreamBlock> blocks_;
   StreamKnowledge knowledge_;
   double interval_ = 1;
+  double shown_noise_ = 0;  // of a block, that differences show
+  double least_stamp_ = 0;  // noise, s
   int samples_ = 1;
   bool running_ = false;
   bool searching_ = false;       // else still looking at time constants on a grid

@@ -129,7 +129,7 @@ CompletedMotion::CompletedMotion(const std::string& path, const Mechanism& mecha
     accelerations_follow_ = positions_follow_ || !file_.table.hasAccelerations();
   }
   CompletionSettings completion = options.completion;
-  completion.keep_positions = dynamics.closed() && !positions_follow_;
+  completion.keep_positions = dynamics.closed();
   completeDerivatives(mechanism, scene, completion, file_);
   if (positions_follow_ || !resting.empty()) widen(mechanism, file_.table);
   for (const auto& [name, position] : resting) {

@@ -175,8 +175,12 @@ TEST(MotionCompletion, PlayedBackwardsAMotionHasTheSameAccelerations) {
     backward.times.push_back(-forward.times[static_cast<std::size_t>(29 - i)]);
   }
   backward.positions = forward.positions.colwise().reverse();
-  const MotionTable one = completeMotion(twoJoints(), forward);
-  const MotionTable other = completeMotion(twoJoints(), backward);
+  // With one model: what is found from rows after the first few depends on which these are.
+  CompletionSettings settings;
+  settings.noise.position_noise = 1e-2;
+  settings.noise.bandwidth = 20;
+  const MotionTable one = completeMotion(twoJoints(), forward, settings);
+  const MotionTable other = completeMotion(twoJoints(), backward, settings);
   expectNear(other.velocities.colwise().reverse(), -one.velocities, kVelocity);
   expectNear(other.accelerations.colwise().reverse(), one.accelerations, kAcceleration);
 }
