@@ -20,8 +20,7 @@ from composed_pendulum_closed_form import COLUMNS, closed_form, motion
 
 DURATION = 6.0  # s, as in the paper
 INPUTS, POINTS = 6001, 61  # what demo.launch publishes: 1 kHz, and 10 Hz in one trajectory
-LAG = 4  # samples, the estimator's default
-WINDOW = 9
+LAG = 0.05  # s, the estimator's default
 FIGURES = ((3, 'm10_z'), (4, 'm21_z'), (5, 'f10_y'), (6, 'f21_x'))
 NAMES = [name for name, _, _ in COLUMNS]
 
@@ -39,6 +38,7 @@ class Run:
         self.style = style
         self.allowed = allowed  # largest error
         self.relative = relative  # whether errors are parts of the column's range, not in its unit
+        self.lag = LAG if relative else 0  # s that results end before the input
         self.inputs = []  # stamps, ns
         self.efforts = {}  # by stamp, ns
         self.forces = {}
@@ -57,7 +57,7 @@ class Run:
 
     def missing(self):
         """The number of missing results, whether the recorder missed inputs or not."""
-        expected = self.published - (WINDOW - 1 if self.relative else 0)
+        expected = self.published - round(self.lag * (self.published - 1) / DURATION)
         return expected - min(len(self.efforts), len(self.forces))
 
 
@@ -158,7 +158,7 @@ def report(runs):
         '  %30s' % ('%g%s' % (run.allowed, ' of range' if run.relative else '')) for run in runs))
     for run in runs:
         lost = run.missing()
-        good = good and lost == 0 and abs(run.t[-1] - DURATION) < 0.02
+        good = good and lost == 0 and abs(run.t[-1] + run.lag - DURATION) < 0.02
         print('  %s: %d inputs, %d results from %.3f to %.3f s, %d missing' % (
             run.title, run.published, len(run.t), run.t[0], run.t[-1], lost))
         if len(run.inputs) != run.published:

@@ -43,7 +43,7 @@ parameters
   ~robot     path of the robot's URDF, for the names of the joints (needed)
   ~rate      joint states per second for each node, Hz (1000)
   ~seconds   length of the measurement, s (20)
-  inverse_dynamics/estimator/{window,lag} as inverse_dynamics_node has them (needed)
+  inverse_dynamics/estimator/lag  as inverse_dynamics_node has it, s (needed)
 )";
 
 constexpr std::uint32_t kQueue = 20000;  // messages
@@ -62,21 +62,22 @@ struct Settings {
   std::vector<std::string> joints;
   double rate = 0;     // Hz
   double seconds = 0;  // s
-  int window = 0;
-  int lag = 0;
+  double lag = 0;      // s
 
   std::int64_t stepNs() const { return static_cast<std::int64_t>(std::llround(1e9 / rate)); }
+  /// Samples that an answer's stamp is behind the newest one.
+  std::int64_t lagSamples() const { return (std::llround(lag * 1e9) + stepNs() - 1) / stepNs(); }
   std::size_t warmUp() const { return static_cast<std::size_t>(kWarmUp * rate) + 128; }
   std::size_t samples() const {
     return warmUp() + static_cast<std::size_t>(std::llround(seconds * rate));
   }
 };
 
-int estimatorSetting(const std::string& name) {
-  int value = 0;
-  const std::string key = "inverse_dynamics/estimator/" + name;
-  if (!ros::param::get(key, value)) throw ParameterError("parameter " + key + ": not set");
-  return value;
+double estimatorLag() {
+  double lag = 0;
+  const std::string key = "inverse_dynamics/estimator/lag";
+  if (!ros::param::get(key, lag)) throw ParameterError("parameter " + key + ": not set");
+  return lag;
 }
 
 Settings readSettings(PrivateParameters& parameters) {
@@ -89,20 +90,17 @@ Settings readSettings(PrivateParameters& parameters) {
   if (!(settings.rate >= 1 && settings.rate <= 1e5)) throw parameterError("rate", "not 1 to 1e5");
   if (!(settings.seconds >= 1)) throw parameterError("seconds", "less than 1");
   settings.joints = readUrdfFile(robot).coordinateNames();
-  settings.window = estimatorSetting("window");
-  settings.lag = estimatorSetting("lag");
+  settings.lag = estimatorLag();
   return settings;
 }
 
 /// The way to one node and back.
 class Route {
  public:
-  /// @param lag,window how many samples behind the newest one an answer's stamp is, and how many it
-  ///   takes for the first answer.
-  Route(const std::string& input, const std::string& output, const Settings& settings, int lag,
-        int window)
+  /// @param lag how many samples behind the newest one an answer's stamp is.
+  Route(const std::string& input, const std::string& output, const Settings& settings,
+        std::int64_t lag)
       : lag_(lag),
-        window_(static_cast<std::size_t>(window)),
         step_ns_(settings.stepNs()),
         sent_(settings.samples()),
         answered_(settings.samples()) {
@@ -151,7 +149,9 @@ class Route {
   /// How many samples should have been answered but were not.
   std::size_t unanswered() const {
     std::size_t count = 0;
-    for (std::size_t k = window_ - 1; k < answered_.size(); ++k) count += answered_[k] == 0;
+    for (auto k = static_cast<std::size_t>(lag_); k < answered_.size(); ++k) {
+      count += answered_[k] == 0;
+    }
     return count;
   }
 
@@ -164,8 +164,7 @@ class Route {
     if (k < answered_.size()) answered_[k] = now;
   }
 
-  const int lag_;
-  const std::size_t window_;
+  const std::int64_t lag_;
   const std::int64_t step_ns_;
   std::atomic<std::int64_t> first_stamp_ns_{0};
   std::vector<std::atomic<std::int64_t>> sent_;      // ns, steady clock
@@ -241,9 +240,8 @@ void printReport(const Settings& settings, const Route& dynamics, const Route& c
 void run() {
   PrivateParameters parameters(ros::NodeHandle("~"));
   const Settings settings = readSettings(parameters);
-  Route dynamics("to_inverse_dynamics", "inverse_dynamics/effort", settings, settings.lag,
-                 settings.window);
-  Route copy("to_copy", "copy/copy", settings, 0, 1);
+  Route dynamics("to_inverse_dynamics", "inverse_dynamics/effort", settings, settings.lagSamples());
+  Route copy("to_copy", "copy/copy", settings, 0);
   ros::AsyncSpinner spinner(1);
   spinner.start();
   waitForNodes(dynamics, copy);

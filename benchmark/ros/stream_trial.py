@@ -93,7 +93,6 @@ class StreamTrial:
         self._session = session
         self._progress = progress
         node, parameters = start_dynamics(session, programs, robot)
-        self._window = parameters['estimator']['window']
         self._lag = parameters['estimator']['lag']
         self.queues = parameters['queue_size']
         watched = [node]
@@ -165,14 +164,19 @@ class StreamTrial:
         first = self.run.first_stamp(self.rate)
         expected = self.joint_states
         if topic.startswith(NODE):
-            first += round((self._window - 1 - self._lag) * 1e9 / self.rate)
-            expected -= self._window - 1
+            expected -= self._without_result()
         recorded = self.run.topics[topic]
         # The source has gone, and with it the counts of its connections.
         is_input = topic == INPUT
         return Loss(topic, expected, None if is_input else sent[topic],
                     None if is_input else dropped.get(topic, 0), len(recorded.stamps),
                     recorded.gaps(), recorded.wrong_stamps(first, self.rate))
+
+    def _without_result(self):
+        """How many joint states at the end are younger than the lag."""
+        newest = round(self.seconds * 1e9)
+        return sum(newest - round(k * 1e9 / self.rate) < round(self._lag * 1e9)
+                   for k in range(self.joint_states - 1)) + (self._lag > 0)
 
     def lost_before_node(self):
         return self.joint_states - self.run.count('inverse_dynamics', 'joint states received')
@@ -181,7 +185,7 @@ class StreamTrial:
         """Results that were not computed, or did not leave the node."""
         computed = self.run.count('inverse_dynamics', 'samples computed')
         received = self.run.count('inverse_dynamics', 'joint states received')
-        return received - (self._window - 1) - computed + sum(
+        return received - self._without_result() - computed + sum(
             computed - loss.sent for loss in self.losses if loss.topic.startswith(NODE))
 
     def missing(self):

@@ -66,7 +66,9 @@ std::string describe(const ActivePlan& plan) {
   }
   if (request.poses) add("poses");
   if (request.twists) add("twists");
+  if (plan.wantsCovariance()) add("deviations");
   if (plan.certifier) add("certificates");
+  if (text.empty() && plan.wantsSamples()) add("motions");
   if (plan.dynamics.closed() && !text.empty()) add("closed loops");
   return text.empty() ? "nothing" : text;
 }

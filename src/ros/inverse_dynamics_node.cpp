@@ -4,6 +4,7 @@
 #include <ros/transport_hints.h>
 
 #include <algorithm>
+#include <chrono>
 #include <exception>
 #include <limits>
 #include <memory>
@@ -17,6 +18,8 @@ namespace {
 
 // How soon the node's own thread sees that it is to stop, or that a report is due.
 constexpr double kManageWait = 0.05;  // s
+// How often a gap of a joint is logged: those of a slow gripper come with each of its samples.
+constexpr std::chrono::seconds kGapPeriod{60};
 
 }  // namespace
 
@@ -38,6 +41,7 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
                {counters_, certificates_, loops_}),
       played_(parameters.trajectory_rate),
       streams_(task_.mechanism.coordinates().size()),
+      gap_throttles_(task_.mechanism.coordinates().size(), Throttle(kGapPeriod)),
       joint_watch_(task_.mechanism.coordinateNames(), task_.waitedFor(completer_.needed())),
       plans_(compile(Audience())),
       cross_check_(checks_.cross_check
@@ -113,12 +117,10 @@ void InverseDynamicsNode::take(const sensor_msgs::JointState& message, ros::Time
     ROS_WARN("%s: %s; positions of mimic joints are ignored",
              joint_state_subscriber_.getTopic().c_str(), sample.mimic_disagreement.c_str());
   }
-  if (sample.velocity_not_finite) {
-    counters_.velocity_not_finite.add();
-    if (velocity_throttle_.open()) {
-      ROS_WARN("%s: velocities that are not finite are not used",
-               joint_state_subscriber_.getTopic().c_str());
-    }
+  if (sample.velocity_not_finite) counters_.velocity_not_finite.add();
+  if (!sample.velocity_problem.empty()) {
+    ROS_WARN("%s: %s; velocities that are not finite are not used",
+             joint_state_subscriber_.getTopic().c_str(), sample.velocity_problem.c_str());
   }
   if (!push(sample)) return;
   while (estimator_.ready()) evaluate(receipt);
@@ -169,8 +171,8 @@ bool InverseDynamicsNode::push(const JointSample& sample) {
 
 void InverseDynamicsNode::reportGap() {
   counters_.gaps.add();
-  if (!gap_throttle_.open()) return;
   const auto joint = static_cast<std::size_t>(estimator_.latestGapCoordinate());
+  if (!gap_throttles_[joint].open()) return;
   ROS_INFO(
       "%s: '%s' had a gap of %s s, longer than ~estimator/max_gap = %s s: it is estimated anew",
       joint_state_subscriber_.getTopic().c_str(), task_.mechanism.coordinateNames()[joint].c_str(),

@@ -104,8 +104,7 @@ class InverseDynamicsNode {
   // By reason, so that a flood of one kind does not hide the others.
   std::array<Throttle, kDropReasonNames.size()> drop_throttles_;
   Throttle restart_throttle_;
-  Throttle gap_throttle_;
-  Throttle velocity_throttle_;
+  std::vector<Throttle> gap_throttles_;  // by joint
   Throttle completion_throttle_;
   Throttle queue_throttle_;
 

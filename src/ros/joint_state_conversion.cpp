@@ -28,6 +28,7 @@ JointStateConversion::JointStateConversion(const Mechanism& mechanism)
       coordinate_of_(coordinatesByName(mechanism)),
       q_(mechanism.coordinates().size()),
       qd_(mechanism.coordinates().size()),
+      velocity_reported_(mechanism.coordinates().size(), 0),
       mimic_reported_(mechanism.joints().size(), 0) {
   for (Layout& layout : layouts_) resolve({}, layout);
 }
@@ -44,7 +45,9 @@ std::optional<Rejection> JointStateConversion::convert(const sensor_msgs::JointS
   if (layout.rejection) return layout.rejection;
   if (message.header.stamp.isZero()) return Rejection{DropReason::kZeroStamp, "its stamp is zero"};
   if (auto rejection = gatherPositions(layout, message.position)) return rejection;
-  sample.velocity_not_finite = velocities != 0 && !gatherVelocities(layout, message.velocity);
+  sample.velocity_not_finite = false;
+  sample.velocity_problem.clear();
+  if (velocities != 0) gatherVelocities(layout, message.velocity, sample);
   sample.stamp_ns = static_cast<std::int64_t>(message.header.stamp.toNSec());
   sample.count = static_cast<int>(layout.columns.size());
   sample.coordinates = layout.coordinates.data();
@@ -121,17 +124,23 @@ std::optional<Rejection> JointStateConversion::gatherPositions(
   return std::nullopt;
 }
 
-/// Returns whether all velocities are finite. Drivers fill what they do not measure with NaN.
-bool JointStateConversion::gatherVelocities(const Layout& layout,
-                                            const std::vector<double>& velocities) {
-  bool finite = true;
+/// Makes NaN of velocities that are not finite. Drivers fill what they do not measure with NaN.
+void JointStateConversion::gatherVelocities(const Layout& layout,
+                                            const std::vector<double>& velocities,
+                                            JointSample& sample) {
   for (std::size_t i = 0; i < layout.columns.size(); ++i) {
     qd_[i] = velocities[static_cast<std::size_t>(layout.columns[i])];
     if (std::isfinite(qd_[i])) continue;
+    sample.velocity_not_finite = true;
+    char& reported = velocity_reported_[static_cast<std::size_t>(layout.coordinates[i])];
+    if (!reported) {
+      sample.velocity_problem +=
+          (sample.velocity_problem.empty() ? "the velocity of '" : ", that of '") +
+          layout.names[static_cast<std::size_t>(layout.columns[i])] + "' is " + numberText(qd_[i]);
+    }
+    reported = 1;
     qd_[i] = std::numeric_limits<double>::quiet_NaN();
-    finite = false;
   }
-  return finite;
 }
 
 void JointStateConversion::checkMimics(Layout& layout, const std::vector<double>& positions,

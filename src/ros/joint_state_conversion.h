@@ -23,6 +23,8 @@ struct JointSample {
   const double* q = nullptr;         ///< rad or m
   const double* qd = nullptr;        ///< rad/s or m/s, NaN where it is not finite; null: not given
   bool velocity_not_finite = false;  ///< whether some velocity is not, so that it is not used
+  /// Text about the first velocity of each joint that is not finite; else empty.
+  std::string velocity_problem;
   /// Text about the first position of each mimic joint that disagrees with its master; else empty.
   std::string mimic_disagreement;
 };
@@ -59,7 +61,8 @@ class JointStateConversion {
   void resolveMimics(Layout& layout) const;
   std::optional<Rejection> gatherPositions(const Layout& layout,
                                            const std::vector<double>& positions);
-  bool gatherVelocities(const Layout& layout, const std::vector<double>& velocities);
+  void gatherVelocities(const Layout& layout, const std::vector<double>& velocities,
+                        JointSample& sample);
   void checkMimics(Layout& layout, const std::vector<double>& positions, std::string& disagreement);
 
   const Mechanism& mechanism_;
@@ -69,6 +72,7 @@ class JointStateConversion {
   std::size_t next_ = 0;
   std::vector<double> q_;
   std::vector<double> qd_;
+  std::vector<char> velocity_reported_;
   std::vector<char> mimic_reported_;
 };
 

@@ -21,7 +21,7 @@ class ParameterError : public Error {
 };
 
 /// The private parameters of a node, read once and type-checked. The object remembers which were
-/// asked for, so that unknown ones can be refused. Names may be nested: "estimator/window".
+/// asked for, so that unknown ones can be refused. Names may be nested: "estimator/lag".
 /// Integers and numeric strings are numbers (rosparam turns `1e9` into a string). Getters return
 /// the fallback for a parameter that is not set, and throw ParameterError naming one of a wrong
 /// type.

@@ -61,7 +61,9 @@ class Outputs(NodeTest):
             self.assertWrench(message, self.bodies, joint, STATE, EXACT)
         self.assertEqual(self.advertised(), {self.node.name + '/' + topic: kind for topic, kind in (
             ('effort', 'sensor_msgs/JointState'),
-            ('effort_deviation', 'sensor_msgs/JointState'), ('reactions', 'sensor_msgs/MultiDOFJointState'),
+            ('motion', 'trajectory_msgs/JointTrajectory'),
+            ('effort_deviation', 'sensor_msgs/JointState'),
+            ('reactions', 'sensor_msgs/MultiDOFJointState'),
             ('joint_trajectory', 'trajectory_msgs/JointTrajectory'),
             ('reaction/shoulder', 'geometry_msgs/WrenchStamped'),
             ('reaction/elbow', 'geometry_msgs/WrenchStamped'),
@@ -149,7 +151,8 @@ class Outputs(NodeTest):
         effort, = self.start('effort', scene={'reactions': 'none'})
         self.assertEffort(effort, self.bodies, STATE, EXACT)
         self.assertEqual(set(self.advertised()), {self.node.name + '/' + topic
-                                                  for topic in ('effort', 'effort_deviation',
+                                                  for topic in ('effort', 'motion',
+                                                                'effort_deviation',
                                                                 'joint_trajectory')})
 
     def test_diagnostics(self):

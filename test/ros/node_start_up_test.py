@@ -104,6 +104,9 @@ def loop(actuated=None, **changes):
     return {'scene': dict(scene, actuated=actuated) if actuated else scene}
 
 
+# What replaces parameters that no longer exist, as the line that refuses them says.
+NEW_ONES = ['no longer exists', '~estimator/position_noise', 'velocity_noise', 'stamp_noise',
+            'bandwidth', '~estimator/lag is in seconds']
 # Parameters of a good robot, and parts of the FATAL line.
 BAD_PARAMETERS = {
     'unknown_joint_in_reactions': ({'scene': {'reactions': ['hinge', 'knee']}}, ["'knee'"]),
@@ -132,18 +135,34 @@ BAD_PARAMETERS = {
     'unknown_nested_parameter': ({'estimator': {'windows': 9}},
                                  ['unknown parameter ~estimator/windows']),
     'number_that_is_text': ({'estimator': {'max_gap': 'long'}}, ['~estimator/max_gap', "'long'"]),
-    'integer_that_is_none': ({'estimator': {'window': 9.5}}, ['~estimator/window', '9.5']),
+    'integer_that_is_none': ({'queue_size': {'input': 9.5}}, ['~queue_size/input', '9.5']),
     'boolean_that_is_a_number': ({'twist': 1}, ['~twist', 'true or false']),
     'text_that_is_a_number': ({'frame_prefix': 3}, ['~frame_prefix', 'expected text']),
     'group_that_is_a_number': ({'estimator': 3}, ['~estimator']),
     'acceleration_of_another_kind': ({'estimator': {'acceleration': 'guess'}},
                                      ['~estimator/acceleration', "'guess'"]),
-    'window_shorter_than_the_order_needs': ({'estimator': {'window': 3, 'lag': 1}},
-                                            ['~estimator', 'window is 3', 'order + 1 = 4']),
-    'window_too_long': ({'estimator': {'window': 1000}}, ['~estimator', 'window is 1000']),
-    'lag_as_long_as_the_window': ({'estimator': {'lag': 9}}, ['~estimator', 'lag is 9']),
-    'negative_lag': ({'estimator': {'lag': -1}}, ['~estimator', 'lag is -1']),
-    'order_zero': ({'estimator': {'order': 0}}, ['~estimator', 'order is 0']),
+    'window_of_the_old_estimator': ({'estimator': {'window': 9}}, ['~estimator/window'] + NEW_ONES),
+    'order_of_the_old_estimator': ({'estimator': {'order': 3}}, ['~estimator/order'] + NEW_ONES),
+    'lag_in_samples': ({'estimator': {'lag': 4}}, ['~estimator', 'lag is 4', 'from 0 to 1 s']),
+    'negative_lag': ({'estimator': {'lag': -0.1}}, ['~estimator', 'lag is -0.1', 'from 0 to 1 s']),
+    'lag_nan': ({'estimator': {'lag': float('nan')}}, ['~estimator']),
+    'noise_of_nothing': ({'estimator': {'position_noise': 0}},
+                         ['~estimator/position_noise: 0 is neither auto nor positive']),
+    'negative_velocity_noise': ({'estimator': {'velocity_noise': -1}},
+                                ['~estimator/velocity_noise: -1 is neither auto nor positive']),
+    'negative_stamp_noise': ({'estimator': {'stamp_noise': -1.0}}, [
+        '~estimator/stamp_noise: -1 is neither auto nor zero or positive']),
+    'bandwidth_that_is_text': ({'estimator': {'bandwidth': 'wide'}},
+                               ['~estimator/bandwidth', "'wide'"]),
+    'infinite_bandwidth': ({'estimator': {'bandwidth': float('inf')}}, ['~estimator/bandwidth']),
+    'hold_after_nothing': ({'hold_after': 0}, ['hold_after is 0', 'positive']),
+    'rest_that_is_a_map': ({'rest': {'hinge': 1}}, ['~rest', '[{name: finger, position: 0.02}]']),
+    'rest_without_a_position': ({'rest': [{'name': 'hinge'}]},
+                                ['~rest', '[{name: finger, position: 0.02}]']),
+    'rest_of_an_unknown_joint': ({'rest': [{'name': 'knee', 'position': 1}]},
+                                 ['~rest', "'tester' has no joint 'knee'"]),
+    'rest_that_is_text': ({'rest': [{'name': 'hinge', 'position': 'closed'}]},
+                          ["~rest of 'hinge'", "'closed'"]),
     'negative_trajectory_rate': ({'trajectory_rate': -1}, ['~trajectory_rate: -1 points/s']),
     'trajectory_rate_too_high': ({'trajectory_rate': 1e6}, ['~trajectory_rate: ', 'to 20000']),
     'negative_trajectory_sampling': ({'trajectory_sampling': -1},
@@ -280,7 +299,8 @@ class StartUp(NodeTest):
             node = self.start(GOOD, parameters)
             self.expect_start(node, [])
             summaries.append(re.findall('2 coordinates.*', node.output()))
-        self.assertIn('(window 9, order 3, lag 4)', summaries[0][0])
+        self.assertIn('accelerations of joint states estimated 0.05 s behind the newest',
+                      summaries[0][0])
         self.assertEqual(summaries[0], summaries[1])
 
     def test_help_names_every_parameter(self):
@@ -291,6 +311,18 @@ class StartUp(NodeTest):
             for name in ['%s/%s' % (key, inner) for inner in value] \
                     if isinstance(value, dict) else [key]:
                 self.assertRegex(process.output(), r'\n  ~%s +\S' % name)
+
+    def test_old_parameters_are_refused_together_in_one_line(self):
+        node = self.start(GOOD, {'estimator': {'window': 9, 'order': 3, 'lag': 4}})
+        self.expect_refusal(node, ['~estimator/'] + NEW_ONES)
+
+    def test_noises_and_joints_at_rest(self):
+        estimator = {'position_noise': 1e-4, 'velocity_noise': 1, 'stamp_noise': 0, 'lag': 0,
+                     'bandwidth': 'auto', 'use_velocity': False}
+        rest = [{'name': 'wrist', 'position': '1e-2'}]
+        node = self.start(GOOD, {'estimator': estimator, 'rest': rest, 'hold_after': 1})
+        self.expect_start(node, [])
+        self.assertIn('accelerations of joint states estimated 0 s behind', node.output())
 
     def test_unknown_argument(self):
         self.expect_refusal(self.start(GOOD, arguments=['--robot']), ['unknown argument --robot'])
