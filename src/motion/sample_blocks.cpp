@@ -19,6 +19,8 @@ constexpr double kCertain = 10;
 /// the positions makes two such changes.
 constexpr int kAlternating = 4;
 constexpr int kFewestAlternations = 4;
+/// Steps up to this length are an encoder's, rad or m; longer ones have to be seen more often.
+constexpr double kLargestUsualStep = 0.01;
 constexpr double kLeast = 1e-12;  // rad or m: less than any encoder resolves
 /// Time constant of a model that follows its samples, in intervals.
 constexpr double kFollowing = 0.2;
@@ -79,8 +81,8 @@ void StepFinder::take(double oldest, double middle, double newest) {
 }
 
 double StepFinder::step() const {
-  const bool found = alternations_ >= kFewestAlternations &&
-                     kAlternating * alternations_ >= differences_ &&
+  const int fewest = divisor_.value <= kLargestUsualStep ? 1 : kFewestAlternations;
+  const bool found = alternations_ >= fewest && kAlternating * alternations_ >= differences_ &&
                      divisor_.value > kCertain * kCertain * divisor_.error;
   return found ? divisor_.value : std::numeric_limits<double>::infinity();
 }
