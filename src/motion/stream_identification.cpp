@@ -34,20 +34,25 @@ double logarithm(double value) {
 
 }  // namespace
 
-/// Standard deviation of a block, from differences that leave little of a smooth motion.
-double StreamIdentification::positionNoiseFromDifferences() const {
+/// Standard deviation of blocks' positions or velocities, from differences that leave little of a
+/// smooth motion; zero where there are none.
+double StreamIdentification::noiseFromDifferences(double StreamBlock::*part) const {
   constexpr double kMeanMagnitude = 0.7978845608028654;  // of a deviation, sqrt(2/pi)
   double sum = 0;
+  int count = 0;
   std::array<double, kDifferenced> times{};
-  std::array<double, kDifferenced> positions{};
+  std::array<double, kDifferenced> values{};
   for (std::size_t first = 0; first + kDifferenced <= blocks_.size(); ++first) {
     for (std::size_t i = 0; i < kDifferenced; ++i) {
       times[i] = blocks_[first + i].time - blocks_[first].time;
-      positions[i] = blocks_[first + i].position - blocks_[first].position;
+      values[i] = blocks_[first + i].*part - blocks_[first].*part;
     }
-    sum += std::abs(noiseDifference(times, positions));
+    const double difference = noiseDifference(times, values);
+    if (std::isnan(difference)) continue;
+    sum += std::abs(difference);
+    ++count;
   }
-  return sum / static_cast<double>(blocks_.size() - (kDifferenced - 1)) / kMeanMagnitude;
+  return count > 0 ? sum / count / kMeanMagnitude : 0;
 }
 
 /// Usual speed, root of its mean square; positive.
@@ -80,7 +85,8 @@ SimplexSearch::Point StreamIdentification::firstGuess(const StreamModel* guess) 
     point[kStamp] = std::max(point[kStamp], logarithm(3 * least_stamp_));
   } else {
     point[kPosition] = logarithm(shown_noise_);
-    point[kVelocity] = point[kPosition] - std::log(interval_);
+    const double velocity_noise = noiseFromDifferences(&StreamBlock::velocity);
+    point[kVelocity] = logarithm(std::max(velocity_noise, shown_noise_ / interval_));
     point[kStamp] = logarithm(100 * least_stamp_);
     point[kTime] = logarithm(interval_);
   }
@@ -100,8 +106,8 @@ void StreamIdentification::start(const StreamKnowledge& knowledge, double interv
     if (!std::isnan(fixedValue(i)) || (i == kVelocity && !knowledge.use_velocities)) continue;
     searched_[static_cast<std::size_t>(dimensions_++)] = i;
   }
-  shown_noise_ =
-      std::max(positionNoiseFromDifferences(), knowledge_.least_position / std::sqrt(samples_));
+  shown_noise_ = std::max(noiseFromDifferences(&StreamBlock::position),
+                          knowledge_.least_position / std::sqrt(samples_));
   least_stamp_ = kLeastStampNoise * std::min(interval, kLeastStampPart * shown_noise_ / speed());
   best_value_ = std::numeric_limits<double>::infinity();
   searching_ = knowledge.time_constant >= 0;
@@ -111,8 +117,7 @@ void StreamIdentification::start(const StreamKnowledge& knowledge, double interv
   } else {
     // Also with a guess: a motion that begins is not found from a model of rest step by step.
     grid_ = firstGuess(nullptr);
-    if (guess != nullptr)
-      for (const Parameter other : {kVelocity, kStamp}) grid_[other] = best_[other];
+    if (guess != nullptr) grid_[kStamp] = best_[kStamp];
     grid_[kTime] = logarithm(kShortestTime * interval);
   }
   beginCandidate();

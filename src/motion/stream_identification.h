@@ -64,7 +64,7 @@ class StreamIdentification {
   enum Parameter { kTime, kPosition, kVelocity, kStamp };
 
   SimplexSearch::Point firstGuess(const StreamModel* guess) const;
-  double positionNoiseFromDifferences() const;
+  double noiseFromDifferences(double StreamBlock::*part) const;
   double speed() const;
   double fixedValue(int parameter) const;
   double longestTime() const;
