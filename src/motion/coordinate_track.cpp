@@ -55,9 +55,14 @@ constexpr double kLongestPart = 1.0 / 3;
 constexpr double kForgotten = 5;
 constexpr double kForgottenSamples = 16;
 
+/// Later samples after which a sample is recorded.
+constexpr int kSettled = 4;
+
 /// Blocks that the model is found from: their time, s, and how many of them.
 constexpr double kBlockTime = 0.004;
 constexpr std::size_t kBlocks = 768;
+/// Intervals that their mean is taken over.
+constexpr int kUsualIntervals = 64;
 /// Samples before the time between them is known well enough to size the blocks.
 constexpr int kIntervalSamples = 12;
 /// Steps of the identification for each second that samples are apart: a part of the time that
@@ -130,7 +135,6 @@ double CoordinateTrack::moved(const Entry& from, const Entry& to) {
 CoordinateTrack::Verdict CoordinateTrack::push(std::int64_t stamp, double q, double qd) {
   if (size_ > 0 && stamp <= newest()) return insert(stamp, q, qd);
   const bool gap = size_ > 0 && capacity() > 1 && stamp - newest() > max_gap_;
-  if (size_ > 0 && !gap) noteInterval(stamp);
   const double turns = turn_counter_.turns(q, size_ > 0 ? secondsBetween(newest(), stamp) : 0);
   newest_ = (newest_ + 1) & (capacity() - 1);
   size_ = std::min(size_ + 1, capacity());
@@ -150,6 +154,7 @@ CoordinateTrack::Verdict CoordinateTrack::push(std::int64_t stamp, double q, dou
     begin(now);
   } else {
     stretch_ = std::min(stretch_ + 1, capacity());
+    noteInterval();
     noteStep();
     if (startIsStale()) {
       restart(std::min(stretch_, kMostStarting));
@@ -159,7 +164,7 @@ CoordinateTrack::Verdict CoordinateTrack::push(std::int64_t stamp, double q, dou
     }
     identify();
   }
-  record(stamp, q + kTwoPi * turns, qd);
+  recordSettled();
   return gap ? Verdict::kAfterGap : Verdict::kTaken;
 }
 
@@ -192,7 +197,9 @@ CoordinateTrack::Verdict CoordinateTrack::insert(std::int64_t stamp, double q, d
   place.turns = after.turns;
   if (forward < std::abs(moved(before, place))) place.turns = before.turns;
   place.qd = qd;
+  noteInterval();
   for (int i = age; i >= 0; --i) follow(entry(i + 1), entry(i), false);
+  if (age <= kSettled) recordSettled();
   return Verdict::kInserted;
 }
 
@@ -332,11 +339,10 @@ void CoordinateTrack::expectNothing() {
   previous_innovation_ = 0;
 }
 
-void CoordinateTrack::noteInterval(std::int64_t stamp) {
-  const double dt = secondsBetween(newest(), stamp);
-  // The mean of the first few, then a slow average.
-  const double weight = 1 / std::min(64.0, static_cast<double>(stretch_));
-  interval_ = std::isfinite(interval_) ? interval_ + weight * (dt - interval_) : dt;
+/// The mean of the latest intervals; samples that came late are counted, too.
+void CoordinateTrack::noteInterval() {
+  const int intervals = std::min(stretch_ - 1, kUsualIntervals);
+  interval_ = secondsBetween(entry(intervals).stamp, newest()) / intervals;
 }
 
 /// Learns from the latest positions how finely they are resolved.
@@ -479,6 +485,13 @@ StreamQuality CoordinateTrack::quality() const {
     quality.bandwidth = 1 / (kTwoPi * timeConstant(model_, kOrder, quality.interval));
   quality.velocity_ratio = velocity_ratio_;
   return quality;
+}
+
+/// Records the sample that late ones no longer come before, as a rule.
+void CoordinateTrack::recordSettled() {
+  if (stretch_ <= kSettled) return;
+  const Entry& settled = entry(kSettled);
+  record(settled.stamp, settled.q + kTwoPi * settled.turns, settled.qd);
 }
 
 /// Adds a sample to the block that is being filled.

@@ -103,7 +103,7 @@ class CoordinateTrack {
   void noteNoise();
   double shownNoise() const;
   void noteJump();
-  void noteInterval(std::int64_t stamp);
+  void noteInterval();
   void adapt(const StreamUpdate<kOrder>& update, StreamState<kOrder>& state);
   void expectNothing();
   double usualInterval() const;
@@ -111,6 +111,7 @@ class CoordinateTrack {
   void forgetRecord();
   StreamModel firstModel() const;
 
+  void recordSettled();
   void record(std::int64_t stamp, double q, double qd);
   void identify();
   void startIdentification();
