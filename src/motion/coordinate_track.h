@@ -5,9 +5,11 @@
 #include <limits>
 #include <vector>
 
-#include "motion/sample_blocks.h"
+#include "motion/shown_noise.h"
 #include "motion/stream_filter.h"
-#include "motion/stream_identification.h"
+#include "motion/stream_learner.h"
+#include "motion/stream_model.h"
+#include "motion/stream_surprise.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion_estimator.h"
 #include "virtual_work_dynamics/unwrap.h"
@@ -15,8 +17,8 @@
 namespace virtual_work_dynamics {
 
 /// The latest samples of one coordinate with the states of its filter: takes samples as they come,
-/// learns their noises, and gives the motion at instants that they surround (fixed lag). Does not
-/// allocate after construction.
+/// also late ones, and gives the motion at instants that they surround (fixed lag). The model of
+/// the filter is StreamLearner's. Does not allocate after construction.
 class CoordinateTrack {
  public:
   enum class Verdict {
@@ -67,7 +69,7 @@ class CoordinateTrack {
   bool contradictory() const { return jumps_ >= kManyJumps; }
 
  private:
-  static constexpr int kOrder = 4;
+  static constexpr int kOrder = StreamLearner::kOrder;
   static constexpr int kManyJumps = 20;
 
   struct Entry {
@@ -97,28 +99,19 @@ class CoordinateTrack {
   int startingCount() const;
   bool startIsStale() const;
   void restart(int samples);
-  void follow(const Entry& before, Entry& entry, bool judge);
+  void follow(const Entry& before, Entry& entry);
   Verdict insert(std::int64_t stamp, double q, double qd);
-  void noteStep();
   void noteNoise();
-  double shownNoise() const;
   void noteJump();
   void noteInterval();
-  void adapt(const StreamUpdate<kOrder>& update, StreamState<kOrder>& state);
-  void expectNothing();
+  void adapt(Entry& now);
   double usualInterval() const;
   void startStretch(std::int64_t stamp);
-  void forgetRecord();
-  StreamModel firstModel() const;
-
   void recordSettled();
-  void record(std::int64_t stamp, double q, double qd);
-  void identify();
-  void startIdentification();
-  void useIdentified();
+  void useLearnt();
+  const StreamModel& model() const { return learner_.model(); }
 
   TurnCounter turn_counter_;
-  const NoiseSettings noise_;
   const double lag_;  // s
   const std::int64_t max_gap_;
   std::vector<Entry> entries_;  // a ring; the oldest makes room for the newest
@@ -129,36 +122,10 @@ class CoordinateTrack {
   double interval_ = std::numeric_limits<double>::infinity();
   int jumps_ = 0;
 
-  StreamModel model_;
-  StepFinder steps_;             // that positions are rounded to
-  double least_position_;        // standard deviation that no sample can be better than
+  ShownNoise noise_;
+  StreamSurprise surprise_;
+  StreamLearner learner_;
   double started_variance_ = 0;  // of positions, when the filter was last started
-  int differences_ = 0;          // of fourth order, of the latest stretch
-  double difference_ = 0;        // the latest of them
-  double squares_ = 0;           // mean of their squares
-  double products_ = 0;          // mean of the products of those that follow each other
-  double surprise_ = 1;          // mean square of the latest innovations over their variances
-  double one_way_ = 0;           // mean product of each with the one before
-  double previous_innovation_ = 0;
-  bool jumped_ = false;
-  bool learnt_ = false;  // whether model_ is from the samples
-  bool velocities_proven_ = false;
-  double velocity_ratio_ = 1;
-
-  // Means of samples from which the model is found: a ring as well.
-  std::vector<StreamBlock> blocks_;
-  std::size_t next_block_ = 0;
-  std::size_t block_count_ = 0;
-  std::size_t new_blocks_ = 0;  // since the identification before
-  std::size_t wanted_blocks_ = 0;
-  int block_size_ = 0;         // samples in a block; 0: not known yet
-  double block_interval_ = 0;  // s
-  StreamBlock sum_{0, 0, 0};   // of the block that is being filled, relative to its first sample
-  int summed_ = 0;
-  std::int64_t block_start_ = 0;
-  std::int64_t record_start_ = 0;
-  double block_position_ = 0;
-  StreamIdentification identification_;
 };
 
 }  // namespace virtual_work_dynamics

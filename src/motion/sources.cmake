@@ -1,4 +1,5 @@
 vwd_core(
+  block_record.cpp
   coordinate_track.cpp
   end_slopes.cpp
   motion_completion.cpp
@@ -8,10 +9,13 @@ vwd_core(
   recording.cpp
   sample_blocks.cpp
   sample_clock.cpp
+  shown_noise.cpp
   simplex_search.cpp
   spline.cpp
   stream_identification.cpp
+  stream_learner.cpp
   stream_smoother.cpp
+  stream_surprise.cpp
   stream_text.cpp
   trajectory_curve.cpp
   unwrap.cpp
