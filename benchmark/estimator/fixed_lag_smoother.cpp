@@ -29,8 +29,8 @@ class FilteredJoint {
     model.stamp_variance = spec.jitter * spec.jitter;
     model.density = densityFor(time_constant, model.position_variance, kOrder, 1.0 / spec.rate);
     const double interval = 1.0 / spec.rate;
-    StreamState<kOrder> state = firstState<kOrder>(
-        model, interval, startingSamples(model, kOrder, interval), [&](int i) {
+    StreamState<kOrder> state =
+        firstState<kOrder>(model, interval, startingSamples(model, kOrder, interval), [&](int i) {
           return std::pair(recording.stamps[static_cast<std::size_t>(i)] - recording.stamps[0],
                            recording.positions(i, joint) - recording.positions(0, joint));
         });

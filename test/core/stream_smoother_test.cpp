@@ -121,10 +121,10 @@ std::vector<SmoothedSample> solved(const std::vector<StreamBlock>& samples, std:
   // constants, within ten deviations of these and what the noise does within many time constants.
   const double constant = timeConstant(model, order, interval);
   // … that leave the second position known to 1e5 deviations of a sample, at least.
-  const Real time = std::min<Real>(
-      100 * std::max(constant, interval),
-      std::pow(1e10 * model.position_variance / model.density / interval / interval,
-               1.0 / (2 * order - 3)));
+  const Real time =
+      std::min<Real>(100 * std::max(constant, interval),
+                     std::pow(1e10 * model.position_variance / model.density / interval / interval,
+                              1.0 / (2 * order - 3)));
   const auto rows = static_cast<Eigen::Index>(
       std::min(std::clamp(2 * constant / interval, order + 0.0, 64.0), 0.0 + end - begin));
   const Eigen::Index terms = std::min<Eigen::Index>(rows - 1, order - 1);
