@@ -15,6 +15,7 @@
 #include "encoder_streams.h"
 #include "joint_state_stream.h"
 #include "motion/stream_smoother.h"
+#include "virtual_work_dynamics/motion_completion.h"
 #include "virtual_work_dynamics/motion_estimator.h"
 
 // What encoders and drivers really send, and how well motions are estimated from it.
@@ -371,6 +372,42 @@ TEST(MotionEstimator, WrongVelocitiesAreFoundAndNotUsed) {
       EXPECT_NEAR(quality.velocity_ratio, ratio, 0.02 * std::max(1.0, ratio));
     }
   }
+}
+
+/// Root mean square of the errors of the accelerations that completeMotion() finds, except for an
+/// eighth at either end.
+double completionError(const Samples& samples) {
+  const Mechanism mechanism = estimator_test::mechanismOf({JointType::kRevolute});
+  const auto rows = static_cast<Eigen::Index>(samples.rows());
+  MotionTable motion;
+  motion.joints = mechanism.coordinateNames();
+  motion.times = samples.stamps;
+  motion.positions = Eigen::Map<const Eigen::VectorXd>(samples.positions[0].data(), rows);
+  if (!samples.velocities.empty())
+    motion.velocities = Eigen::Map<const Eigen::VectorXd>(samples.velocities[0].data(), rows);
+  motion = completeMotion(mechanism, std::move(motion));
+  double squares = 0;
+  for (Eigen::Index row = rows / 8; row < rows * 7 / 8; ++row) {
+    const State& truth = samples.truth[0][static_cast<std::size_t>(row)];
+    squares += std::pow(motion.accelerations(row, 0) - truth.qdd, 2);
+  }
+  return std::sqrt(squares / static_cast<double>(rows * 3 / 4));
+}
+
+// Right in the mean, but so noisy that they say next to nothing.
+TEST(MotionEstimator, NoisyVelocitiesDoNoHarm) {
+  for (const int rate : {125, 1000})
+    for (const double quantum : {1e-5, 1e-4}) {
+      SCOPED_TRACE(std::to_string(rate) + " Hz, " + std::to_string(quantum) + " rad");
+      Samples noisy = sampled(movesOf(1, 4, 9), encoderOf(rate, quantum, 0), 4, 5);
+      Samples absent = noisy;
+      absent.velocities.clear();
+      std::mt19937 generator(6);
+      std::normal_distribution<double> normal(0, 0.3);
+      for (double& qd : noisy.velocities[0]) qd += normal(generator);
+      EXPECT_LT(estimated(noisy, {}).error(noisy), 1.2 * estimated(absent, {}).error(absent));
+      EXPECT_LT(completionError(noisy), 1.2 * completionError(absent));
+    }
 }
 
 // Nothing can be learnt at rest, and what was learnt there must not blunt the first move.
