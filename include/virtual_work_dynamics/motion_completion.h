@@ -19,7 +19,8 @@ struct CompletionSettings {
   /// s: nothing is assumed of the motion across longer gaps, unless they are usual.
   double max_gap = 0.25;
   bool covariances = false;  ///< whether MotionTable::covariances is filled in
-  /// Whether positions stay as given: smoothed ones would not close the loops of a mechanism.
+  /// Whether positions stay as given: with closed loops smoothed ones would not close them, and a
+  /// row that cannot be closed would take others with it.
   bool keep_positions = false;
 };
 
