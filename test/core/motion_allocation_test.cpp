@@ -87,7 +87,7 @@ TEST(TurnCounter, CountsWithoutAllocating) {
   const AllocationGuard guard;
   TurnCounter counter;
   double turns = 0;
-  for (int i = 0; i < 100; ++i) turns += counter.turns(i % 2 == 0 ? 3 : -3, 0.001);
+  for (int i = 0; i < 100; ++i) turns += counter.turns(i % 2 == 0 ? 3.12 : -3.12, 0.001);
   EXPECT_EQ(guard.allocations(), 0u);
   EXPECT_EQ(turns, 50);
 }
