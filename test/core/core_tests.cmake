@@ -17,6 +17,7 @@ set(stability_scenes
   benchmark/stability/worst_certificates.cpp)
 set(core_test_files
   test/core/axis_direction_test.cpp
+  test/core/block_record_test.cpp
   test/core/block_test.cpp
   test/core/block_use_test.cpp
   test/core/certificates_test.cpp
@@ -54,6 +55,7 @@ set(core_test_files
   test/core/motion_completion_test.cpp
   test/core/motion_csv_test.cpp
   test/core/motion_estimator_rules_test.cpp
+  test/core/motion_estimator_start_test.cpp
   test/core/motion_estimator_streams_test.cpp
   test/core/motion_estimator_test.cpp
   test/core/motion_law_test.cpp
@@ -90,13 +92,17 @@ set(core_test_files
   test/core/sample_rows_test.cpp
   test/core/scene_reader_loops_test.cpp
   test/core/scene_reader_test.cpp
+  test/core/shown_noise_test.cpp
   test/core/simplex_search_test.cpp
   test/core/sine_cosine_test.cpp
   test/core/spline_accuracy_test.cpp
   test/core/spline_test.cpp
   test/core/stability_test.cpp
+  test/core/step_finder_test.cpp
   test/core/stream_identification_test.cpp
+  test/core/stream_learner_test.cpp
   test/core/stream_smoother_test.cpp
+  test/core/stream_surprise_test.cpp
   test/core/summation_test.cpp
   test/core/table_law_test.cpp
   test/core/trajectory_curve_test.cpp
