@@ -75,8 +75,7 @@ void refuseToOverwriteInput(const Arguments& arguments) {
   for (const std::string& input : {arguments.urdf, arguments.motion, arguments.scene}) {
     if (input.empty()) continue;
     std::error_code missing;  // a missing file cannot be overwritten
-    if (std::filesystem::equivalent(input, arguments.output, missing) ||
-        std::filesystem::equivalent(input, partPath(arguments.output), missing)) {
+    if (std::filesystem::equivalent(input, arguments.output, missing)) {
       throw UsageError("--output: '" + arguments.output + "' would overwrite the input '" + input +
                        "'");
     }

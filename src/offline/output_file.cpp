@@ -1,22 +1,57 @@
 #include "offline/output_file.h"
 
+#include <fcntl.h>
 #include <signal.h>
+#include <stdlib.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstddef>
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr std::array<int, 3> kEndingSignals{SIGINT, SIGTERM, SIGHUP};
+/// Those that end a process unless it does something about them.
+constexpr std::array<int, 17> kEndingSignals{SIGHUP,  SIGINT,  SIGQUIT, SIGILL,  SIGTRAP,  SIGABRT,
+                                             SIGBUS,  SIGFPE,  SIGUSR1, SIGSEGV, SIGUSR2,  SIGPIPE,
+                                             SIGALRM, SIGTERM, SIGXCPU, SIGXFSZ, SIGVTALRM};
+constexpr std::size_t kLongestName = 255;
+constexpr std::string_view kUnique = ".XXXXXX.part";
 
 // The file that a signal handler may remove; null when there is none.
 const char* volatile part_to_remove = nullptr;
+
+/// The mode that a file at a path has, or that a new one gets.
+mode_t modeOf(const std::string& path) {
+  struct stat status;
+  if (stat(path.c_str(), &status) == 0) return status.st_mode & 07777;
+  const mode_t mask = umask(0);
+  umask(mask);
+  return 0666 & ~mask;
+}
+
+/// Creates a file of a name that no other process has, beside a path. @returns its descriptor, -1
+/// on failure, with the reason in errno.
+int createBeside(const std::string& path, std::string& part) {
+  const std::filesystem::path whole(path);
+  std::string name = whole.filename().string();
+  name.resize(std::min(name.size(), kLongestName - kUnique.size()));
+  part = (whole.parent_path() / (name + std::string(kUnique))).string();
+  const int suffix = static_cast<int>(std::string_view(".part").size());
+  const int descriptor = mkostemps(part.data(), suffix, O_CLOEXEC);
+  if (descriptor < 0) return descriptor;
+  // Some file systems have no modes; the file is written all the same.
+  static_cast<void>(fchmod(descriptor, modeOf(path)));
+  return descriptor;
+}
 
 extern "C" void removePartAndEnd(int signal_number) {
   if (part_to_remove != nullptr) unlink(part_to_remove);
@@ -54,10 +89,6 @@ void watchSignals() {
 
 }  // namespace
 
-std::string partPath(const std::string& path) {
-  return path + ".part";
-}
-
 OutputFile::OutputFile(const std::string& path) : path_(path) {
   if (path_.empty()) {
     path_ = "standard output";
@@ -73,11 +104,19 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
     if (std::filesystem::is_symlink(path_, no_matter)) {
       path_ = std::filesystem::weakly_canonical(path_, no_matter).string();
     }
-    part_ = partPath(path_);
   }
   const SignalsHeld held;
-  stream_ = std::fopen((may_replace ? part_ : path_).c_str(), "wb");
-  if (stream_ == nullptr) throwCannotWrite(errno);
+  if (may_replace) {
+    const int descriptor = createBeside(path_, part_);
+    if (descriptor >= 0) stream_ = fdopen(descriptor, "wb");
+  } else {
+    stream_ = std::fopen(path_.c_str(), "wb");
+  }
+  if (stream_ == nullptr) {
+    const int error = errno;
+    part_.clear();
+    throwCannotWrite(error);
+  }
   if (may_replace) {
     part_to_remove = part_.c_str();
     watchSignals();

@@ -5,10 +5,12 @@
 
 namespace virtual_work_dynamics {
 
-/// A file that is written as a whole or not at all: its text goes to `<path>.part` beside it, which
-/// commit() renames. Without commit(), and when SIGINT, SIGTERM or SIGHUP ends the process, the
-/// partial file is removed. Standard output, devices and pipes are written directly. A process may
-/// have one such object at a time.
+/// A file that is written as a whole or not at all: its text goes to a file of a name of its own
+/// beside it, `<path>.XXXXXX.part`, which commit() renames. The mode of a file that is replaced is
+/// kept. Without commit(), and when a signal that can be caught ends the process, the partial file
+/// is removed. Of several processes that write one path at once each writes its own file, and the
+/// last to commit() is what stays. Standard output, devices and pipes are written directly. A
+/// process may have one such object at a time.
 class OutputFile {
  public:
   /// Opens the file. @param path where it is to be; empty: standard output.
@@ -30,8 +32,5 @@ class OutputFile {
   std::string part_;  ///< path until commit(); empty: nothing to rename or remove
   std::FILE* stream_ = nullptr;
 };
-
-/// The path at which a file is written until it is complete.
-std::string partPath(const std::string& path);
 
 }  // namespace virtual_work_dynamics

@@ -3,6 +3,7 @@
 #include "base/number_text.h"
 #include "base/text_file.h"
 #include "scene/closure_reader.h"
+#include "scene/yaml_document.h"
 #include "scene/yaml_values.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -108,9 +109,9 @@ Scene readSceneFile(const std::string& path) {
   const std::string text = readTextFile(path);
   YAML::Node node;
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1) throw SceneError(path + ": holds more than one YAML document");
-    if (!documents.empty()) node = documents.front();
+    node = readYamlDocument(text);
+  } catch (const SceneError& error) {
+    throw SceneError(path + ": " + error.what());
   } catch (const YAML::Exception& error) {
     throw FileError(path + ": is not valid YAML: " + error.what());
   }

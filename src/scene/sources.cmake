@@ -7,4 +7,5 @@ vwd_core(
   resolved_loops.cpp
   scene.cpp
   scene_reader.cpp
+  yaml_document.cpp
   yaml_values.cpp)

@@ -30,7 +30,7 @@ class OfflineToolErrors : public OfflineTool {
     EXPECT_EQ(result.exit_code, exit_code) << arguments;
     EXPECT_EQ(result.out, "") << arguments;
     EXPECT_EQ(readFile(path("r.csv")), "kept") << arguments;
-    EXPECT_FALSE(exists("r.csv.part")) << arguments;
+    EXPECT_EQ(partialFile(folder()), "") << arguments;
     const std::string start = "inverse_dynamics_offline: error: ";
     const std::string end =
         exit_code == 2 ? "\nTry 'inverse_dynamics_offline --help'.\n" : std::string("\n");
@@ -117,11 +117,17 @@ TEST_F(OfflineToolErrors, AnUnknownInstructionSetIsNamed) {
 TEST_F(OfflineToolErrors, AnInputIsNeverOverwritten) {
   EXPECT_EQ(usage("--urdf p.urdf --motion m.csv --output ./m.csv"),
             "--output: './m.csv' would overwrite the input 'm.csv'");
+  EXPECT_EQ(readFile(path("m.csv")), kSwing);
+  // Nor is anything else that is there.
   write("q.csv.part", kSwing);
-  EXPECT_EQ(usage("--urdf p.urdf --motion q.csv.part --output q.csv"),
-            "--output: 'q.csv' would overwrite the input 'q.csv.part'");
+  std::filesystem::create_symlink("m.csv", path("n.csv.part"));
+  for (const std::string output : {"q.csv", "n.csv"}) {
+    EXPECT_EQ(run("--urdf p.urdf --motion q.csv.part --output " + output).exit_code, 0);
+    EXPECT_TRUE(exists(output));
+  }
   EXPECT_EQ(readFile(path("m.csv")), kSwing);
   EXPECT_EQ(readFile(path("q.csv.part")), kSwing);
+  EXPECT_TRUE(std::filesystem::is_symlink(path("n.csv.part")));
 }
 
 TEST_F(OfflineToolErrors, BadMotionsAreNamedWithLineAndColumn) {
@@ -242,7 +248,6 @@ TEST_F(OfflineToolErrors, AFullDiskLeavesNoPartialFile) {
 
 // Starts the tool, ends it by a signal once the partial file is there, and returns the wait status.
 int interrupted(const std::string& folder, int signal_number) {
-  const std::string part = folder + "/r.csv.part";
   const pid_t child = fork();
   if (child == 0) {
     if (chdir(folder.c_str()) != 0) _exit(126);
@@ -253,7 +258,7 @@ int interrupted(const std::string& folder, int signal_number) {
   }
   int status = 0;
   while (waitpid(child, &status, WNOHANG) == 0) {
-    if (std::filesystem::exists(part)) {
+    if (!partialFile(folder).empty()) {
       kill(child, signal_number);
       waitpid(child, &status, 0);
       break;
@@ -265,7 +270,8 @@ int interrupted(const std::string& folder, int signal_number) {
 
 TEST_F(OfflineToolErrors, AnEndingSignalLeavesNoPartialFile) {
   write("long.csv", longMotion(200000));
-  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal_number :
+       {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGUSR1, SIGALRM, SIGXCPU, SIGABRT}) {
     write("r.csv", "kept");
     // The tool may win the race and finish before the signal; then it is tried again.
     int status = 0;
@@ -276,8 +282,46 @@ TEST_F(OfflineToolErrors, AnEndingSignalLeavesNoPartialFile) {
     ASSERT_TRUE(WIFSIGNALED(status));
     EXPECT_EQ(WTERMSIG(status), signal_number);
     EXPECT_EQ(readFile(path("r.csv")), "kept");
-    EXPECT_FALSE(exists("r.csv.part"));
+    EXPECT_EQ(partialFile(folder()), "");
   }
+}
+
+// Several runs may write one file at once: what stays is one of the results, whole.
+TEST_F(OfflineToolErrors, OfTwoThatWriteOneFileOneIsLeftWhole) {
+  write("long.csv", longMotion(20000));
+  write("short.csv", longMotion(5000));
+  const auto command = [](const std::string& motion, const std::string& output) {
+    return "--urdf p.urdf --motion " + motion + " --output " + output;
+  };
+  ASSERT_EQ(run(command("long.csv", "long_r.csv")).exit_code, 0);
+  ASSERT_EQ(run(command("short.csv", "short_r.csv")).exit_code, 0);
+  const std::string results[] = {readFile(path("long_r.csv")), readFile(path("short_r.csv"))};
+  for (const char* const delay : {"0", "0.01", "0.02", "0.04", "0.08"}) {
+    const std::string first = std::string(kOfflineTool) + " " + command("long.csv", "r.csv");
+    const Run second = run(command("short.csv", "r.csv") + "; wait $! && echo both",
+                           first + " 2>first.err & sleep " + delay + ";");
+    EXPECT_EQ(second.out, "both\n") << second.err << readFile(path("first.err"));
+    const std::string left = readFile(path("r.csv"));
+    EXPECT_TRUE(left == results[0] || left == results[1]) << delay << ": " << left.size();
+    EXPECT_EQ(partialFile(folder()), "");
+  }
+}
+
+TEST_F(OfflineToolErrors, TheModeOfAReplacedFileIsKept) {
+  const auto modeOf = [this](const std::string& name) {
+    return static_cast<int>(std::filesystem::status(path(name)).permissions());
+  };
+  write("r.csv", "old");
+  for (const int mode : {0640, 0600, 0664}) {
+    std::filesystem::permissions(path("r.csv"), static_cast<std::filesystem::perms>(mode));
+    ASSERT_EQ(run("--urdf p.urdf --motion m.csv --output r.csv").exit_code, 0);
+    EXPECT_EQ(modeOf("r.csv"), mode);
+  }
+  ASSERT_EQ(run("--urdf p.urdf --motion m.csv --output new.csv", "umask 027; exec").exit_code, 0);
+  EXPECT_EQ(modeOf("new.csv"), 0640);
+  const std::string long_name(251, 'n');
+  ASSERT_EQ(run("--urdf p.urdf --motion m.csv --output " + long_name + ".csv").exit_code, 0);
+  EXPECT_TRUE(exists(long_name + ".csv"));
 }
 
 }  // namespace

@@ -18,6 +18,18 @@
 namespace virtual_work_dynamics {
 
 /// Runs the built offline tool as a user would, in a folder of its own that is removed afterwards.
+/// Name of a file in a folder that an output is being written to, empty: there is none.
+inline std::string partialFile(const std::string& folder) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const std::string end = ".part";
+    if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0 &&
+        name.rfind("r.csv.", 0) == 0)
+      return name;
+  }
+  return "";
+}
+
 class OfflineTool : public testing::Test {
  protected:
   struct Run {

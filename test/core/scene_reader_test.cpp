@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <fstream>
 #include <string>
 
@@ -114,6 +116,45 @@ TEST(SceneReader, RefusesASecondDocument) {
   std::ofstream(path) << "";
   EXPECT_FALSE(readSceneFile(path).static_motion);
   std::remove(path.c_str());
+}
+
+std::string fileRefusal(const std::string& text) {
+  const std::string path = testing::TempDir() + "refused.yaml";
+  std::ofstream(path) << text;
+  std::string message = "(not refused)";
+  try {
+    readSceneFile(path);
+  } catch (const std::exception& error) {
+    message = error.what();
+    EXPECT_EQ(message.rfind(path + ": ", 0), 0u) << message;
+    message = message.substr(std::min(message.size(), path.size() + 2));
+  }
+  std::remove(path.c_str());
+  return message;
+}
+
+TEST(SceneReader, ACommaOutOfPlaceIsNamed) {
+  const std::string invalid = "is not valid YAML: yaml-cpp: error at ";
+  EXPECT_EQ(fileRefusal(","), invalid + "line 1, column 1: nothing can begin with what is here");
+  EXPECT_EQ(fileRefusal("# a comment\n,\n"),
+            invalid + "line 2, column 1: nothing can begin with what is here");
+  EXPECT_EQ(fileRefusal("{gravity: [0, 0, -9.81]},"),
+            invalid + "line 1, column 25: nothing can begin with what is here");
+}
+
+TEST(SceneReader, FilesThatGrowWithoutBoundAreRefused) {
+  std::string aliases = "a: &a [1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+  for (char key = 'b'; key < 'k'; ++key) {
+    aliases += std::string(1, key) + ": &" + key + " [";
+    for (int i = 0; i < 9; ++i) aliases += std::string(i > 0 ? ", *" : "*") + char(key - 1);
+    aliases += "]\n";
+  }
+  EXPECT_NE(fileRefusal(aliases).find("more than a million values"), std::string::npos);
+  EXPECT_NE(fileRefusal("reactions: " + std::string(100000, '[')).find("nested more than 64 deep"),
+            std::string::npos);
+  // Aliases as such are welcome.
+  EXPECT_EQ(fileRefusal("joints: [{name: a, damping: &d 2}, {name: b, damping: *d}]"),
+            "(not refused)");
 }
 
 TEST(SceneReader, TolerancesAreFromZeroToBelowOne) {
