@@ -18,7 +18,8 @@ namespace virtual_work_dynamics {
 /// A revolute joint may well go the longer way, and so may the points of a trajectory, which can be
 /// far apart. There, a jump is a turn left out only when
 ///   - the joint would have moved faster than kFastest to make it,
-///   - it is a whole turn give or take a quarter, and no more than kFastest makes of it,
+///   - it differs from a whole turn by a quarter at most, and by no more than the joint moves at
+///     kFastest until then,
 ///   - all positions so far lie within one turn, as those of a driver that wraps do, and
 ///   - the turn does not lead out of the joint's limits.
 /// Everything else stays as it came. Prismatic and fixed joints have no turns.
@@ -64,7 +65,8 @@ std::vector<std::string> unwrapPositions(
     const Mechanism& mechanism, MotionTable& table,
     TurnCounter::Source source = TurnCounter::Source::kSamples);
 
-/// Adds them where no description says what the joints are.
+/// Adds the turns left out to the positions of a table where no description says what the joints
+/// are: each counts as a revolute one without limits.
 std::vector<std::string> unwrapPositions(MotionTable& table);
 
 }  // namespace virtual_work_dynamics

@@ -13,10 +13,6 @@ constexpr int kIntervalSamples = 12;
 /// Factor between intervals that are of one rate.
 constexpr double kOneRate = 1.5;
 
-double secondsBetween(std::int64_t from, std::int64_t to) {
-  return static_cast<double>(to - from) * 1e-9;
-}
-
 }  // namespace
 
 void BlockRecord::add(std::int64_t stamp, double position, double velocity, int stretch,

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "motion/sample_blocks.h"
 #include "motion/stream_start.h"
 
 namespace virtual_work_dynamics {
@@ -36,10 +37,6 @@ constexpr double kLongJump = 0.01;
 constexpr double kReturn = 0.2;
 /// Speed that no joint has, rad/s or m/s: a step that would take it is not one of the motion.
 constexpr double kAbsurdSpeed = 1e4;
-
-double secondsBetween(std::int64_t from, std::int64_t to) {
-  return static_cast<double>(to - from) * 1e-9;
-}
 
 }  // namespace
 
@@ -202,8 +199,8 @@ void CoordinateTrack::follow(const Entry& before, Entry& entry) {
 /// foreseen: the joint moves faster than it did when the model was learnt, or its positions are
 /// worse, or it is elsewhere.
 void CoordinateTrack::adapt(Entry& now) {
-  // A step of a slow joint's positions is one of the encoder's, and stays for many samples.
   const StreamUpdate<kOrder>& update = now.position;
+  // Of a slow joint, a step of the encoder stays in the positions for many samples: it is foreseen.
   const double foreseen = 1 / update.precision + kStepVariance * noise_.least() * noise_.least();
   const double innovation = update.scaled / update.precision / std::sqrt(foreseen);
   const StreamSurprise::Finding finding = surprise_.take(innovation);

@@ -2,11 +2,17 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "motion/stream_identification.h"
 
 namespace virtual_work_dynamics {
+
+/// Time between two stamps in ns, s.
+inline double secondsBetween(std::int64_t from, std::int64_t to) {
+  return static_cast<double>(to - from) * 1e-9;
+}
 
 /// Number of samples in blocks that are about `block_time` long, s; at least one.
 int blockSize(double block_time, double interval);

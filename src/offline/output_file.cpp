@@ -108,7 +108,7 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
   const SignalsHeld held;
   if (may_replace) {
     const int descriptor = createBeside(path_, part_);
-    if (descriptor >= 0) stream_ = fdopen(descriptor, "wb");
+    if (descriptor >= 0 && (stream_ = fdopen(descriptor, "wb")) == nullptr) unlink(part_.c_str());
   } else {
     stream_ = std::fopen(path_.c_str(), "wb");
   }
