@@ -28,7 +28,10 @@ std::string streamText(const StreamQuality& quality, const std::string& unit) {
     text += ", velocity noise " + brief(quality.velocity_noise) + " " + unit + "/s";
   if (quality.stamp_noise > 0.01 * quality.interval)
     text += ", stamp noise " + brief(quality.stamp_noise) + " s";
-  return text + ", bandwidth " + frequency(quality.bandwidth);
+  text += ", bandwidth " + frequency(quality.bandwidth);
+  if (quality.jumps > 0) text += ", jumps " + std::to_string(quality.jumps);
+  if (quality.left_out > 0) text += ", left out " + std::to_string(quality.left_out);
+  return text;
 }
 
 std::string velocityProblem(const std::string& joint, double ratio) {

@@ -77,6 +77,24 @@ void warnOfDegrees(const Mechanism& mechanism, const MotionFile& motion) {
   }
 }
 
+// Says which positions no motion leads to.
+void warnOfFarPositions(const MotionFile& motion, const std::string& joint,
+                        const std::vector<std::size_t>& jumps,
+                        const std::vector<std::size_t>& left_out) {
+  const auto others = [](std::size_t count) {
+    return count > 1 ? " and in " + std::to_string(count - 1) + " more rows" : std::string();
+  };
+  if (!jumps.empty()) {
+    std::cerr << "warning: " << motion.at(jumps[0]) << others(jumps.size()) << ": position of '"
+              << joint << "' jumps as no motion does; nothing is assumed of the motion across it\n";
+  }
+  if (!left_out.empty()) {
+    std::cerr << "warning: " << motion.at(left_out[0]) << others(left_out.size())
+              << ": position of '" << joint
+              << "' is far from those before and after, and is left out\n";
+  }
+}
+
 // Says what was found about the joints of an estimated motion.
 void describe(const Mechanism& mechanism, const MotionFile& motion,
               const CompletionReport& report) {
@@ -88,6 +106,7 @@ void describe(const Mechanism& mechanism, const MotionFile& motion,
                 << velocityProblem(joints[i], quality.velocity_ratio) << "\n";
     }
     const Joint& joint = mechanism.joint(mechanism.jointIndex(joints[i]));
+    warnOfFarPositions(motion, joints[i], report.jumps[i], report.left_out[i]);
     std::cerr << "note: " << motion.path << ": " << joints[i] << ": "
               << (report.still[i] ? std::string("does not move")
                                   : streamText(quality, symbolOf(unitOf(joint))))

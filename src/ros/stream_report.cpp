@@ -18,7 +18,8 @@ StreamReport::StreamReport(const StreamRecord& record, std::vector<std::string> 
     : record_(record),
       joints_(std::move(joints)),
       units_(std::move(units)),
-      warned_(joints_.size(), false) {}
+      warned_(joints_.size(), false),
+      warned_of_far_positions_(joints_.size(), false) {}
 
 std::string StreamReport::problem(std::size_t joint) const {
   const JointStream& stream = streams_[joint];
@@ -27,6 +28,20 @@ std::string StreamReport::problem(std::size_t joint) const {
   }
   if (stream.quality.velocity_ratio == 1) return "";
   return velocityProblem(joints_[joint], stream.quality.velocity_ratio);
+}
+
+/// Says once of each joint that its positions do what no motion does.
+void StreamReport::warnOfFarPositions(std::size_t joint) {
+  const StreamQuality& quality = streams_[joint].quality;
+  if (warned_of_far_positions_[joint] || quality.jumps + quality.left_out == 0) return;
+  warned_of_far_positions_[joint] = true;
+  if (quality.jumps > 0) {
+    ROS_WARN("position of '%s' jumps as no motion does: nothing is assumed of the motion across it",
+             joints_[joint].c_str());
+  } else {
+    ROS_WARN("a position of '%s' is far from those before and after, and is left out",
+             joints_[joint].c_str());
+  }
 }
 
 void StreamReport::add(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -42,6 +57,7 @@ void StreamReport::add(diagnostic_updater::DiagnosticStatusWrapper& status) {
     if (stream.quality.interval > 0) {
       status.add("samples of " + joints_[i], streamText(stream.quality, units_[i]));
     }
+    warnOfFarPositions(i);
     const std::string text = problem(i);
     if (text.empty()) continue;
     status.mergeSummary(DiagnosticStatus::WARN, text);

@@ -54,6 +54,7 @@ set(core_test_files
   test/core/motion_completion_accuracy_test.cpp
   test/core/motion_completion_test.cpp
   test/core/motion_csv_test.cpp
+  test/core/motion_estimator_jumps_test.cpp
   test/core/motion_estimator_rules_test.cpp
   test/core/motion_estimator_start_test.cpp
   test/core/motion_estimator_streams_test.cpp
@@ -115,6 +116,7 @@ set(core_test_files
 # Compiled for each: where its tool is, and tests of code that is all in headers.
 set(core_test_files_of_build
   test/core/exact_products_test.cpp
+  test/core/far_positions_test.cpp
   test/core/number_text_test.cpp
   test/core/offline_progress_test.cpp
   test/core/tested_build.cpp)

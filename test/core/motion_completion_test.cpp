@@ -220,7 +220,10 @@ TEST(MotionCompletion, PositionsOfACompleteMotionAreUnwrapped) {
 
 TEST(MotionCompletion, RevoluteJointsMayGoTheLongerWay) {
   MotionTable motion = without(cubicMotion(unevenTimes(9)), true, true);
-  motion.positions.col(0).tail(4).array() += 4;  // more than half a turn
+  // More than half a turn, not so suddenly that no motion would make it.
+  motion.positions.col(0).tail(4).array() += 4;
+  motion.positions(5, 0) -= 2.6;
+  motion.positions(4, 0) += 0.6;
   const MotionTable completed = completeMotion(twoJoints(), motion);
   EXPECT_GT(completed.velocities.col(0).maxCoeff(), 10);
 }
