@@ -158,6 +158,24 @@ class JointStates(NodeTest):
                               '0.25 s' in line]), 1)
         self.assertEqual(self.node.lines('WARN'), [])
 
+    def test_positions_before_encoders_are_read_are_no_part_of_the_motion(self):
+        self.start()
+        stamps = [EPOCH + 10 * MS * i for i in range(80)]
+        zeros = Polynomials(shoulder=(0,), elbow=(0,), slide=(0,))
+        for i, ns in enumerate(stamps):
+            self.publish(ns, velocities=False, motion=zeros if i < 3 else SLOW)
+        messages = self.efforts.wait(len(stamps) - LATEST)
+        self.assertStamps(messages, stamps[:-LATEST])
+        for message in messages[3:]:
+            ns = message.header.stamp.to_nsec()
+            self.assertEffort(message, self.bodies, SLOW(ns), ESTIMATED)
+        values = self.node.diagnostics(lambda values: 'samples of elbow' in values)
+        self.assertIn(', jumps 1', values['samples of elbow'])
+        self.assertNotIn('jumps', values['samples of slide'])
+        for joint in ('shoulder', 'elbow'):
+            self.assertIn("position of '%s' jumps as no motion does: nothing is assumed of the "
+                          'motion across it' % joint, self.node.lines('WARN'))
+
     def test_joint_states_at_10_hz_are_close_enough(self):
         self.start()
         stamps = [EPOCH + 100 * MS * i for i in range(15)]
