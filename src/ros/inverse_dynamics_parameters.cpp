@@ -19,7 +19,9 @@ void readRobotDescription(const ros::NodeHandle& node, InverseDynamicsParameters
   std::string& key = parameters.robot_description_key;
   if (!node.searchParam(kRobotDescription, key)) {
     throw ParameterError(std::string("parameter ") + kRobotDescription + ": not set, neither in " +
-                         node.getNamespace() + " nor in any namespace above it");
+                         node.getNamespace() +
+                         " nor in any namespace above it; robot:=FILE of inverse_dynamics.launch "
+                         "sets it");
   }
   if (!node.getParam(key, parameters.robot_description)) {
     throw ParameterError("parameter " + key + ": expected the text of a URDF");
