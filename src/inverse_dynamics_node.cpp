@@ -5,7 +5,7 @@
 #include "ros/inverse_dynamics_parameters.h"
 #include "ros/inverse_dynamics_usage.h"
 #include "ros/node_program.h"
-#include "ros/private_parameters.h"
+#include "ros/scene_parameter.h"
 
 int main(int argc, char** argv) {
   using namespace virtual_work_dynamics;
@@ -14,7 +14,7 @@ int main(int argc, char** argv) {
       InverseDynamicsNode node(readInverseDynamicsParameters(private_node));
       ros::spin();
     } catch (const SceneError& error) {
-      throw parameterError("scene", error.what());
+      throw sceneParameterError(error);
     }
   };
   return runNode(argc, argv, {"inverse_dynamics", kInverseDynamicsUsage, run});

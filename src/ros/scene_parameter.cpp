@@ -3,7 +3,6 @@
 #include <string>
 
 #include "ros/private_name.h"
-#include "ros/private_parameters.h"
 #include "ros/xmlrpc_to_yaml.h"
 #include "scene/yaml_document.h"
 
@@ -57,6 +56,13 @@ YAML::Node sceneDocument(const XmlRpcValue& parameter) {
                privateName(kScene) + " sets those of a file";
   }
   throw parameterError(kScene, problem);
+}
+
+ParameterError sceneParameterError(const SceneError& error) {
+  // By which the reader says that a scene is meant.
+  const std::string what = error.what(), word = "scene: ";
+  const bool repeats = what.compare(0, word.size(), word) == 0;
+  return parameterError(kScene, repeats ? what.substr(word.size()) : what);
 }
 
 }  // namespace virtual_work_dynamics

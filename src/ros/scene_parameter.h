@@ -3,6 +3,8 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 #include <yaml-cpp/yaml.h>
 
+#include "ros/private_parameters.h"
+
 namespace virtual_work_dynamics {
 
 /// The document that readScene() reads, from the parameter ~scene; null when it is not set. What
@@ -10,5 +12,8 @@ namespace virtual_work_dynamics {
 /// 0]}"`), or a list or map below one of its keys (`_scene/gravity:="[0, 0, 0]"`).
 /// @throws ParameterError naming the parameter when it is no map, or a text is not valid YAML.
 YAML::Node sceneDocument(const XmlRpc::XmlRpcValue& parameter);
+
+/// What is wrong with the scene, with the name of the parameter in front.
+ParameterError sceneParameterError(const SceneError& error);
 
 }  // namespace virtual_work_dynamics

@@ -1,50 +1,26 @@
 #!/usr/bin/python3
-"""The launch files, as a user starts them: from any folder, with odd paths, in namespaces."""
+"""The launch files: paths, robots that are there already, namespaces, arguments."""
 import glob
-import json
 import os
 import re
 import shutil
-import stat
 import subprocess
-import tempfile
 import xml.etree.ElementTree as ElementTree
 import xml.sax.saxutils
 
 from geometry_msgs.msg import WrenchStamped
-import rosbag
 import rosgraph
 import rospkg
 import rospy
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
-from node_under_test import (PACKAGE, NodeTest, Process, Recorder, executable, read, run, wait_until)
+from launches import ARM, LaunchTest
+from node_under_test import PACKAGE, run, wait_until
 
-ARM = read('data', 'arm.urdf')
-ROOT, TOOL = 'stand', 'tool'
+ROOT = 'stand'
 G = 9.81
-# Exact but for the rounding of a sum of a few products.
-ROUNDING = 1e-12
-# What a clean shell has.
-CLEAN = {'HOME': os.path.expanduser('~'), 'PATH': '/usr/bin:/bin'}
 PACKAGE_OF_RVIZ = 'rviz'
-ODD = 'a user\'s "odd" (folder)'
-# What `roslaunch --args` prints, as a list.
-COMMAND = """
-import json, sys
-from roslaunch.node_args import get_node_args
-from roslaunch.rlutil import resolve_launch_arguments
-node = sys.argv.pop(1)
-print(json.dumps(get_node_args(node, resolve_launch_arguments(sys.argv[1:])[:1])))
-"""
-MOTION = """joints: []
-law: table
-file: the table's "t".csv
-rate: 100
-velocities: false
-loop: true
-"""
 
 
 def launch_folder():
@@ -57,115 +33,14 @@ def nodes():
     return {node for _, names in publishers for node in names}
 
 
-def clean_environment():
-    """What is left of the environment in a clean shell with the workspace's set-up."""
-    workspace = os.environ.get('CMAKE_PREFIX_PATH', '').split(':')[0]
-    setup = os.path.join(workspace, 'setup.bash')
-    source = 'source "$0"; env -0' if os.path.exists(setup) else 'env -0'
-    text = subprocess.run(['bash', '-c', source, setup], env=CLEAN, check=True,
-                          stdout=subprocess.PIPE).stdout.decode()
-    environment = dict(entry.split('=', 1) for entry in text.split('\0') if '=' in entry)
-    for name in ('ROS_MASTER_URI', 'ROS_HOSTNAME', 'ROS_IP'):
-        if name in os.environ:
-            environment[name] = os.environ[name]
-    # As a program leaves it that starts another one in another folder.
-    environment['PWD'] = '/'
-    return environment
-
-
-class Launching(NodeTest):
-    def setUp(self):
-        self.top = tempfile.mkdtemp(prefix='vwd_test_')
-        self.addCleanup(shutil.rmtree, self.top)
-        self.folder = os.path.join(self.top, ODD)
-        os.mkdir(self.folder)
-        # Of tests before this one, which every namespace would find.
-        if rospy.has_param('/robot_description'):
-            rospy.delete_param('/robot_description')
-        self.environment = dict(clean_environment(), ROS_HOME=os.path.join(self.top, 'ros_home'))
-
-    def write(self, name, text, mode=None):
-        """A file in the folder; returns its name."""
-        path = os.path.join(self.folder, name)
-        os.makedirs(os.path.dirname(path), exist_ok=True)
-        with open(path, 'w', encoding='utf-8') as file:
-            file.write(text)
-        if mode:
-            os.chmod(path, mode)
-        return name
-
-    def program(self, name, text):
-        return self.write(name, '#!/bin/sh\n' + text, stat.S_IRWXU)
-
-    def package(self, name, program, text):
-        """A ROS package with a program, in the folder `packages`."""
-        self.write('packages/%s/package.xml' % name,
-                   '<package><name>%s</name><version>1.0.0</version><description>x</description>'
-                   '<maintainer email="a@b.c">a</maintainer><license>BSD</license></package>' % name)
-        self.program('packages/%s/%s' % (name, program), text)
-        packages = os.path.join(self.folder, 'packages')
-        self.environment['ROS_PACKAGE_PATH'] = packages + ':' + self.environment['ROS_PACKAGE_PATH']
-
-    def launch(self, *arguments, namespace=None):
-        """roslaunch in the folder; `arguments` begin with the package or a file."""
-        more = {'ROS_NAMESPACE': namespace} if namespace else {}
-        process = Process(self, [shutil.which('roslaunch'), *arguments], more, self.environment,
-                          self.folder)
-
-        def end():
-            # Not killed, as its nodes would go on.
-            if not process.ended():
-                process.interrupt()
-                process.wait()
-        self.addCleanup(end)
-        process.end = end
-        return process
-
-    def inverse_dynamics(self, *arguments, namespace=None):
-        return self.launch(PACKAGE, 'inverse_dynamics.launch', *arguments, namespace=namespace)
-
-    def command(self, node, *arguments):
-        """How roslaunch would start a node: its namespace, and the words of the command line."""
-        result = subprocess.run(['/usr/bin/python3', '-c', COMMAND, node, *arguments], check=True,
-                                env=self.environment, cwd=self.folder, stdout=subprocess.PIPE)
-        words = json.loads(result.stdout.decode())
-        return [word for word in words if word.startswith('ROS_NAMESPACE=')], \
-            words[words.index('sh'):]
-
-    def record(self, topic, kind):
-        recorder = Recorder(topic, kind)
-        self.addCleanup(recorder.stop)
-        return recorder
-
-    def first(self, launch, recorder):
-        """The first message, unless roslaunch ends before it."""
-        wait_until(lambda: recorder.raw or launch.ended(),
-                   lambda: recorder.topic + '; roslaunch says ' + launch.output())
-        self.assertTrue(recorder.raw, launch.output())
-        return recorder.messages()[0]
-
-    def recorded(self, launch, *recorders):
-        """Waits until what these recorders have is also in bags of the launch."""
-        for recorder in recorders:
-            wait_until(lambda: 'Subscribing to %s\n' % recorder.topic in launch.output(),
-                       launch.output)
-            recorder.wait(len(recorder.raw) + 20)
-
-    def motion(self):
-        """A motion of the arm, which rests at zero; returns the name of its file."""
-        self.write('the table\'s "t".csv', 'time,position.shoulder,position.elbow,position.slide\n' +
-                   ''.join('%r,0,0,0\n' % (0.05 * row) for row in range(20)))
-        return self.write('the motion\'s "m".yaml', MOTION)
-
-    def topics(self, bag):
-        with rosbag.Bag(os.path.join(self.folder, bag)) as content:
-            return set(content.get_type_and_topic_info().topics)
-
+class Launching(LaunchTest):
     # --- paths
 
     def test_every_path_is_relative_to_where_roslaunch_is_started(self):
         scene = 'gravity: [0, 0, -%r]\nmotion: static\nreactions: [elbow]\n' % (2 * G)
         wrenches = self.record('/inverse_dynamics/reaction/elbow', WrenchStamped)
+        others = [self.record('/inverse_dynamics/effort', JointState),
+                  self.record('/joint_states', JointState), self.record('/tf', TFMessage)]
         launch = self.inverse_dynamics(
             'robot:=' + self.write('the robot\'s "r".urdf', ARM),
             'scene:=' + self.write('the scene\'s "s".yaml', scene),
@@ -175,11 +50,10 @@ class Launching(NodeTest):
         self.assertEqual(rospy.get_param('/inverse_dynamics/late_threshold'), 0.5)
         self.assertEqual(rospy.get_param('/inverse_dynamics/scene/gravity'), [0, 0, -2 * G])
         self.assertEqual(rospy.get_param('/robot_description'), ARM)
-        self.recorded(launch, wrenches)
+        self.recorded(launch, wrenches, *others)
         launch.end()
-        recorded = self.topics('the bag\'s "b".bag')
-        self.assertLessEqual({'/joint_states', '/inverse_dynamics/effort', '/tf', '/diagnostics',
-                              '/inverse_dynamics/reaction/elbow'}, recorded)
+        self.assertLessEqual({recorder.topic for recorder in [wrenches, *others]},
+                             self.topics('the bag\'s "b".bag'))
 
     def test_rviz_starts_where_roslaunch_is_started(self):
         if PACKAGE_OF_RVIZ not in rospkg.RosPack().list():
@@ -204,10 +78,12 @@ class Launching(NodeTest):
         self.assertIn('/numbers/inverse_dynamics/effort', self.topics('0x10.bag'))
 
     def test_files_that_are_not_there(self):
-        launch = self.inverse_dynamics('robot:=the robot\'s "r".urdf', namespace='nothing')
-        self.assertEqual(launch.wait(), 1)
-        self.assertIn('\nrobot:=the robot\'s "r".urdf: No such file or directory\n',
-                      '\n' + launch.output())
+        self.write('robot.urdf', ARM)
+        for argument, others in (('robot:=the robot\'s "r".urdf', ()),
+                                 ('scene:=the scene\'s "s".yaml', ('robot:=robot.urdf',))):
+            launch = self.inverse_dynamics(argument, *others, namespace='nothing')
+            self.assertEqual(launch.wait(), 1)
+            self.assertIn('\n%s: No such file or directory\n' % argument, '\n' + launch.output())
 
     # --- a robot that is there
 
@@ -231,61 +107,6 @@ class Launching(NodeTest):
             'parameter robot_description: not set, neither in /empty/inverse_dynamics nor in any '
             'namespace above it; robot:=FILE of inverse_dynamics.launch sets it'])
 
-    # --- xacro
-
-    def read_robot(self, path, **environment):
-        return subprocess.run([executable('read_robot.py'), path], cwd=self.folder, check=False,
-                              env=dict(self.environment, **environment), stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, encoding='utf-8')
-
-    def test_xacro_in_path(self):
-        self.program('bin/xacro', 'echo "xacro: a warning" >&2; sed s/ARM/test_arm/ "$1"\n')
-        self.environment['PATH'] += ':' + os.path.join(self.folder, 'bin')
-        name = self.write('the robot\'s "r".urdf.xacro', ARM.replace('name="test_arm"', 'name="ARM"'))
-        result = self.read_robot(name)
-        self.assertEqual((result.returncode, result.stdout, result.stderr),
-                         (0, ARM, 'xacro: a warning\n'))
-        launch = self.inverse_dynamics('robot:=' + name, namespace='expanded')
-        wait_until(lambda: "Robot 'test_arm' from /expanded/robot_description" in launch.output(),
-                   launch.output)
-        # A name that begins with a dash is not taken for an option.
-        self.assertEqual(self.read_robot(self.write('-v.xacro', ARM)).stdout, ARM)
-
-    def test_xacro_as_a_package(self):
-        if shutil.which('xacro'):
-            self.skipTest('xacro is installed')
-        self.package('xacro', 'xacro', 'cat "$1"\n')
-        result = self.read_robot(self.write('robot.xacro', ARM))
-        self.assertEqual((result.returncode, result.stdout), (0, ARM), result.stderr)
-
-    def test_without_xacro_one_line_says_how(self):
-        empty = os.path.join(self.folder, 'empty')
-        result = self.read_robot(self.write('the robot\'s "r".urdf.xacro', ARM), PATH=empty)
-        self.assertEqual(result.returncode, 1)
-        self.assertEqual(result.stderr.count('\n'), 1, result.stderr)
-        for part in ('robot:=the robot\'s "r".urdf.xacro: needs xacro, which is not installed',
-                     'sudo apt install ros-noetic-xacro',
-                     'xacro \'the robot\'"\'"\'s "r".urdf.xacro\' > robot.urdf'):
-            self.assertIn(part, result.stderr)
-
-    def test_what_xacro_says_is_one_line(self):
-        self.program('bin/xacro', 'printf "undefined name\\n\\n  in file\\n" >&2; exit 2\n')
-        self.environment['PATH'] += ':' + os.path.join(self.folder, 'bin')
-        result = self.read_robot(self.write('robot.xacro', ARM))
-        self.assertEqual(result.returncode, 1)
-        self.assertEqual(result.stderr,
-                         'robot:=robot.xacro: xacro cannot expand it: undefined name; in file\n')
-
-    def test_files_that_are_no_description(self):
-        with open(os.path.join(self.folder, 'latin.urdf'), 'wb') as file:
-            file.write('<robot name="B\xe4r"/>'.encode('latin-1'))
-        for path, problem in (('latin.urdf', 'is not text in UTF-8'),
-                              ('/dev/zero', 'is longer than any description of a robot'),
-                              ('.', 'Is a directory'), ('no.xacro', 'No such file or directory')):
-            result = self.read_robot(path)
-            self.assertEqual((result.returncode, result.stderr),
-                             (1, 'robot:=%s: %s\n' % (path, problem)))
-
     # --- namespaces and prefixes
 
     def test_two_robots_in_two_namespaces(self):
@@ -307,6 +128,7 @@ class Launching(NodeTest):
                    for side, _ in sides]
         tools = [self.record('/%s/inverse_dynamics/reaction/elbow' % side, WrenchStamped)
                  for side, _ in sides]
+        states = [self.record('/%s/joint_states' % side, JointState) for side, _ in sides]
         moving, fixed = self.record('/tf', TFMessage), self.record('/tf_static', TFMessage)
         launch = self.launch('two robots.launch')
         links = {link.get('name') for link in ElementTree.fromstring(ARM).findall('link')}
@@ -325,7 +147,7 @@ class Launching(NodeTest):
             namespace, words = self.command('/%s/rviz' % side, 'two robots.launch', 'rviz:=true')
             self.assertEqual((namespace, words[4:6]),
                              (['ROS_NAMESPACE="/%s"' % side], ['-d', 'my %s.rviz' % side]))
-        self.recorded(launch, *efforts, *tools)
+        self.recorded(launch, *efforts, *tools, *states, moving)
         launch.end()
         for side, _ in sides:
             recorded = self.topics(side + '.bag')

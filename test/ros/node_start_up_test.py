@@ -115,7 +115,7 @@ BAD_PARAMETERS = {
         {'scene': {'applied_wrenches': [{'link': 'paw', 'force': [0, 0, 1]}]}}, ["'paw'"]),
     'unknown_key_in_applied_wrenches': (
         {'scene': {'applied_wrenches': [{'link': 'arm', 'forse': [0, 0, 1]}]}}, ['forse']),
-    'unknown_scene_key': ({'scene': {'gravitation': [0, 0, 1]}}, ['gravitation: unknown key']),
+    'unknown_scene_key': ({'scene': {'gravitation': [0, 0, 1]}}, ['parameter ~scene: gravitation: unknown key']),
     'gravity_of_two': ({'scene': {'gravity': [0, 1]}}, ['gravity', 'three numbers']),
     'gravity_that_is_no_number': ({'scene': {'gravity': [0, 0, 'down']}}, ['gravity', "'down'"]),
     'closure_without_a_type': ({'scene': {'closures': [{'name': 'pin'}]}},

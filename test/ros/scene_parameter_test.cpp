@@ -70,6 +70,10 @@ TEST(SceneParameter, RefusalsNameTheParameter) {
   XmlRpcValue tree;
   tree["gravity"] = "[0, 0";
   expectRefused(tree, "parameter ~scene/gravity: is not valid YAML: ");
+  EXPECT_EQ(std::string(sceneParameterError(SceneError("scene: motion: unknown")).what()),
+            "parameter ~scene: motion: unknown");
+  EXPECT_EQ(std::string(sceneParameterError(SceneError("reactions: none")).what()),
+            "parameter ~scene: reactions: none");
 }
 
 }  // namespace
