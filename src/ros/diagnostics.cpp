@@ -3,6 +3,7 @@
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
 #include "ros/message_text.h"
+#include "ros/private_name.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -120,10 +121,9 @@ void Diagnostics::summarize(DiagnosticStatusWrapper& status, const Before& now,
   const std::uint64_t restarts = now.restarts - before_.restarts;
   const std::uint64_t gaps = now.gaps - before_.gaps;
   if (gaps > 0 && now.motions == before_.motions) {
-    status.mergeSummaryf(DiagnosticStatus::WARN,
-                         "no result from joint states: they had %llu gaps longer than "
-                         "~estimator/max_gap",
-                         static_cast<unsigned long long>(gaps));
+    status.mergeSummaryf(
+        DiagnosticStatus::WARN, "no result from joint states: they had %llu gaps longer than %s",
+        static_cast<unsigned long long>(gaps), privateName("estimator/max_gap").c_str());
   }
   if (restarts >= kManyRestarts) {
     status.mergeSummaryf(DiagnosticStatus::WARN,

@@ -4,9 +4,10 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include "base/number_text.h"
+#include "ros/private_name.h"
 #include "ros/private_parameters.h"
+#include "ros/scene_parameter.h"
 #include "ros/trajectory_queue.h"
-#include "ros/xmlrpc_to_yaml.h"
 #include "virtual_work_dynamics/scene_reader.h"
 
 namespace virtual_work_dynamics {
@@ -18,7 +19,9 @@ void readRobotDescription(const ros::NodeHandle& node, InverseDynamicsParameters
   std::string& key = parameters.robot_description_key;
   if (!node.searchParam(kRobotDescription, key)) {
     throw ParameterError(std::string("parameter ") + kRobotDescription + ": not set, neither in " +
-                         node.getNamespace() + " nor in any namespace above it");
+                         node.getNamespace() +
+                         " nor in any namespace above it; robot:=FILE of inverse_dynamics.launch "
+                         "sets it");
   }
   if (!node.getParam(key, parameters.robot_description)) {
     throw ParameterError("parameter " + key + ": expected the text of a URDF");
@@ -34,7 +37,7 @@ double readOrAuto(PrivateParameters& parameters, const std::string& name, bool m
   if (copy.getType() == XmlRpc::XmlRpcValue::TypeString && std::string(copy) == "auto") {
     return kAuto;
   }
-  const double number = numberOf(value, "~" + name);
+  const double number = numberOf(value, name);
   if (!(may_be_zero ? number >= 0 : number > 0)) {
     throw parameterError(name, numberText(number) + " is neither auto nor " +
                                    (may_be_zero ? "zero or positive" : "positive"));
@@ -48,9 +51,10 @@ void refuseOldEstimator(const PrivateParameters& parameters) {
     if (!parameters.has(name)) continue;
     throw parameterError(
         name,
-        "no longer exists: the estimator finds noise and bandwidth itself; they can be given as "
-        "~estimator/position_noise, velocity_noise, stamp_noise and bandwidth, and "
-        "~estimator/lag is in seconds");
+        "no longer exists: the estimator finds noise and bandwidth itself; they can be given as " +
+            privateName("estimator/position_noise") +
+            ", velocity_noise, stamp_noise and bandwidth, and " + privateName("estimator/lag") +
+            " is in seconds");
   }
 }
 
@@ -88,7 +92,7 @@ std::vector<RestingJoint> readRest(PrivateParameters& parameters) {
                       entry["name"].getType() == XmlRpc::XmlRpcValue::TypeString;
     if (!form) throw parameterError("rest", kForm);
     const std::string name = entry["name"];
-    rest.push_back({name, numberOf(entry["position"], "~rest of '" + name + "'")});
+    rest.push_back({name, numberOf(entry["position"], "rest of '" + name + "'")});
   }
   return rest;
 }
@@ -128,8 +132,8 @@ SelfCheckSettings readSelfCheck(PrivateParameters& parameters) {
     throw parameterError("residual_warn", numberText(settings.residual_warn) + " is not positive");
   }
   if (!(settings.residual_error >= settings.residual_warn)) {
-    throw parameterError("residual_error", numberText(settings.residual_error) +
-                                               " is less than ~residual_warn = " +
+    throw parameterError("residual_error", numberText(settings.residual_error) + " is less than " +
+                                               privateName("residual_warn") + " = " +
                                                numberText(settings.residual_warn));
   }
   return settings;
@@ -177,7 +181,7 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   result.loop_limits = readLoopLimits(parameters);
   result.deviation_warn = readDeviationWarn(parameters, result.deviation_warn);
   result.scene_given = parameters.has("scene");
-  const YAML::Node scene = xmlRpcToYaml(parameters.raw("scene"), "scene");
+  const YAML::Node scene = sceneDocument(parameters.raw("scene"));
   parameters.refuseUnknown();
   result.scene = readScene(scene);
   readRobotDescription(private_node, result);

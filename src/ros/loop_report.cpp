@@ -9,6 +9,7 @@
 #include "base/number_text.h"
 #include "ros/determinacy_message.h"
 #include "ros/message_text.h"
+#include "ros/private_name.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -126,7 +127,8 @@ void LoopReport::addViolations(DiagnosticStatusWrapper& status,
                           std::string(kLevels[i].many) + " violate closure '" + closures_[c] +
                               "' by " + shortNumber(report.residuals[c][i]) + " " +
                               kLevels[i].unit + ", " + shortNumber(report.relative[c][i]) +
-                              " relative; ~loop_tolerance is " + numberText(limits_.tolerance));
+                              " relative; " + privateName("loop_tolerance") + " is " +
+                              numberText(limits_.tolerance));
     }
   }
 }
@@ -141,8 +143,8 @@ void LoopReport::addConditions(DiagnosticStatusWrapper& status,
   status.mergeSummary(DiagnosticStatus::WARN,
                       "close to a singular position of the loops through " + shortList(loops) +
                           ", condition " + shortNumber(largestOf(conditions)) +
-                          ": forces may exceed the load by this factor; ~condition_warn is " +
-                          numberText(limits_.condition));
+                          ": forces may exceed the load by this factor; " +
+                          privateName("condition_warn") + " is " + numberText(limits_.condition));
 }
 
 void LoopReport::addSingular(DiagnosticStatusWrapper& status,

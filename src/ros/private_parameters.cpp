@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "ros/private_name.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -74,7 +75,7 @@ void collectUnknown(const XmlRpcValue& tree, const std::string& prefix,
 }  // namespace
 
 ParameterError parameterError(const std::string& name, const std::string& problem) {
-  return ParameterError("parameter ~" + name + ": " + problem);
+  return ParameterError("parameter " + privateName(name) + ": " + problem);
 }
 
 double numberOf(const XmlRpcValue& value, const std::string& name) {
@@ -199,7 +200,8 @@ void PrivateParameters::refuseUnknown() const {
   collectUnknown(tree_, "", known_, unknown);
   if (unknown.empty()) return;
   std::string message = unknown.size() == 1 ? "unknown parameter" : "unknown parameters";
-  for (const std::string& name : unknown) message += (&name == &unknown[0] ? " ~" : ", ~") + name;
+  for (const std::string& name : unknown)
+    message += (&name == &unknown[0] ? " " : ", ") + privateName(name);
   message += "; known are";
   for (const std::string& name : known_) message += (name == *known_.begin() ? " " : ", ") + name;
   throw ParameterError(message);

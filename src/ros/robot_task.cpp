@@ -8,6 +8,7 @@
 #include "ros/closure_frames.h"
 #include "ros/loop_report.h"
 #include "ros/message_text.h"
+#include "ros/private_name.h"
 #include "ros/private_parameters.h"
 #include "ros/topic_names.h"
 #include "virtual_work_dynamics/urdf_reader.h"
@@ -29,7 +30,7 @@ EstimatorSettings checkedSettings(const Mechanism& mechanism, EstimatorSettings 
   try {
     const MotionEstimator check(mechanism, settings);
   } catch (const MotionError& error) {
-    throw ParameterError(std::string("parameters ~estimator: ") + error.what());
+    throw parameterError("estimator", error.what());
   }
   settings.estimate = settings.estimate && !scene.static_motion;
   return settings;
@@ -117,7 +118,7 @@ void RobotTask::log(const InverseDynamicsParameters& parameters) const {
       shortList(names).c_str(), reactions.size(),
       reactions.empty() ? "none" : shortList(reactions).c_str(), numberText(g.x()).c_str(),
       numberText(g.y()).c_str(), numberText(g.z()).c_str(), accelerations.c_str(),
-      parameters.scene_given ? "scene from ~scene" : "default scene");
+      parameters.scene_given ? ("scene from " + privateName("scene")).c_str() : "default scene");
   std::string plan;
   for (const std::string& line : plan_lines) plan += (plan.empty() ? "" : "\n  ") + line;
   ROS_INFO("With subscribers to everything (%s instructions): %s",

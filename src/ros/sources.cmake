@@ -16,13 +16,16 @@ foreach(file
     loop_record.cpp
     loop_report.cpp
     motion_completer.cpp
+    node_program.cpp
     output_topics.cpp
     outputs.cpp
     plan_switch.cpp
+    private_name.cpp
     private_parameters.cpp
     robot_task.cpp
     sample_computation.cpp
     sample_times.cpp
+    scene_parameter.cpp
     self_check_report.cpp
     stream_record.cpp
     stream_report.cpp

@@ -2,6 +2,7 @@
 
 #include <unordered_map>
 
+#include "ros/private_name.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -32,7 +33,7 @@ std::vector<std::string> legalTopicNames(const std::vector<std::string>& joints)
     const auto inserted = joint_of_topic.emplace(topics.back(), joint);
     if (!inserted.second) {
       throw SceneError("reactions: joints '" + inserted.first->second + "' and '" + joint +
-                       "' would share the topic ~reaction/" + topics.back());
+                       "' would share the topic " + privateName("reaction/" + topics.back()));
     }
   }
   return topics;

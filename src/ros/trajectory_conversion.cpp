@@ -9,6 +9,7 @@
 #include "base/number_text.h"
 #include "ros/joint_lookup.h"
 #include "ros/message_text.h"
+#include "ros/private_name.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/spline.h"
 #include "virtual_work_dynamics/unwrap.h"
@@ -264,8 +265,8 @@ std::optional<Rejection> TrajectoryConversion::sample(const JointTrajectory& mes
   if (motion.samples->count() <= TrajectorySamples::kMost) return std::nullopt;
   return Rejection{DropReason::kTimes,
                    "it lasts " + numberText(motion.table.times.back()) + " s, more than the " +
-                       std::to_string(TrajectorySamples::kMost) +
-                       " samples of ~trajectory_sampling = " + numberText(sampling_) + " Hz"};
+                       std::to_string(TrajectorySamples::kMost) + " samples of " +
+                       privateName("trajectory_sampling") + " = " + numberText(sampling_) + " Hz"};
 }
 
 JointTrajectory withEfforts(const JointTrajectory& message, const TrajectoryMotion& motion,

@@ -154,8 +154,8 @@ class JointStates(NodeTest):
         self.assertEqual(len([line for line in self.node.lines('INFO')
                               if 'time went back to stamp' in line]), 1)
         self.assertEqual(len([line for line in self.node.lines('INFO') if
-                              "'shoulder' had a gap of 0.251 s, longer than ~estimator/max_gap = "
-                              '0.25 s' in line]), 1)
+                              "'shoulder' had a gap of 0.251 s, longer than %s/estimator/max_gap = "
+                              '0.25 s' % self.node.name in line]), 1)
         self.assertEqual(self.node.lines('WARN'), [])
 
     def test_positions_before_encoders_are_read_are_no_part_of_the_motion(self):
@@ -190,11 +190,12 @@ class JointStates(NodeTest):
             self.publish(EPOCH + 400 * MS * i, motion=SLOW)
         self.node.wait_for_count('gaps', 14)
         wait_until(lambda: [line for line in self.node.lines('INFO') if "'shoulder' had a gap of "
-                            '0.4 s, longer than ~estimator/max_gap = 0.25 s' in line], 'the line')
+                            '0.4 s, longer than %s/estimator/max_gap = 0.25 s' % self.node.name
+                            in line], 'the line')
         self.assertTrue([status for status in self.node.statuses()
                          if status.level == DiagnosticStatus.WARN and
                          'no result from joint states' in status.message and
-                         '~estimator/max_gap' in status.message])
+                         self.node.name + '/estimator/max_gap' in status.message])
         self.assertEqual(self.efforts.messages(), [])
         # After enough samples without one, a gap is news and no more.
         last = EPOCH + 400 * MS * 14

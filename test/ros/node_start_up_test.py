@@ -115,7 +115,7 @@ BAD_PARAMETERS = {
         {'scene': {'applied_wrenches': [{'link': 'paw', 'force': [0, 0, 1]}]}}, ["'paw'"]),
     'unknown_key_in_applied_wrenches': (
         {'scene': {'applied_wrenches': [{'link': 'arm', 'forse': [0, 0, 1]}]}}, ['forse']),
-    'unknown_scene_key': ({'scene': {'gravitation': [0, 0, 1]}}, ['gravitation: unknown key']),
+    'unknown_scene_key': ({'scene': {'gravitation': [0, 0, 1]}}, ['parameter ~scene: gravitation: unknown key']),
     'gravity_of_two': ({'scene': {'gravity': [0, 1]}}, ['gravity', 'three numbers']),
     'gravity_that_is_no_number': ({'scene': {'gravity': [0, 0, 'down']}}, ['gravity', "'down'"]),
     'closure_without_a_type': ({'scene': {'closures': [{'name': 'pin'}]}},
@@ -130,7 +130,10 @@ BAD_PARAMETERS = {
                                ['assembly: expected a list']),
     'policy_of_another_kind': ({'scene': {'redundancy': {'policy': 'least'}}},
                                ['redundancy.policy', "'least'"]),
-    'scene_that_is_no_map': ({'scene': 5}, ['scene', 'map']),
+    'scene_that_is_no_map': ({'scene': 5}, ['parameter ~scene: expected a map of keys']),
+    'scene_that_is_the_name_of_a_file': ({'scene': 'scene.yaml'}, [
+        "parameter ~scene: expected a map of keys, got the text 'scene.yaml'"]),
+    'scene_as_text_that_is_cut': ({'scene': '{gravity: [0, 0'}, ['parameter ~scene: is not valid']),
     'unknown_parameter': ({'twists': True}, ['unknown parameter ~twists']),
     'unknown_nested_parameter': ({'estimator': {'windows': 9}},
                                  ['unknown parameter ~estimator/windows']),
@@ -251,8 +254,8 @@ class StartUp(NodeTest):
         self.assertEqual(node.wait(), 1, node.output())
         lines = node.lines('FATAL')
         self.assertEqual(len(lines), 1, node.output())
-        for part in parts:
-            self.assertIn(part, lines[0])
+        for part in parts:  # in which ~ stands for the node's own name
+            self.assertIn(re.sub('(^| )~', lambda match: match[1] + node.name + '/', part), lines[0])
         # A line, and nothing else: what is wrong with a description is not said twice.
         self.assertEqual(node.output().count('\n'), 1, node.output())
         self.assertEqual(self.master.topics(node.name), [])
@@ -323,6 +326,36 @@ class StartUp(NodeTest):
         node = self.start(GOOD, {'estimator': estimator, 'rest': rest, 'hold_after': 1})
         self.expect_start(node, [])
         self.assertIn('accelerations of joint states estimated 0 s behind', node.output())
+
+    def test_scene_on_the_command_line(self):
+        for argument in ('_scene:={gravity: [0, 1.5, -2], reactions: [wrist]}',
+                         '_scene/gravity:=[0, 1.5, -2]'):
+            node = self.start(GOOD, arguments=[argument])
+            self.expect_start(node, [])
+            self.assertIn('gravity [0, 1.5, -2] m/s^2', node.output())
+            self.assertIn('scene from %s/scene' % node.name, node.output())
+
+    def expect_one_line(self, arguments, part, environment=None):
+        """What is wrong before there is a node that could say so."""
+        process = Process(self, [executable('inverse_dynamics_node'), *arguments], environment)
+        self.assertEqual(process.wait(), 1, process.output())
+        self.assertEqual(len(process.lines('FATAL')), 1, process.output())
+        self.assertIn(part, process.lines('FATAL')[0])
+        self.assertEqual(process.output().count('\n'), 1, process.output())
+
+    def test_names_that_ros_does_not_take(self):
+        self.expect_one_line(['joint_states:=joint%states'], '[joint%states]')
+        self.expect_one_line(['joint%states:=joint_states'], '[joint%states]')
+        self.expect_one_line(['__name:=left/arm'], '[left/arm]')
+        self.expect_one_line(['_sc%ene:=5'], '[~sc%ene]')
+
+    def test_address_that_is_none(self):
+        for address in ('nowhere', '', 'http://localhost', 'http://localhost:port', 'http://:11311'):
+            self.expect_one_line([], "ROS_MASTER_URI: expected an address like "
+                                 "http://localhost:11311, got '%s'" % address,
+                                 {'ROS_MASTER_URI': address})
+        self.expect_one_line(['__master:=nowhere'], "__master: expected an address like "
+                             "http://localhost:11311, got 'nowhere'")
 
     def test_unknown_argument(self):
         self.expect_refusal(self.start(GOOD, arguments=['--robot']), ['unknown argument --robot'])

@@ -232,11 +232,12 @@ TEST(TrajectorySettings, RefusalsNameTheParameter) {
   expectRefused("{amplitudes: [1, x]}", "~amplitudes[1]");
   expectRefused("{law: cosinus}", "~law: expected cosine, sine_sweep, minimum_jerk or table");
   expectRefused("{law: 3}", "~law");
-  expectRefused("{period: -1}", "period of the cosine law must be positive, is -1");
-  expectRefused("{duration: 0}", "duration of the cosine law");
-  expectRefused("{duration: 1.0e-7}", "its duration is 1e-07 s");
+  expectRefused("{period: -1}", "~period: expected more than 0 s, got -1");
+  expectRefused("{duration: 0}", "~duration: expected more than 0 s, got 0");
+  expectRefused("{duration: 1.0e-7}",
+                "~duration: the motion must last from 1e-6 to 1e9 s, its duration is 1e-07 s");
   expectRefused("{duration: 2.0e9}", "its duration is 2e+09 s");
-  expectRefused("{law: sine_sweep, end_frequency: -1}", "end frequency");
+  expectRefused("{law: sine_sweep, end_frequency: -1}", "~end_frequency: expected 0 Hz or more");
   expectRefused("{message: joint_stat}", "~message: expected joint_state or joint_trajectory");
   expectRefused("{stamp: later}", "~stamp: expected now or zero");
   expectRefused("{stamp: zero}", "~stamp: only a joint_trajectory");
@@ -266,12 +267,12 @@ TEST(TrajectorySettings, RefusalsOfViaPointsNameThePoint) {
 
 TEST(TrajectorySettings, RefusalsOfTables) {
   expectRefused("{law: table}", "~file: the law `table` needs a file");
-  expectRefused("{law: table, file: /does/not/exist.csv}", "/does/not/exist.csv");
+  expectRefused("{law: table, file: /does/not/exist.csv}", "~file: /does/not/exist.csv");
   const TemporaryFile file("time,position.joint_1,position.joint_2\n2,1,10\n");
   expectRefused("{law: table, loop: true, file: '" + file.path() + "'}",
                 "~loop: a motion of a single instant");
   const TemporaryFile other("time,position.a\n0,1\n1,1\n");
-  expectRefused("{law: table, file: '" + other.path() + "'}", "joint_1");
+  expectRefused("{law: table, file: '" + other.path() + "'}", "~file: " + other.path());
 }
 
 }  // namespace
