@@ -60,6 +60,7 @@ set(core_test_files
   test/core/motion_estimator_test.cpp
   test/core/motion_law_test.cpp
   test/core/multifrontal_qr_test.cpp
+  test/core/nearest_name_test.cpp
   test/core/non_holonomic_conditions_test.cpp
   test/core/offline_certificates_test.cpp
   test/core/offline_deviations_test.cpp
@@ -78,6 +79,7 @@ set(core_test_files
   test/core/plan_summary_test.cpp
   test/core/point_springs_test.cpp
   test/core/power_test.cpp
+  test/core/printable_test.cpp
   test/core/property_bodies_test.cpp
   test/core/property_formalisms_test.cpp
   test/core/property_frames_test.cpp
