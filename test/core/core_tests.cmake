@@ -34,8 +34,13 @@ set(core_test_files
   test/core/closed_loop_singular_test.cpp
   test/core/closed_loop_tree_test.cpp
   test/core/description_deviations_test.cpp
+  test/core/description_messages_test.cpp
   test/core/deviation_rows_test.cpp
   test/core/deviations_test.cpp
+  test/core/dirty_descriptions.cpp
+  test/core/dirty_descriptions_test.cpp
+  test/core/dirty_faults.cpp
+  test/core/dirty_text_faults.cpp
   test/core/dynamics_test.cpp
   test/core/dynamics_use_test.cpp
   test/core/effort_doubts_test.cpp
