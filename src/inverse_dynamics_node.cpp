@@ -6,6 +6,7 @@
 #include <exception>
 #include <string>
 
+#include "base/printable.h"
 #include "ros/inverse_dynamics_parameters.h"
 #include "ros/inverse_dynamics_usage.h"
 #include "ros/private_parameters.h"
@@ -27,7 +28,7 @@ int main(int argc, char** argv) {
     InverseDynamicsNode node(readInverseDynamicsParameters(private_node));
     ros::spin();
   } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
+    ROS_FATAL("%s", printable(error.what()).c_str());
     return 1;
   }
   return 0;

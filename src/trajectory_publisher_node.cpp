@@ -4,6 +4,7 @@
 #include <exception>
 #include <string>
 
+#include "base/printable.h"
 #include "ros/described_robot.h"
 #include "ros/private_parameters.h"
 #include "ros/trajectory_publisher.h"
@@ -27,7 +28,7 @@ int main(int argc, char** argv) {
     const auto robot = [&private_node] { return describedRobot(private_node); };
     TrajectoryPublisher(ros::NodeHandle(), readTrajectorySettings(parameters, robot)).run();
   } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
+    ROS_FATAL("%s", printable(error.what()).c_str());
     return 1;
   }
   return 0;

@@ -4,6 +4,7 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "ros/private_parameters.h"
 #include "ros/trajectory_queue.h"
 #include "ros/xmlrpc_to_yaml.h"
@@ -34,7 +35,7 @@ double readOrAuto(PrivateParameters& parameters, const std::string& name, bool m
   if (copy.getType() == XmlRpc::XmlRpcValue::TypeString && std::string(copy) == "auto") {
     return kAuto;
   }
-  const double number = numberOf(value, "~" + name);
+  const double number = numberOf(value, name);
   if (!(may_be_zero ? number >= 0 : number > 0)) {
     throw parameterError(name, numberText(number) + " is neither auto nor " +
                                    (may_be_zero ? "zero or positive" : "positive"));
@@ -54,12 +55,18 @@ void refuseOldEstimator(const PrivateParameters& parameters) {
   }
 }
 
+double readPeriod(PrivateParameters& parameters, const std::string& name, double fallback) {
+  const double period = parameters.number(name, fallback);
+  if (!(period > 0)) throw parameterError(name, numberText(period) + " s is not positive");
+  return period;
+}
+
 EstimatorSettings readEstimator(PrivateParameters& parameters) {
   refuseOldEstimator(parameters);
   EstimatorSettings settings;
   settings.lag = parameters.number("estimator/lag", settings.lag);
-  settings.max_gap = parameters.number("estimator/max_gap", settings.max_gap);
-  settings.hold_after = parameters.number("hold_after", settings.hold_after);
+  settings.max_gap = readPeriod(parameters, "estimator/max_gap", settings.max_gap);
+  settings.hold_after = readPeriod(parameters, "hold_after", settings.hold_after);
   NoiseSettings& noise = settings.noise;
   noise.use_velocity = parameters.boolean("estimator/use_velocity", noise.use_velocity);
   noise.position_noise = readOrAuto(parameters, "estimator/position_noise", false);
@@ -69,7 +76,7 @@ EstimatorSettings readEstimator(PrivateParameters& parameters) {
   const std::string acceleration = parameters.text("estimator/acceleration", "estimate");
   if (acceleration != "estimate" && acceleration != "zero") {
     throw parameterError("estimator/acceleration",
-                         "'" + acceleration + "' is neither estimate nor zero");
+                         inQuotes(acceleration) + " is neither estimate nor zero");
   }
   settings.estimate = acceleration == "estimate";
   return settings;
@@ -88,7 +95,7 @@ std::vector<RestingJoint> readRest(PrivateParameters& parameters) {
                       entry["name"].getType() == XmlRpc::XmlRpcValue::TypeString;
     if (!form) throw parameterError("rest", kForm);
     const std::string name = entry["name"];
-    rest.push_back({name, numberOf(entry["position"], "~rest of '" + name + "'")});
+    rest.push_back({name, numberOf(entry["position"], "rest of " + inQuotes(name))});
   }
   return rest;
 }
@@ -97,12 +104,6 @@ int readQueueSize(PrivateParameters& parameters, const std::string& name, int fa
   const int size = parameters.integer(name, fallback);
   if (size < 1) throw parameterError(name, std::to_string(size) + " is less than 1 message");
   return size;
-}
-
-double readPeriod(PrivateParameters& parameters, const std::string& name, double fallback) {
-  const double period = parameters.number(name, fallback);
-  if (!(period > 0)) throw parameterError(name, numberText(period) + " s is not positive");
-  return period;
 }
 
 // A rate, or 0 for none.
@@ -179,7 +180,11 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   result.scene_given = parameters.has("scene");
   const YAML::Node scene = xmlRpcToYaml(parameters.raw("scene"), "scene");
   parameters.refuseUnknown();
-  result.scene = readScene(scene);
+  try {
+    result.scene = readScene(scene);
+  } catch (const SceneError& error) {
+    throw SceneError(std::string("parameter ~scene: ") + error.what());
+  }
   readRobotDescription(private_node, result);
   return result;
 }

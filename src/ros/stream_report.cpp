@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/printable.h"
 #include "motion/stream_text.h"
 #include "ros/message_text.h"
 
@@ -23,7 +24,8 @@ StreamReport::StreamReport(const StreamRecord& record, std::vector<std::string> 
 std::string StreamReport::problem(std::size_t joint) const {
   const JointStream& stream = streams_[joint];
   if (stream.contradictory) {
-    return "positions of '" + joints_[joint] + "' jump to and fro: are there two publishers?";
+    return "positions of " + inQuotes(joints_[joint]) +
+           " jump to and fro: are there two publishers?";
   }
   if (stream.quality.velocity_ratio == 1) return "";
   return velocityProblem(joints_[joint], stream.quality.velocity_ratio);
@@ -40,7 +42,7 @@ void StreamReport::add(diagnostic_updater::DiagnosticStatusWrapper& status) {
       held.push_back(joints_[i] + (std::isfinite(stream.age) ? std::string(" (") + age + ")" : ""));
     }
     if (stream.quality.interval > 0) {
-      status.add("samples of " + joints_[i], streamText(stream.quality, units_[i]));
+      status.add("samples of " + shortened(joints_[i]), streamText(stream.quality, units_[i]));
     }
     const std::string text = problem(i);
     if (text.empty()) continue;

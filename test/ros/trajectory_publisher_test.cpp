@@ -254,7 +254,7 @@ TEST(TrajectoryPublisher, RefusesToStartWithOneLine) {
     std::string part;
   };
   const std::vector<Refusal> refusals = {
-      {{"_ratee:=5"}, "unknown parameter ~ratee;"},
+      {{"_ratee:=5"}, "unknown parameter ~ratee (did you mean ~rate?);"},
       {{"_rate:=fast"}, "parameter ~rate: expected a number, got the text 'fast'"},
       {{"_law:=cosinus"}, "parameter ~law: expected cosine"},
       {{"_joints:=a"}, "parameter ~joints: expected a list of texts"},
