@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "base/nearest_name.h"
+#include "base/printable.h"
 #include "motion/recording.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/unwrap.h"
@@ -16,7 +18,9 @@ void checkShapes(const Mechanism& mechanism, const MotionTable& motion) {
   for (const std::string& name : motion.joints) {
     const auto& known = mechanism.coordinateNames();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw MotionError("motion: '" + name + "' is not a generalized coordinate of the robot");
+      throw MotionError("motion: " + inQuotes(name) +
+                        " is not a generalized coordinate of the robot" +
+                        nameHelp(name, mechanism.coordinateNames()));
     }
   }
   const auto rows = static_cast<Eigen::Index>(motion.times.size());

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/printable.h"
+
 namespace virtual_work_dynamics {
 namespace {
 
@@ -35,7 +37,7 @@ std::string streamText(const StreamQuality& quality, const std::string& unit) {
 }
 
 std::string velocityProblem(const std::string& joint, double ratio) {
-  const std::string begin = "velocities of '" + joint + "' are not used: they ";
+  const std::string begin = "velocities of " + inQuotes(joint) + " are not used: they ";
   if (std::abs(ratio) < 0.02) return begin + "stay at zero while its position moves";
   if (std::abs(ratio - 57.29578) < 3)
     return begin + "are 57 times the slope of its positions: degrees per second?";

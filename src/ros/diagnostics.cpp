@@ -2,6 +2,7 @@
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
+#include "base/printable.h"
 #include "ros/message_text.h"
 #include "ros/private_name.h"
 
@@ -41,7 +42,7 @@ Diagnostics::Diagnostics(const Counters& counters_read, RunTimeHistogram& run_ti
           std::chrono::duration<double>(period))),
       next_(JointWatch::Clock::now() + period_) {
   before_.time = JointWatch::Clock::now();
-  updater_.setHardwareID(robot);
+  updater_.setHardwareID(shortened(robot));
   updater_.add("inverse dynamics", this, &Diagnostics::report);
 }
 

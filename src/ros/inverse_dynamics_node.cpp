@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "ros/message_text.h"
 #include "ros/private_name.h"
 
@@ -94,7 +95,7 @@ void InverseDynamicsNode::guard(const ros::Subscriber& source, Work work) {
   try {
     work();
   } catch (const std::exception& error) {
-    drop(source.getTopic(), DropReason::kInternal, error.what());
+    drop(source.getTopic(), DropReason::kInternal, printable(error.what()));
   }
 }
 
@@ -174,9 +175,9 @@ void InverseDynamicsNode::reportGap() {
   counters_.gaps.add();
   const auto joint = static_cast<std::size_t>(estimator_.latestGapCoordinate());
   if (!gap_throttles_[joint].open()) return;
-  ROS_INFO("%s: '%s' had a gap of %s s, longer than %s = %s s: it is estimated anew",
+  ROS_INFO("%s: %s had a gap of %s s, longer than %s = %s s: it is estimated anew",
            joint_state_subscriber_.getTopic().c_str(),
-           task_.mechanism.coordinateNames()[joint].c_str(),
+           inQuotes(task_.mechanism.coordinateNames()[joint]).c_str(),
            numberText(static_cast<double>(estimator_.latestGap()) / 1e9).c_str(),
            privateName("estimator/max_gap").c_str(), numberText(task_.estimator.max_gap).c_str());
 }
@@ -358,7 +359,7 @@ void InverseDynamicsNode::adaptPlan() {
     audience_ = audience;
   } catch (const std::exception& error) {
     ROS_ERROR("the change of subscribers failed, and what is computed stays as it is: %s",
-              error.what());
+              printable(error.what()).c_str());
   }
 }
 

@@ -4,6 +4,7 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "ros/private_name.h"
 #include "ros/private_parameters.h"
 #include "ros/scene_parameter.h"
@@ -58,12 +59,18 @@ void refuseOldEstimator(const PrivateParameters& parameters) {
   }
 }
 
+double readPeriod(PrivateParameters& parameters, const std::string& name, double fallback) {
+  const double period = parameters.number(name, fallback);
+  if (!(period > 0)) throw parameterError(name, numberText(period) + " s is not positive");
+  return period;
+}
+
 EstimatorSettings readEstimator(PrivateParameters& parameters) {
   refuseOldEstimator(parameters);
   EstimatorSettings settings;
   settings.lag = parameters.number("estimator/lag", settings.lag);
-  settings.max_gap = parameters.number("estimator/max_gap", settings.max_gap);
-  settings.hold_after = parameters.number("hold_after", settings.hold_after);
+  settings.max_gap = readPeriod(parameters, "estimator/max_gap", settings.max_gap);
+  settings.hold_after = readPeriod(parameters, "hold_after", settings.hold_after);
   NoiseSettings& noise = settings.noise;
   noise.use_velocity = parameters.boolean("estimator/use_velocity", noise.use_velocity);
   noise.position_noise = readOrAuto(parameters, "estimator/position_noise", false);
@@ -73,7 +80,7 @@ EstimatorSettings readEstimator(PrivateParameters& parameters) {
   const std::string acceleration = parameters.text("estimator/acceleration", "estimate");
   if (acceleration != "estimate" && acceleration != "zero") {
     throw parameterError("estimator/acceleration",
-                         "'" + acceleration + "' is neither estimate nor zero");
+                         inQuotes(acceleration) + " is neither estimate nor zero");
   }
   settings.estimate = acceleration == "estimate";
   return settings;
@@ -92,7 +99,7 @@ std::vector<RestingJoint> readRest(PrivateParameters& parameters) {
                       entry["name"].getType() == XmlRpc::XmlRpcValue::TypeString;
     if (!form) throw parameterError("rest", kForm);
     const std::string name = entry["name"];
-    rest.push_back({name, numberOf(entry["position"], "rest of '" + name + "'")});
+    rest.push_back({name, numberOf(entry["position"], "rest of " + inQuotes(name))});
   }
   return rest;
 }
@@ -101,12 +108,6 @@ int readQueueSize(PrivateParameters& parameters, const std::string& name, int fa
   const int size = parameters.integer(name, fallback);
   if (size < 1) throw parameterError(name, std::to_string(size) + " is less than 1 message");
   return size;
-}
-
-double readPeriod(PrivateParameters& parameters, const std::string& name, double fallback) {
-  const double period = parameters.number(name, fallback);
-  if (!(period > 0)) throw parameterError(name, numberText(period) + " s is not positive");
-  return period;
 }
 
 // A rate, or 0 for none.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "ros/determinacy_message.h"
 #include "ros/message_text.h"
 #include "ros/private_name.h"
@@ -111,7 +112,7 @@ void LoopReport::addResiduals(DiagnosticStatusWrapper& status,
   for (std::size_t c = 0; c < closures_.size(); ++c) {
     for (std::size_t i = 0; i < LoopRecord::kLevels; ++i) {
       largest = std::max(largest, report.relative[c][i]);
-      status.add(std::string("residual.") + kLevels[i].name + "." + closures_[c],
+      status.add(std::string("residual.") + kLevels[i].name + "." + shortened(closures_[c]),
                  shortNumber(report.residuals[c][i]));
     }
   }
@@ -123,12 +124,12 @@ void LoopReport::addViolations(DiagnosticStatusWrapper& status,
   for (std::size_t c = 0; c < closures_.size(); ++c) {
     for (std::size_t i = 0; i < LoopRecord::kLevels; ++i) {
       if (report.relative[c][i] <= limits_.tolerance) continue;
-      status.mergeSummary(DiagnosticStatus::WARN,
-                          std::string(kLevels[i].many) + " violate closure '" + closures_[c] +
-                              "' by " + shortNumber(report.residuals[c][i]) + " " +
-                              kLevels[i].unit + ", " + shortNumber(report.relative[c][i]) +
-                              " relative; " + privateName("loop_tolerance") + " is " +
-                              numberText(limits_.tolerance));
+      status.mergeSummary(
+          DiagnosticStatus::WARN,
+          std::string(kLevels[i].many) + " violate closure " + inQuotes(closures_[c]) + " by " +
+              shortNumber(report.residuals[c][i]) + " " + kLevels[i].unit + ", " +
+              shortNumber(report.relative[c][i]) + " relative; " + privateName("loop_tolerance") +
+              " is " + numberText(limits_.tolerance));
     }
   }
 }

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <exception>
 
+#include "base/printable.h"
 #include "ros/private_parameters.h"
 
 namespace virtual_work_dynamics {
@@ -50,7 +51,7 @@ void refuseArguments(int argc, char** argv) {
 }
 
 int fail(const std::string& problem) {
-  ROS_FATAL("%s", problem.c_str());
+  ROS_FATAL("%s", printable(problem).c_str());
   return 1;
 }
 

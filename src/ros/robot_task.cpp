@@ -4,7 +4,9 @@
 
 #include <algorithm>
 
+#include "base/nearest_name.h"
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "ros/closure_frames.h"
 #include "ros/loop_report.h"
 #include "ros/message_text.h"
@@ -43,19 +45,31 @@ std::vector<std::pair<int, double>> restOf(const Mechanism& mechanism,
   for (const RestingJoint& joint : joints) {
     const auto place = std::find(names.begin(), names.end(), joint.name);
     if (place == names.end()) {
-      throw parameterError("rest", "robot '" + mechanism.name() + "' has no joint '" + joint.name +
-                                       "' that moves by itself");
+      throw parameterError("rest", "robot " + inQuotes(mechanism.name()) + " has no joint " +
+                                       inQuotes(joint.name) + " that moves by itself" +
+                                       nameHelp(joint.name, names));
     }
     rest.emplace_back(static_cast<int>(place - names.begin()), joint.position);
   }
   return rest;
 }
 
+// Puts the parameter's name before what is wrong with the scene.
+template <typename Make>
+auto ofScene(const InverseDynamicsParameters& parameters, Make make) {
+  try {
+    return make();
+  } catch (const SceneError& error) {
+    throw SceneError((parameters.scene_given ? "parameter ~scene: " : "") +
+                     std::string(error.what()));
+  }
+}
+
 // Compiles all that the scene asks for.
 Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const std::string& key) {
   if (mechanism.coordinates().empty()) {
-    throw UrdfError("parameter " + key + ": robot '" + mechanism.name() +
-                    "' has no joint that moves");
+    throw UrdfError("parameter " + key + ": robot " + inQuotes(mechanism.name()) +
+                    " has no joint that moves");
   }
   return Dynamics(mechanism, scene);
 }
@@ -65,12 +79,16 @@ Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const s
 RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
     : mechanism(readRobot(parameters)),
       scene(parameters.scene),
-      reactions(requestedReactions(mechanism, scene)),
+      reactions(ofScene(parameters, [&] { return requestedReactions(mechanism, scene); })),
       reaction_topics(legalTopicNames(reactions)),
       estimator(checkedSettings(mechanism, parameters.estimator, scene)),
       rest(restOf(mechanism, parameters.rest)),
-      everything(movableDynamics(mechanism, scene, parameters.robot_description_key)) {
-  closure_frames = closureFrames(mechanism, scene, reactions, parameters.frame_prefix);
+      everything(ofScene(parameters, [&] {
+        return movableDynamics(mechanism, scene, parameters.robot_description_key);
+      })) {
+  closure_frames = ofScene(parameters, [&] {
+    return closureFrames(mechanism, scene, reactions, parameters.frame_prefix);
+  });
   deviations =
       std::make_shared<DeviationRecord>(everything.effortNames(), mechanism.coordinateNames());
   outputs = makeOutputs(mechanism, everything,
@@ -103,7 +121,7 @@ std::vector<bool> RobotTask::passive() const {
 }
 
 void RobotTask::log(const InverseDynamicsParameters& parameters) const {
-  for (const Doubt& doubt : mechanism.doubts()) ROS_WARN("%s", doubt.text.c_str());
+  for (const Doubt& doubt : mechanism.doubts()) ROS_WARN("%s", printable(doubt.text).c_str());
   const auto& names = mechanism.coordinateNames();
   const Eigen::Vector3d& g = scene.gravity;
   const std::string accelerations =
@@ -114,7 +132,7 @@ void RobotTask::log(const InverseDynamicsParameters& parameters) const {
   ROS_INFO(
       "Robot '%s' from %s: %zu coordinates (%s), %zu reactions (%s); gravity [%s, %s, %s] m/s^2; "
       "%s; %s",
-      mechanism.name().c_str(), parameters.robot_description_key.c_str(), names.size(),
+      shortened(mechanism.name()).c_str(), parameters.robot_description_key.c_str(), names.size(),
       shortList(names).c_str(), reactions.size(),
       reactions.empty() ? "none" : shortList(reactions).c_str(), numberText(g.x()).c_str(),
       numberText(g.y()).c_str(), numberText(g.z()).c_str(), accelerations.c_str(),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/printable.h"
 #include "motion/stream_text.h"
 #include "ros/message_text.h"
 
@@ -24,7 +25,8 @@ StreamReport::StreamReport(const StreamRecord& record, std::vector<std::string> 
 std::string StreamReport::problem(std::size_t joint) const {
   const JointStream& stream = streams_[joint];
   if (stream.contradictory) {
-    return "positions of '" + joints_[joint] + "' jump to and fro: are there two publishers?";
+    return "positions of " + inQuotes(joints_[joint]) +
+           " jump to and fro: are there two publishers?";
   }
   if (stream.quality.velocity_ratio == 1) return "";
   return velocityProblem(joints_[joint], stream.quality.velocity_ratio);
@@ -36,11 +38,11 @@ void StreamReport::warnOfFarPositions(std::size_t joint) {
   if (warned_of_far_positions_[joint] || quality.jumps + quality.left_out == 0) return;
   warned_of_far_positions_[joint] = true;
   if (quality.jumps > 0) {
-    ROS_WARN("position of '%s' jumps as no motion does: nothing is assumed of the motion across it",
-             joints_[joint].c_str());
+    ROS_WARN("position of %s jumps as no motion does: nothing is assumed of the motion across it",
+             inQuotes(joints_[joint]).c_str());
   } else {
-    ROS_WARN("a position of '%s' is far from those before and after, and is left out",
-             joints_[joint].c_str());
+    ROS_WARN("a position of %s is far from those before and after, and is left out",
+             inQuotes(joints_[joint]).c_str());
   }
 }
 
@@ -55,7 +57,7 @@ void StreamReport::add(diagnostic_updater::DiagnosticStatusWrapper& status) {
       held.push_back(joints_[i] + (std::isfinite(stream.age) ? std::string(" (") + age + ")" : ""));
     }
     if (stream.quality.interval > 0) {
-      status.add("samples of " + joints_[i], streamText(stream.quality, units_[i]));
+      status.add("samples of " + shortened(joints_[i]), streamText(stream.quality, units_[i]));
     }
     warnOfFarPositions(i);
     const std::string text = problem(i);

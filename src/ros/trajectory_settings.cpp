@@ -3,7 +3,9 @@
 #include <cmath>
 #include <set>
 
+#include "base/nearest_name.h"
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "ros/message_text.h"
 #include "ros/sample_times.h"
 #include "virtual_work_dynamics/motion_csv.h"
@@ -70,7 +72,8 @@ void checkJoints(const std::vector<std::string>& joints) {
   if (joints.empty()) throw parameterError("joints", "expected at least one name, got none");
   for (const std::string& joint : joints) {
     if (joint.empty()) throw parameterError("joints", "a name is empty");
-    if (!seen.insert(joint).second) throw parameterError("joints", joint + " is named twice");
+    if (!seen.insert(joint).second)
+      throw parameterError("joints", inQuotes(joint) + " is named twice");
   }
 }
 
@@ -139,8 +142,8 @@ std::shared_ptr<const MotionLaw> makeLaw(const LawParameters& parameters, const 
     }
   }
   if (parameters.law != "cosine" && parameters.law != "sine_sweep") {
-    throw parameterError(
-        "law", "expected cosine, sine_sweep, minimum_jerk or table, got '" + parameters.law + "'");
+    throw parameterError("law", "expected cosine, sine_sweep, minimum_jerk or table, got " +
+                                    inQuotes(parameters.law));
   }
   checkCount(parameters.amplitudes.size(), joints, "amplitudes");
   const Eigen::VectorXd amplitudes = Eigen::Map<const Eigen::VectorXd>(
@@ -162,7 +165,8 @@ bool choice(PrivateParameters& parameters, const std::string& name, const std::s
   const std::string text = parameters.text(name, no);
   if (text == yes) return true;
   if (text == no) return false;
-  throw parameterError(name, "expected " + no + " or " + yes + ", got '" + text + "'");
+  throw parameterError(name, "expected " + no + " or " + yes + ", got " + inQuotes(text) +
+                                 nameHelp(text, {no, yes}));
 }
 
 double atLeastZero(PrivateParameters& parameters, const std::string& name, double fallback) {

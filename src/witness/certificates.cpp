@@ -109,7 +109,7 @@ struct Certifier::Impl {
     for (const ResolvedJointTerms& term : terms) {
       term_drives.emplace_back(mechanism.joints()[term.joint]);
     }
-    for (const AppliedWrench& applied : scene.applied_wrenches) addWrench(mechanism, applied);
+    for (std::size_t i = 0; i < scene.applied_wrenches.size(); ++i) addWrench(mechanism, scene, i);
     inputs = {welded.bodies.data(),
               joints.data(),
               welded.bodies.size(),
@@ -119,8 +119,9 @@ struct Certifier::Impl {
               static_cast<double>(scene.gravity.cast<long double>().norm())};
   }
 
-  void addWrench(const Mechanism& mechanism, const AppliedWrench& applied) {
-    const LinkPlace& place = welded.places[linkOf(mechanism, applied)];
+  void addWrench(const Mechanism& mechanism, const Scene& scene, std::size_t index) {
+    const AppliedWrench& applied = scene.applied_wrenches[index];
+    const LinkPlace& place = welded.places[linkOf(mechanism, scene, index)];
     MomentumWrench wrench;
     wrench.body = place.body;
     wrench.in_root_axes = applied.axes == Axes::kRoot;

@@ -264,7 +264,8 @@ TEST(MotionCompletion, RefusesTimesThatDoNotIncrease) {
 TEST(MotionCompletion, RefusesTablesThatDoNotFitTheRobot) {
   MotionTable motion = without(cubicMotion(unevenTimes(12)), true, true);
   motion.joints[1] = "whel";
-  EXPECT_EQ(refusal(motion), "motion: 'whel' is not a generalized coordinate of the robot");
+  EXPECT_EQ(refusal(motion),
+            "motion: 'whel' is not a generalized coordinate of the robot; did you mean 'wheel'?");
   motion = without(cubicMotion(unevenTimes(12)), true, true);
   motion.velocities = Eigen::MatrixXd::Zero(11, 2);
   EXPECT_EQ(refusal(motion), "motion: velocities are 11 x 2, expected 12 rows x 2 joints");

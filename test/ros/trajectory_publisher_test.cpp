@@ -254,7 +254,7 @@ TEST(TrajectoryPublisher, RefusesToStartWithOneLine) {
     std::string part;
   };
   const std::vector<Refusal> refusals = {
-      {{"_ratee:=5"}, "unknown parameter /refused_1/ratee;"},
+      {{"_ratee:=5"}, "unknown parameter /refused_1/ratee (did you mean /refused_1/rate?);"},
       {{"_rate:=fast"}, "parameter /refused_2/rate: expected a number, got the text 'fast'"},
       {{"_law:=cosinus"}, "parameter /refused_3/law: expected cosine"},
       {{"_joints:=a"}, "parameter /refused_4/joints: expected a list of texts"},

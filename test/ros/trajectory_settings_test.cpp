@@ -219,13 +219,13 @@ TEST(TrajectorySettings, OnlyATableAsksForTheRobot) {
 }
 
 TEST(TrajectorySettings, RefusalsNameTheParameter) {
-  expectRefused("{rates: 5}", "unknown parameter ~rates;");
+  expectRefused("{rates: 5}", "unknown parameter ~rates (did you mean ~rate?);");
   expectRefused("{rate: fast}", "~rate: expected a number");
   expectRefused("{rate: 0}", "~rate: expected more than 0 and up to 1e6 Hz, got 0");
   expectRefused("{rate: 2.0e6}", "~rate");
   expectRefused("{joints: a}", "~joints: expected a list of texts");
   expectRefused("{joints: []}", "~joints: expected at least one");
-  expectRefused("{joints: [a, a]}", "~joints: a is named twice");
+  expectRefused("{joints: [a, a]}", "~joints: 'a' is named twice");
   expectRefused("{joints: [a, '']}", "~joints: a name is empty");
   expectRefused("{joints: [a, b, c]}", "~amplitudes: expected a number for each of the 3 joints");
   expectRefused("{joints: [a]}", "~amplitudes: expected a number for each of the 1 joints, got 2");
