@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "scene/closure_types.h"
 #include "virtual_work_dynamics/error.h"
@@ -31,40 +33,46 @@ LoopReactions::LoopReactions(const Mechanism& mechanism, const Scene& scene, con
                              const std::vector<LoopGroup>& groups,
                              const std::vector<std::string>& names, Axes axes)
     : child_axes_(axes == Axes::kLink) {
-  for (auto name = names.begin(); name != names.end(); ++name) {
-    if (std::find(names.begin(), name, *name) != name) {
-      throw SceneError("reactions: '" + *name + "' is requested twice");
+  std::unordered_map<std::string, std::size_t> closures;
+  for (const Closure& closure : scene.closures) closures.emplace(closure.name, closures.size());
+  std::unordered_set<std::string> seen;
+  for (const std::string& name : names) {
+    if (!seen.insert(name).second) {
+      throw SceneError("reactions: '" + name + "' is requested twice");
     }
-    addItem(mechanism, scene, loops, *name);
+    const auto closure = closures.find(name);
+    items_.push_back(closure == closures.end() ? itemOfJoint(mechanism, scene, name)
+                                               : itemOfClosure(scene, loops, closure->second));
   }
   addChanges(groups);
   freedoms_.resize(names.size());
   spans_.resize(names.size());
 }
 
-void LoopReactions::addItem(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
-                            const std::string& name) {
+LoopReactions::Item LoopReactions::itemOfClosure(const Scene& scene, const LoopScene& loops,
+                                                 std::size_t closure) {
   Item item;
-  for (std::size_t c = 0; c < scene.closures.size(); ++c) {
-    if (scene.closures[c].name != name) continue;
-    item.closure = static_cast<int>(c);
-    item.active = traitsOf(scene.closures[c].type).free_axis.value_or(Unit::kRadian);
-    const auto& actuated = loops.actuated_closures;
-    item.drops_active =
-        !scene.include_active && std::find(actuated.begin(), actuated.end(), c) != actuated.end();
+  item.closure = static_cast<int>(closure);
+  item.active = traitsOf(scene.closures[closure].type).free_axis.value_or(Unit::kRadian);
+  const auto& actuated = loops.actuated_closures;  // in order
+  item.drops_active =
+      !scene.include_active && std::binary_search(actuated.begin(), actuated.end(), closure);
+  return item;
+}
+
+LoopReactions::Item LoopReactions::itemOfJoint(const Mechanism& mechanism, const Scene& scene,
+                                               const std::string& name) {
+  Item item;
+  item.joint = mechanism.jointIndex(name);
+  if (item.joint < 0 && name != kGround) {
+    throw SceneError("reactions: there is no joint or closure '" + name + "'");
   }
-  if (item.closure < 0) {
-    item.joint = mechanism.jointIndex(name);
-    if (item.joint < 0 && name != kGround) {
-      throw SceneError("reactions: there is no joint or closure '" + name + "'");
-    }
-    if (item.joint >= 0) {
-      const Joint& joint = mechanism.joint(item.joint);
-      item.active = unitOf(joint);
-      item.drops_active = !scene.include_active && joint.type != JointType::kFixed;
-    }
+  if (item.joint >= 0) {
+    const Joint& joint = mechanism.joint(item.joint);
+    item.active = unitOf(joint);
+    item.drops_active = !scene.include_active && joint.type != JointType::kFixed;
   }
-  items_.push_back(item);
+  return item;
 }
 
 void LoopReactions::addChanges(const std::vector<LoopGroup>& groups) {

@@ -14,8 +14,7 @@ namespace {
 
 void checkShapes(const Mechanism& mechanism, const MotionTable& motion) {
   for (const std::string& name : motion.joints) {
-    const auto& known = mechanism.coordinateNames();
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
+    if (mechanism.coordinateIndex(name) < 0) {
       throw MotionError("motion: '" + name + "' is not a generalized coordinate of the robot");
     }
   }

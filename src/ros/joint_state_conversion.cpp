@@ -100,14 +100,16 @@ void JointStateConversion::resolve(const std::vector<std::string>& names, Layout
 }
 
 void JointStateConversion::resolveMimics(Layout& layout) const {
+  std::vector<int> column_of(mechanism_.coordinates().size(), -1);
+  for (std::size_t i = 0; i < layout.columns.size(); ++i) {
+    column_of[static_cast<std::size_t>(layout.coordinates[i])] = layout.columns[i];
+  }
   for (std::size_t i = 0; i < layout.names.size(); ++i) {
     const int joint = mechanism_.jointIndex(layout.names[i]);
     if (joint < 0 || !mechanism_.joints()[static_cast<std::size_t>(joint)].mimics) continue;
     const int coordinate = mechanism_.joints()[static_cast<std::size_t>(joint)].coordinate;
-    const auto master = std::find(layout.coordinates.begin(), layout.coordinates.end(), coordinate);
-    if (master == layout.coordinates.end()) continue;
-    const auto entry = static_cast<std::size_t>(master - layout.coordinates.begin());
-    layout.mimics.push_back({static_cast<int>(i), layout.columns[entry], joint});
+    const int master_column = column_of[static_cast<std::size_t>(coordinate)];
+    if (master_column >= 0) layout.mimics.push_back({static_cast<int>(i), master_column, joint});
   }
 }
 

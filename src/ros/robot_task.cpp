@@ -2,8 +2,6 @@
 
 #include <ros/console.h>
 
-#include <algorithm>
-
 #include "base/number_text.h"
 #include "ros/closure_frames.h"
 #include "ros/loop_report.h"
@@ -37,15 +35,14 @@ EstimatorSettings checkedSettings(const Mechanism& mechanism, EstimatorSettings 
 
 std::vector<std::pair<int, double>> restOf(const Mechanism& mechanism,
                                            const std::vector<RestingJoint>& joints) {
-  const std::vector<std::string>& names = mechanism.coordinateNames();
   std::vector<std::pair<int, double>> rest;
   for (const RestingJoint& joint : joints) {
-    const auto place = std::find(names.begin(), names.end(), joint.name);
-    if (place == names.end()) {
+    const int coordinate = mechanism.coordinateIndex(joint.name);
+    if (coordinate < 0) {
       throw parameterError("rest", "robot '" + mechanism.name() + "' has no joint '" + joint.name +
                                        "' that moves by itself");
     }
-    rest.emplace_back(static_cast<int>(place - names.begin()), joint.position);
+    rest.emplace_back(coordinate, joint.position);
   }
   return rest;
 }

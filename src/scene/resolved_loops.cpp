@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <set>
+#include <unordered_map>
 
 #include "base/number_text.h"
 #include "scene/closure_types.h"
@@ -22,7 +23,11 @@ void requireOnce(const std::string& list, std::set<std::string>& seen, const std
 
 class Resolver {
  public:
-  Resolver(const Mechanism& mechanism, const Scene& scene) : mechanism_(mechanism), scene_(scene) {}
+  Resolver(const Mechanism& mechanism, const Scene& scene) : mechanism_(mechanism), scene_(scene) {
+    for (const Closure& closure : scene.closures) {
+      index_of_closure_.emplace(closure.name, static_cast<int>(index_of_closure_.size()));
+    }
+  }
 
   LoopScene resolve() {
     checkClosures();
@@ -43,10 +48,8 @@ class Resolver {
 
  private:
   int closureIndex(const std::string& name) const {
-    for (std::size_t c = 0; c < scene_.closures.size(); ++c) {
-      if (scene_.closures[c].name == name) return static_cast<int>(c);
-    }
-    return -1;
+    const auto found = index_of_closure_.find(name);
+    return found == index_of_closure_.end() ? -1 : found->second;
   }
 
   void checkClosures() const {
@@ -171,7 +174,7 @@ class Resolver {
       const auto& closures = loops_.actuated_closures;
       const bool actuated =
           c < 0 ? loops_.actuated[static_cast<std::size_t>(coordinate)]
-                : std::find(closures.begin(), closures.end(), std::size_t(c)) != closures.end();
+                : std::binary_search(closures.begin(), closures.end(), std::size_t(c));
       if (!actuated) throw SceneError(list + ": '" + weight.name + "' is not actuated");
       (c < 0 ? loops_.coordinate_weights[static_cast<std::size_t>(coordinate)]
              : loops_.closure_weights[static_cast<std::size_t>(c)]) = weight.value;
@@ -180,6 +183,7 @@ class Resolver {
 
   const Mechanism& mechanism_;
   const Scene& scene_;
+  std::unordered_map<std::string, int> index_of_closure_;
   LoopScene loops_;
 };
 

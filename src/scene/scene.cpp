@@ -1,6 +1,7 @@
 #include "virtual_work_dynamics/scene.h"
 
-#include <algorithm>
+#include <string>
+#include <unordered_set>
 
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/mechanism.h"
@@ -9,21 +10,21 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-bool isClosure(const Scene& scene, const std::string& name) {
-  return std::any_of(scene.closures.begin(), scene.closures.end(),
-                     [&](const Closure& closure) { return closure.name == name; });
-}
+using NameSet = std::unordered_set<std::string>;
 
-void checkNames(const Mechanism& mechanism, const Scene& scene) {
-  const std::vector<std::string>& names = scene.reaction_names;
-  for (auto name = names.begin(); name != names.end(); ++name) {
-    if (*name != kGround && mechanism.jointIndex(*name) < 0 && !isClosure(scene, *name)) {
-      throw SceneError("reactions: there is no joint or closure '" + *name + "'");
+// The names of reactions that the scene lists.
+NameSet checkedNames(const Mechanism& mechanism, const Scene& scene) {
+  NameSet closures, names;
+  for (const Closure& closure : scene.closures) closures.insert(closure.name);
+  for (const std::string& name : scene.reaction_names) {
+    if (name != kGround && mechanism.jointIndex(name) < 0 && closures.count(name) == 0) {
+      throw SceneError("reactions: there is no joint or closure '" + name + "'");
     }
-    if (std::find(names.begin(), name, *name) != name) {
-      throw SceneError("reactions: '" + *name + "' is named twice");
+    if (!names.insert(name).second) {
+      throw SceneError("reactions: '" + name + "' is named twice");
     }
   }
+  return names;
 }
 
 }  // namespace
@@ -34,12 +35,9 @@ bool needsClosedLoops(const Scene& scene) {
 
 std::vector<std::string> requestedReactions(const Mechanism& mechanism, const Scene& scene) {
   if (scene.reactions == ReactionSelection::kNone) return {};
-  const auto& wanted = scene.reaction_names;
   const bool all = scene.reactions == ReactionSelection::kAll;
-  if (!all) checkNames(mechanism, scene);
-  const auto isNamed = [&](const std::string& name) {
-    return std::find(wanted.begin(), wanted.end(), name) != wanted.end();
-  };
+  const NameSet wanted = all ? NameSet() : checkedNames(mechanism, scene);
+  const auto isNamed = [&](const std::string& name) { return wanted.count(name) > 0; };
   std::vector<std::string> names;
   if (!all && isNamed(kGround)) names.emplace_back(kGround);
   for (const Joint& joint : mechanism.joints()) {
