@@ -5,10 +5,13 @@
 #include <iostream>
 #include <limits>
 #include <sstream>
+#include <unordered_set>
 #include <utility>
 
 #include "base/number_text.h"
+#include "motion/motion_text.h"
 #include "motion/stream_text.h"
+#include "offline/watched_file.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -24,13 +27,12 @@ constexpr double kLongestSpacing = 1e4;
 
 // Lists the joints of columns, each once: "position.j", "velocity.j", "position.k" become "j, k".
 std::string jointsOfColumns(const std::vector<std::string>& columns) {
-  std::vector<std::string> joints;
+  std::unordered_set<std::string> joints;
   std::string text;
   for (const std::string& column : columns) {
     const std::string joint = column.substr(column.find('.') + 1);
-    if (std::find(joints.begin(), joints.end(), joint) != joints.end()) continue;
-    text += (joints.empty() ? "" : ", ") + joint;
-    joints.push_back(joint);
+    if (!joints.insert(joint).second) continue;
+    text += (text.empty() ? "" : ", ") + joint;
   }
   return text;
 }
@@ -115,11 +117,13 @@ MotionFile readMotion(const std::string& path, const Mechanism& mechanism,
   MotionFile motion;
   motion.path = path;
   std::vector<std::string> unused;
-  motion.table = readMotionCsv(path, choose, &unused, &motion.lines);
+  {
+    WatchedFile file(path);
+    motion.table = readMotionText(file, path, choose, &unused, &motion.lines);
+  }
   for (const std::string& column : unused) {
     const std::string joint = column.substr(column.find('.') + 1);
-    const auto& known = mechanism.coordinateNames();
-    if (std::find(known.begin(), known.end(), joint) != known.end()) {
+    if (mechanism.coordinateIndex(joint) >= 0) {
       throw FileError(path + ": column '" + column + "' without 'position." + joint + "'");
     }
   }
