@@ -112,7 +112,8 @@ for target in "${chosen[@]}"; do
   dictionary "$target" >"$found/$target.dict"
   # Longer than any sensible input of this size takes under the sanitizers.
   options=(-max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=8192 -print_final_stats=1
-    -artifact_prefix="$found/$target-" -dict="$found/$target.dict")
+    -artifact_prefix="$found/$target-")
+  if [[ -s "$found/$target.dict" ]]; then options+=(-dict="$found/$target.dict"); fi
   if [[ $jobs -gt 1 ]]; then options+=(-fork="$jobs"); fi
   begin=$SECONDS
   verdict=clean

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/number_text.h"
+#include "motion/largest_motion.h"
 #include "ros/joint_lookup.h"
 #include "ros/message_text.h"
 
@@ -118,7 +119,7 @@ std::optional<Rejection> JointStateConversion::gatherPositions(
   for (std::size_t i = 0; i < layout.columns.size(); ++i) {
     const auto column = static_cast<std::size_t>(layout.columns[i]);
     q_[i] = positions[column];
-    if (!std::isfinite(q_[i])) {
+    if (!(std::abs(q_[i]) <= kLargestMotion)) {
       return Rejection{DropReason::kNotFinite,
                        "the position of '" + layout.names[column] + "' is " + numberText(q_[i])};
     }
@@ -126,13 +127,14 @@ std::optional<Rejection> JointStateConversion::gatherPositions(
   return std::nullopt;
 }
 
-/// Makes NaN of velocities that are not finite. Drivers fill what they do not measure with NaN.
+/// Makes NaN of velocities that are not finite, or are beyond any robot's. Drivers fill what they
+/// do not measure with NaN.
 void JointStateConversion::gatherVelocities(const Layout& layout,
                                             const std::vector<double>& velocities,
                                             JointSample& sample) {
   for (std::size_t i = 0; i < layout.columns.size(); ++i) {
     qd_[i] = velocities[static_cast<std::size_t>(layout.columns[i])];
-    if (std::isfinite(qd_[i])) continue;
+    if (std::abs(qd_[i]) <= kLargestMotion) continue;
     sample.velocity_not_finite = true;
     char& reported = velocity_reported_[static_cast<std::size_t>(layout.coordinates[i])];
     if (!reported) {

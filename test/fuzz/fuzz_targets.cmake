@@ -30,17 +30,15 @@ vwd_add_fuzz_target(motion)
 vwd_add_fuzz_target(tool ${offline_files})
 vwd_link_core(${fuzzed_library} tool_fuzz)
 
-# Messages need headers of ROS, but neither catkin nor a master.
-find_package(roscpp_serialization QUIET)
-find_package(sensor_msgs QUIET)
-find_package(trajectory_msgs QUIET)
-if(roscpp_serialization_FOUND AND sensor_msgs_FOUND AND trajectory_msgs_FOUND)
+# Messages need headers and a library of ROS, but neither catkin nor a master.
+find_path(VWD_ROS_MESSAGES_DIR trajectory_msgs/JointTrajectory.h)
+find_library(VWD_ROS_TIME rostime)
+if(VWD_ROS_MESSAGES_DIR AND VWD_ROS_TIME)
   vwd_add_fuzz_target(messages
     src/ros/joint_state_conversion.cpp
     src/ros/sample_times.cpp
     src/ros/trajectory_conversion.cpp
     src/ros/trajectory_samples.cpp)
-  target_include_directories(messages_fuzz SYSTEM PRIVATE ${roscpp_serialization_INCLUDE_DIRS}
-    ${sensor_msgs_INCLUDE_DIRS} ${trajectory_msgs_INCLUDE_DIRS})
-  target_link_libraries(messages_fuzz PRIVATE ${roscpp_serialization_LIBRARIES})
+  target_include_directories(messages_fuzz SYSTEM PRIVATE ${VWD_ROS_MESSAGES_DIR})
+  target_link_libraries(messages_fuzz PRIVATE ${VWD_ROS_TIME})
 endif()
