@@ -17,12 +17,15 @@ show_build_progress() {
 }
 
 running=
+before=
 temporary=()
 
 # run COMMAND...: runs a command as bash runs any, except that it ends, with all that it has started,
 # when this script is ended.
 run() {
   local status=0
+  before=${!:-}
+  running=starting
   set -m  # a process group of its own
   "$@" </dev/null &
   running=$!
@@ -34,9 +37,20 @@ run() {
 
 # end_running: ends what runs and removes what `temporary` names. For a trap on EXIT.
 end_running() {
+  if [[ "$running" == starting ]]; then  # interrupted before its number was taken note of
+    running=${!:-}
+    if [[ "$running" == "$before" ]]; then running=; fi
+  fi
   if [[ -n "$running" ]]; then
+    local patience
     kill -TERM -- "-$running" 2>/dev/null || true
     wait "$running" 2>/dev/null || true
+    # What the command has left behind gets a second to end, and is ended then.
+    for patience in 1 2 3 4 5 6 7 8 9 10; do
+      kill -TERM -- "-$running" 2>/dev/null || break
+      sleep 0.1
+    done
+    kill -KILL -- "-$running" 2>/dev/null || true
     running=
   fi
   if [[ ${#temporary[@]} -gt 0 ]]; then rm -rf -- "${temporary[@]}"; fi

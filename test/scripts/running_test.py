@@ -12,8 +12,8 @@ source '%s'
 end_well test.sh "half of it"
 temporary+=(result.part)
 touch result.part
-work() { echo $BASHPID >pid; sleep 1000 & sleep 1000; }
-run work >/dev/null 2>&1
+work() { exec >/dev/null 2>&1; echo $BASHPID >pid; sleep 1000 & sleep 1000; }
+run work
 ''' % RUNNING
 
 
@@ -52,6 +52,7 @@ class RunningTest(unittest.TestCase):
         for number, status in ((signal.SIGTERM, 143), (signal.SIGHUP, 143), (signal.SIGINT, 130)):
             with self.subTest(number):
                 pid = pathlib.Path(self.folder.name) / 'pid'
+                pid.unlink(missing_ok=True)
                 script = self.bash(SCRIPT)
                 while not pid.exists() or not pid.read_text().strip():
                     self.assertIsNone(script.poll())
@@ -62,7 +63,6 @@ class RunningTest(unittest.TestCase):
                 self.assertEqual(said.strip(), 'test.sh: interrupted; half of it')
                 self.assertTrue(ends(group))
                 self.assertFalse((pid.parent / 'result.part').exists())
-                pid.unlink()
 
     def test_a_status_is_handed_on(self):
         script = self.bash('source "%s"; run bash -c "exit 7" || echo "status $?"; run true && '
