@@ -3,8 +3,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <exception>
+#include <iostream>
+
+#include "offline/progress.h"
 
 namespace virtual_work_dynamics {
 
@@ -48,8 +52,23 @@ void parseCommandLine(const std::vector<std::string>& arguments,
   }
 }
 
-void showProgress(const std::string& text) {
-  if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r\033[K%s", text.c_str());
+namespace {
+
+ProgressLine& programsLine() {
+  static ProgressLine line(std::cerr, ProgressLine::whereIs(STDERR_FILENO));
+  return line;
+}
+
+}  // namespace
+
+void showProgress(const std::string& text, std::size_t done, std::size_t total) {
+  static const ProgressLine::Clock::time_point start = ProgressLine::Clock::now();
+  const std::chrono::duration<double> seconds = ProgressLine::Clock::now() - start;
+  programsLine().show(text + partDone(done, total, seconds.count()));
+}
+
+void clearProgress() {
+  programsLine().clear();
 }
 
 int runProgram(const std::string& name, const char* help, int argc, char** argv,
@@ -69,7 +88,7 @@ int runProgram(const std::string& name, const char* help, int argc, char** argv,
     std::fprintf(stderr, "%s: %s; --help names all options\n", name.c_str(), error.what());
     return 2;
   } catch (const std::exception& error) {
-    showProgress("");
+    clearProgress();
     std::fprintf(stderr, "%s: %s\n", name.c_str(), error.what());
     return 1;
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -30,8 +31,11 @@ Option count(const std::string& name, int digits, int& value);
 void parseCommandLine(const std::vector<std::string>& arguments,
                       const std::vector<Option>& options);
 
-/// Shows a line of progress, which replaces the one before; on a terminal only.
-void showProgress(const std::string& text);
+/// Shows what the program is at, how far it is and how long it will take, on a ProgressLine of
+/// standard error. @param done of the `total` parts of all its work.
+void showProgress(const std::string& text, std::size_t done, std::size_t total);
+/// Wipes that line out, before something else is printed.
+void clearProgress();
 
 /// Parses the command line, including --help and -h, and runs the program.
 /// @param run the program, called after the options were taken.

@@ -1,7 +1,5 @@
 // Error of the estimated motion, and of the efforts computed from it, for joint states as encoders
 // give them, as rows of a CSV.
-#include <unistd.h>
-
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -47,7 +45,7 @@ void measureAll(bool quick, const std::string& recording, const ReportRows& rows
   const std::vector<StreamSpec> hard = hardStreams(quick);
   const std::vector<StreamSpec> wrong = wrongVelocityStreams(quick);
   const std::size_t total = 2 * (grid.size() + hard.size()) + wrong.size();
-  Progress progress(std::cerr, isatty(STDERR_FILENO) != 0);
+  Progress progress(std::cerr, ProgressLine::whereIs(STDERR_FILENO), "streams");
   std::size_t done = 0;
   for (const std::vector<StreamSpec>* streams : {&grid, &hard})
     for (const StreamSpec& spec : *streams) {

@@ -118,21 +118,27 @@ std::string sameNumbers(const Omission& omission) {
   return sameness.identical ? "yes" : formatted("%.2g", sameness.largest_difference);
 }
 
-std::vector<Row> measure(const OmissionScene& scene, const Extent& extent) {
+// @param place of the scene among `scenes` of them
+std::vector<Row> measure(const OmissionScene& scene, const Extent& extent, std::size_t place,
+                         std::size_t scenes) {
+  const std::size_t steps = static_cast<std::size_t>(extent.rounds) + 1;
+  const auto show = [&](std::size_t step) {
+    showProgress(scene.name, place * steps + step, scenes * steps);
+  };
   std::vector<Row> rows;
   std::vector<std::unique_ptr<Runner>> runners;
-  showProgress(scene.name + ": compared");
+  show(0);
   for (const Omission& omission : scene.omissions) {
     rows.push_back({scene.name, omission.left_out, omission.plan->dynamics.summary(), 0,
                     sameNumbers(omission)});
     runners.push_back(std::make_unique<Runner>(*omission.plan, extent.seconds));
   }
   for (int round = 0; round < extent.rounds; ++round) {
-    showProgress(formatted("%s: round %d of %d", scene.name.c_str(), round + 1, extent.rounds));
+    show(static_cast<std::size_t>(round) + 1);
     for (const auto& runner : runners) runner->time();
   }
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].ns = runners[i]->median();
-  showProgress("");
+  clearProgress();
   return rows;
 }
 
@@ -179,8 +185,9 @@ void run(const std::string& path, const Extent& extent) {
     std::fprintf(stderr, "Not allowed to stay on one core; times may scatter.\n");
   }
   std::vector<Row> all_rows;
-  for (const OmissionScene& scene : scenes()) {
-    const std::vector<Row> rows = measure(scene, extent);
+  const std::vector<OmissionScene> all = scenes();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::vector<Row> rows = measure(all[i], extent, i, all.size());
     std::printf("%s", table(rows).c_str());
     std::fflush(stdout);
     all_rows.insert(all_rows.end(), rows.begin(), rows.end());

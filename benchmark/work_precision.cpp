@@ -99,18 +99,19 @@ int run(const WorkPrecisionOptions& options) {
   std::vector<ResultRow> all_rows;
   bool disagreed = false;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const std::string head =
-        "[" + std::to_string(i + 1) + "/" + std::to_string(names.size()) + "] " + names[i];
-    showProgress(head + ": compared with the reference");
+    const std::size_t steps = static_cast<std::size_t>(rounds) + 1;
+    const auto show = [&](std::size_t step) {
+      showProgress(names[i], i * steps + step, names.size() * steps);
+    };
+    show(0);
     const BenchmarkScene scene = makeScene(names[i]);
     std::vector<Candidate> candidates =
         checkedCandidates(scene, wantedOffers(scene, options), disagreed);
-    timeInTurn(candidates, rounds, effort.seconds, [&](int round) {
-      showProgress(head + ": round " + std::to_string(round + 1) + " of " + std::to_string(rounds));
-    });
+    timeInTurn(candidates, rounds, effort.seconds,
+               [&](int round) { show(static_cast<std::size_t>(round) + 1); });
     std::vector<ResultRow> rows;
     for (const Candidate& candidate : candidates) rows.push_back(resultRow(names[i], candidate));
-    showProgress("");
+    clearProgress();
     std::printf("%s", resultTable(names[i], rows).c_str());
     std::fflush(stdout);
     all_rows.insert(all_rows.end(), rows.begin(), rows.end());

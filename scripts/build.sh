@@ -30,27 +30,18 @@ mkdir -p "$workspace/src"
 ln -sfn "$repository" "$workspace/src/virtual_work_dynamics"
 echo "source '$workspace/devel/setup.bash'" >"$repository/build/setup.bash"
 
-# Shows the output of the build: on a terminal as one line that is replaced, in a log as the package's
-# finished targets alone.
-show_progress() {
-  local line shown=false
-  while IFS= read -r line; do
-    [[ "$line" =~ ^\[\ *[0-9]+%\] ]] || continue
-    if [[ -t 1 ]]; then
-      printf '\r\033[K%s' "${line:0:100}"
-      shown=true
-    elif [[ "$line" == *"Built target"* && "$line" != *_generate_messages_* ]]; then
-      printf '%s\n' "$line"
-    fi
-  done
-  if $shown; then printf '\r\033[K'; fi
+source "$repository/scripts/running.sh"
+
+build_into_log() {
+  catkin_make --directory "$workspace" -j"${JOBS:-$(nproc)}" --no-color \
+    -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 \
+    -DCMAKE_BUILD_TYPE=Release -DCATKIN_ENABLE_TESTING=OFF "$@" 2>&1 | tee "$log" | show_build_progress
 }
 
 start=$SECONDS
 echo "Building ..."
-if ! catkin_make --directory "$workspace" -j"${JOBS:-$(nproc)}" --no-color \
-    -DPYTHON_EXECUTABLE=/usr/bin/python3 -DPython3_EXECUTABLE=/usr/bin/python3 \
-    -DCMAKE_BUILD_TYPE=Release -DCATKIN_ENABLE_TESTING=OFF "$@" 2>&1 | tee "$log" | show_progress; then
+end_well build.sh "the next build goes on from there"
+if ! run build_into_log "$@"; then
   grep -E -A 5 'error|Error' "$log" | head -n 40 >&2 || tail -n 40 "$log" >&2
   echo "build.sh: failed; the whole output is in $log" >&2
   exit 1

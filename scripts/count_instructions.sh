@@ -78,11 +78,17 @@ wanted() {
   return 1
 }
 
+# show TEXT: one line of a terminal, which an empty text wipes out.
+show() {
+  if [[ -t 2 ]]; then printf '\r\033[K%s' "$1" >&2; fi
+}
+
 echo "scene,method,precision,mode,outputs,samples,instructions_per_sample"
 for scene in "${scenes[@]}"; do
   "$program" "$scene" >"$work/contenders"
   while IFS= read -r contender; do
     wanted "$contender" || continue
+    show "$scene: $contender"
     if ! counted=$(valgrind --tool=callgrind --callgrind-out-file=/dev/null \
         --collect-atstart=no --toggle-collect=countedRun \
         "$program" "$scene" "$contender" "$samples" 2>"$work/valgrind.log" </dev/null); then
@@ -98,3 +104,4 @@ for scene in "${scenes[@]}"; do
     echo "$scene,$contender,$counted,$(((instructions + counted / 2) / counted))"
   done <"$work/contenders"
 done
+show ''

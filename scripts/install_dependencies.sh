@@ -22,7 +22,8 @@ test_packages=(
 )
 check_packages=(
   "${test_packages[@]}"
-  binutils catkin-lint clang-format-14 doxygen libbenchmark-dev liborocos-kdl-dev
+  binutils catkin-lint clang-14 clang-format-14 doxygen libbenchmark-dev libclang-rt-14-dev
+  liborocos-kdl-dev
 )
 demo_packages=("${run_packages[@]}" python3-matplotlib)
 rviz_packages=("${run_packages[@]}" python3-yaml rviz)

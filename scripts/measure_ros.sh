@@ -45,9 +45,11 @@ while [[ $# -gt 0 ]]; do
 done
 
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+source "$repository/scripts/running.sh"
+end_well measure_ros.sh "nothing was measured"
 if $install; then "$repository/scripts/install_dependencies.sh" --run; fi
 if [[ -z "$workspace" ]]; then
-  "$repository/scripts/build.sh" -DVWD_BUILD_BENCHMARKS=ON
+  run "$repository/scripts/build.sh" -DVWD_BUILD_BENCHMARKS=ON
   workspace=$repository/build/.catkin_ws
 fi
 if [[ ! -x "$workspace/devel/lib/virtual_work_dynamics/latency_probe" ]]; then

@@ -46,6 +46,7 @@ steps=7
 source scripts/measuring.sh
 read -r load _ </proc/loadavg
 
+end_well report.sh "measurements that are complete are in $output"
 prepare "$install"
 announce "Building in ${build#"$repository"/}, output in ${log#"$repository"/} ..."
 build_programs work_precision leave_out estimator_error callgrind_sample
@@ -53,7 +54,7 @@ build_programs work_precision leave_out estimator_error callgrind_sample
 # measure PROGRAM RESULT [OPTION]...: leaves RESULT in the output folder.
 measure() {
   rm -f "$output/$2"
-  "$build/benchmark/$1" "${quick[@]}" --output "$output/$2" "${@:3}"
+  run "$build/benchmark/$1" "${quick[@]}" --output "$output/$2" "${@:3}"
 }
 
 announce "Run time and error beside other libraries"
@@ -64,6 +65,7 @@ if [[ ! -f "$output/work_precision.csv" ]]; then
   echo "report.sh: work_precision has failed" >&2
   exit 1
 fi
+temporary+=("$output/closed_loops.csv.part" "$output/instructions.csv.part")
 "$build/benchmark/work_precision" "${quick[@]}" --list-loops >"$output/closed_loops.csv.part"
 mv "$output/closed_loops.csv.part" "$output/closed_loops.csv"
 announce "What leaving out saves"
@@ -72,7 +74,7 @@ announce "Error of efforts from estimated motions"
 recording=()
 if [[ -d ../shared/recordings ]]; then recording=(--recording ../shared/recordings); fi
 measure estimator_error estimator.csv "${recording[@]}"
-/usr/bin/python3 benchmark/report/estimator_page.py "$output"
+run /usr/bin/python3 benchmark/report/estimator_page.py "$output"
 rm -f "$output/instructions.csv"
 if [[ ${#quick[@]} -gt 0 ]]; then
   announce "Instructions per sample: not counted in a quick run"
@@ -80,13 +82,13 @@ elif ! command -v valgrind >/dev/null; then
   announce "Instructions per sample: not counted, there is no valgrind"
 else
   announce "Instructions per sample, of ${counted_scenes[*]}"
-  scripts/count_instructions.sh --program "$build/benchmark/callgrind_sample" \
+  run scripts/count_instructions.sh --program "$build/benchmark/callgrind_sample" \
     "${counted_scenes[@]}" >"$output/instructions.csv.part"
   mv "$output/instructions.csv.part" "$output/instructions.csv"
 fi
 announce "Plots and tables"
-/usr/bin/python3 benchmark/report/closed_loops_page.py "$output"
-/usr/bin/python3 benchmark/report/report.py "${quick[@]}" --build "$build" --load "$load" "$output"
+run /usr/bin/python3 benchmark/report/closed_loops_page.py "$output"
+run /usr/bin/python3 benchmark/report/report.py "${quick[@]}" --build "$build" --load "$load" "$output"
 announce "Done."
 if $disagreement; then
   echo "report.sh: a contender disagrees with the reference or failed; it is named above, and not" \

@@ -55,6 +55,7 @@ steps=4
 source scripts/measuring.sh
 if $list; then announce() { :; }; fi
 
+end_well stability.sh "results of an earlier run, if any, are left in $output"
 prepare "$install"
 announce "Building in ${build#"$repository"/}, output in ${log#"$repository"/} ..."
 build_programs stability
@@ -62,13 +63,13 @@ if $list; then exec "$build/benchmark/stability" "${scenes[@]}" --list; fi
 
 announce "Computing in every way and in 113 bits"
 measured=$(mktemp -d)  # results of an earlier run stay until there are new ones
-trap 'rm -rf "$measured"' EXIT
+temporary+=("$measured")
 status=0
-"$build/benchmark/stability" "${quick[@]}" "${scenes[@]}" --output "$measured/stability.csv" \
+run "$build/benchmark/stability" "${quick[@]}" "${scenes[@]}" --output "$measured/stability.csv" \
   --details "$measured/stability_details.csv" || status=$?
 [[ -f "$measured/stability.csv" && -f "$measured/stability_details.csv" ]] || exit "$status"
 mv "$measured"/*.csv "$output"
 announce "Pictures and table"
-/usr/bin/python3 benchmark/report/stability_page.py "${quick[@]}" "$output"
+run /usr/bin/python3 benchmark/report/stability_page.py "${quick[@]}" "$output"
 announce "Done: ${output}/stability.md"
 exit "$status"

@@ -8,10 +8,10 @@ Usage: scripts/test.sh [--portable] [--no-install]
 
 Builds with warnings as errors and runs: unit tests, tests through ROS, the core's tests under the
 address and undefined-behaviour sanitizers, the measurements' agreement with other libraries, users
-of the installed core and of the catkin package, the numbered examples, the format check, the rules of
-the folders, tests of scripts and guides, pages of the headers without a warning, catkin_lint, and
-checks that the core library links nothing of ROS and that code compiled for special instructions
-cannot serve elsewhere. Each check counts like a test. Results are in
+of the installed core and of the catkin package, twenty seconds of fuzzing for each reader, the numbered
+examples, the format check, the rules of the folders, tests of scripts and guides, pages of the headers
+without a warning, catkin_lint, and checks that the core library links nothing of ROS and that code
+compiled for special instructions cannot serve elsewhere. Each check counts like a test. Results are in
 build/test_results/. Works on Debian 12.
   --portable    only what needs no tools of Debian 12: builds with warnings as errors, without the
                 measurements, and runs the unit tests and the tests through ROS
@@ -93,6 +93,11 @@ sanitized_core_tests() {
   sanitized_build "${JOBS:-$(nproc)}" &&
     (cd "$package_build" && UBSAN_OPTIONS=print_stacktrace=1 sanitized/sanitized_core_tests \
       --gtest_output="xml:$results/sanitized_core_tests.junit/core_tests.xml")
+}
+
+# Each target starts from what is known to be hard, and from what earlier runs on this machine learnt.
+fuzz() {
+  scripts/fuzz.sh --seconds 20
 }
 
 # Every contender of a scene is compared with the reference before it is timed.
@@ -178,6 +183,7 @@ if check build_without_warnings build; then
   check core_links_no_ros core_links_no_ros || true
   check kernels_share_no_code kernels_share_no_code || true
   check sanitized_core_tests sanitized_core_tests || true
+  check fuzz fuzz || true
   check contenders_agree contenders_agree || true
   check installs_core test/downstream/check.sh core || true
   check exports_devel_space test/downstream/check.sh devel || true

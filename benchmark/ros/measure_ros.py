@@ -82,7 +82,8 @@ def measure_latency(report, arguments):
         begin = time.monotonic()
         while probe.running():
             session.check(may_end=probe)
-            report.progress('latency: %.0f s' % (time.monotonic() - begin))
+            report.progress('latency: %.0f of about %.0f s' % (
+                time.monotonic() - begin, 2 * arguments.seconds))
             time.sleep(0.2)
         if probe.popen.returncode != 0:
             raise SessionError('latency_probe has failed: %s' % probe.output().strip())

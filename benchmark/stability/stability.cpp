@@ -86,7 +86,7 @@ class Measurement {
     for (int i = 1; i < threads; ++i) others.emplace_back([this] { work(); });
     work();
     for (std::thread& thread : others) thread.join();
-    showProgress("");
+    clearProgress();
     if (failure_) std::rethrow_exception(failure_);
     return rows_;
   }
@@ -113,8 +113,7 @@ class Measurement {
     Row& row = rows_[task.sweep][task.value];
     (task.numbers == InputNumbers::kFloat ? row.of_float : row.of_double).include(verdict);
     ++done_;
-    showProgress("[" + std::to_string(done_) + "/" + std::to_string(tasks_.size()) + "] " +
-                 sweep.scene);
+    showProgress(sweep.scene, done_, tasks_.size());
   }
 
   const std::vector<Sweep>& sweeps_;

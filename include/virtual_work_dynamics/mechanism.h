@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace virtual_work_dynamics {
@@ -101,6 +102,8 @@ class Mechanism {
   /// Index of the joint or link of that name; -1 when there is none. Not for the per-sample path.
   int jointIndex(const std::string& name) const;
   int linkIndex(const std::string& name) const;
+  /// Index in coordinates() of the joint of that name; -1 when none moves by itself under it.
+  int coordinateIndex(const std::string& name) const;
 
  private:
   std::string name_;
@@ -109,6 +112,8 @@ class Mechanism {
   std::vector<Doubt> doubts_;
   std::vector<int> coordinates_;
   std::vector<std::string> coordinate_names_;
+  std::unordered_map<std::string, int> index_of_joint_;
+  std::unordered_map<std::string, int> index_of_link_;
 };
 
 }  // namespace virtual_work_dynamics

@@ -16,12 +16,13 @@ constexpr double kFar = 0.3;
 constexpr int kMostFailures = 4;
 constexpr double kTurn = 6.283185307179586476925286766559;
 
-bool wraps(const Mechanism& mechanism, const Joint& wanted) {
-  const auto& joints = mechanism.joints();
-  return wanted.type == JointType::kContinuous &&
-         std::none_of(joints.begin(), joints.end(), [&](const Joint& joint) {
-           return joint.mimics && joint.coordinate == wanted.coordinate;
-         });
+// Whether each coordinate is mimicked, so that its whole turns are not without effect.
+std::vector<bool> mimicked(const Mechanism& mechanism) {
+  std::vector<bool> result(mechanism.coordinates().size(), false);
+  for (const Joint& joint : mechanism.joints()) {
+    if (joint.mimics) result[static_cast<std::size_t>(joint.coordinate)] = true;
+  }
+  return result;
 }
 
 }  // namespace
@@ -32,13 +33,14 @@ constexpr int PassiveJoints::kMostSearches;
 
 PassiveJoints::PassiveJoints(const Mechanism& mechanism, const Dynamics& dynamics)
     : completed_(dynamics.coordinates()), before_(dynamics.assembly()), closed_(before_) {
+  const std::vector<bool> is_mimicked = mimicked(mechanism);
   for (std::size_t i = 0; i < mechanism.coordinates().size(); ++i) {
     const Joint& joint = mechanism.joints()[static_cast<std::size_t>(mechanism.coordinates()[i])];
     const auto index = static_cast<Eigen::Index>(i);
     if (joint.type != JointType::kPrismatic) turning_.push_back(index);
     if (!dynamics.actuated()[i]) continue;
     given_.push_back(index);
-    wraps_.push_back(wraps(mechanism, joint));
+    wraps_.push_back(joint.type == JointType::kContinuous && !is_mimicked[i]);
   }
   targets_.fill(closed_);
 }

@@ -2,6 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "base/printable.h"
 #include "scene/closure_types.h"
@@ -33,41 +35,49 @@ LoopReactions::LoopReactions(const Mechanism& mechanism, const Scene& scene, con
                              const std::vector<LoopGroup>& groups,
                              const std::vector<std::string>& names, Axes axes)
     : child_axes_(axes == Axes::kLink) {
-  for (auto name = names.begin(); name != names.end(); ++name) {
-    const std::string place = entryOf("reactions", static_cast<std::size_t>(name - names.begin()));
-    if (std::find(names.begin(), name, *name) != name) {
-      throw SceneError(place + ": " + inQuotes(*name) + " is named twice");
+  std::unordered_map<std::string, std::size_t> closures;
+  for (const Closure& closure : scene.closures) closures.emplace(closure.name, closures.size());
+  std::unordered_set<std::string> seen;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string& name = names[i];
+    if (!seen.insert(name).second) {
+      throw SceneError(entryOf("reactions", i) + ": " + inQuotes(name) + " is named twice");
     }
-    addItem(mechanism, scene, loops, *name, place);
+    const auto closure = closures.find(name);
+    if (closure != closures.end()) {
+      items_.push_back(itemOfClosure(scene, loops, closure->second));
+    } else if (name == kGround || mechanism.jointIndex(name) >= 0) {
+      items_.push_back(itemOfJoint(mechanism, scene, name));
+    } else {
+      failAtUnknown(mechanism, scene, name, entryOf("reactions", i));
+    }
   }
   addChanges(groups);
   freedoms_.resize(names.size());
   spans_.resize(names.size());
 }
 
-void LoopReactions::addItem(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
-                            const std::string& name, const std::string& place) {
+LoopReactions::Item LoopReactions::itemOfClosure(const Scene& scene, const LoopScene& loops,
+                                                 std::size_t closure) {
   Item item;
-  for (std::size_t c = 0; c < scene.closures.size(); ++c) {
-    if (scene.closures[c].name != name) continue;
-    item.closure = static_cast<int>(c);
-    item.active = traitsOf(scene.closures[c].type).free_axis.value_or(Unit::kRadian);
-    const auto& actuated = loops.actuated_closures;
-    item.drops_active =
-        !scene.include_active && std::find(actuated.begin(), actuated.end(), c) != actuated.end();
+  item.closure = static_cast<int>(closure);
+  item.active = traitsOf(scene.closures[closure].type).free_axis.value_or(Unit::kRadian);
+  const auto& actuated = loops.actuated_closures;  // in order
+  item.drops_active =
+      !scene.include_active && std::binary_search(actuated.begin(), actuated.end(), closure);
+  return item;
+}
+
+LoopReactions::Item LoopReactions::itemOfJoint(const Mechanism& mechanism, const Scene& scene,
+                                               const std::string& name) {
+  Item item;
+  item.joint = mechanism.jointIndex(name);  // none of ground
+  if (item.joint >= 0) {
+    const Joint& joint = mechanism.joint(item.joint);
+    item.active = unitOf(joint);
+    item.drops_active = !scene.include_active && joint.type != JointType::kFixed;
   }
-  if (item.closure < 0) {
-    item.joint = mechanism.jointIndex(name);
-    if (item.joint < 0 && name != kGround) {
-      failAtUnknown(mechanism, scene, name, place);
-    }
-    if (item.joint >= 0) {
-      const Joint& joint = mechanism.joint(item.joint);
-      item.active = unitOf(joint);
-      item.drops_active = !scene.include_active && joint.type != JointType::kFixed;
-    }
-  }
-  items_.push_back(item);
+  return item;
 }
 
 void LoopReactions::addChanges(const std::vector<LoopGroup>& groups) {

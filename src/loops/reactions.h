@@ -69,8 +69,8 @@ class LoopReactions {
   template <typename Visit>
   void visitChanged(const LoopKinematics& kinematics, std::size_t group, const LoopForces& forces,
                     const LoopForces::State& change, Visit visit);
-  void addItem(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
-               const std::string& name, const std::string& place);
+  static Item itemOfClosure(const Scene& scene, const LoopScene& loops, std::size_t closure);
+  static Item itemOfJoint(const Mechanism& mechanism, const Scene& scene, const std::string& name);
   void addChanges(const std::vector<LoopGroup>& groups);
   ClosureWrench reported(const LoopKinematics& kinematics, const Item& item,
                          ClosureWrench wrench) const;

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 
 #include "base/nearest_name.h"
+#include "base/number_text.h"
 #include "base/printable.h"
+#include "motion/largest_motion.h"
 #include "motion/recording.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/unwrap.h"
@@ -16,8 +19,7 @@ namespace {
 
 void checkShapes(const Mechanism& mechanism, const MotionTable& motion) {
   for (const std::string& name : motion.joints) {
-    const auto& known = mechanism.coordinateNames();
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
+    if (mechanism.coordinateIndex(name) < 0) {
       throw MotionError("motion: " + inQuotes(name) +
                         " is not a generalized coordinate of the robot" +
                         nameHelp(name, mechanism.coordinateNames()));
@@ -51,6 +53,29 @@ void checkRows(const MotionTable& motion) {
   if (row < rows) {
     throw MotionError("motion: the time of row " + std::to_string(row + 1) +
                       " is not later than that of the row before");
+  }
+}
+
+// Values beyond any robot's would leave noises, and so results, that are not numbers.
+void checkValues(const MotionTable& motion) {
+  for (std::size_t row = 0; row < motion.times.size(); ++row) {
+    if (std::abs(motion.times[row]) <= kLargestMotion) continue;
+    throw MotionError("motion: the time of row " + std::to_string(row + 1) + " is " +
+                      numberText(motion.times[row]) + ", too large to estimate anything from");
+  }
+  const std::array<std::pair<const char*, const Eigen::MatrixXd*>, 2> matrices{
+      {{"position", &motion.positions}, {"velocity", &motion.velocities}}};
+  for (const auto& [name, matrix] : matrices) {
+    for (Eigen::Index column = 0; column < matrix->cols(); ++column) {
+      for (Eigen::Index row = 0; row < matrix->rows(); ++row) {
+        const double value = (*matrix)(row, column);
+        if (std::abs(value) <= kLargestMotion) continue;
+        throw MotionError(std::string("motion: the ") + name + " of '" +
+                          motion.joints[static_cast<std::size_t>(column)] + "' in row " +
+                          std::to_string(row + 1) + " is " + numberText(value) +
+                          ", too large to estimate anything from");
+      }
+    }
   }
 }
 
@@ -114,6 +139,7 @@ MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion,
   const bool complete = motion.hasVelocities() && motion.hasAccelerations();
   if (complete || motion.positions.size() == 0) return motion;
   checkRows(motion);
+  checkValues(motion);
   Recording recording(motion.times, streamsOf(motion), settings);
   recording.identify();
   const bool given = motion.hasAccelerations();

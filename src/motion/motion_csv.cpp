@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
+#include <istream>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -11,6 +11,7 @@
 #include "base/number_text.h"
 #include "base/printable.h"
 #include "base/text_file.h"
+#include "motion/motion_text.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -69,22 +70,16 @@ std::string columnHelp(std::string_view column) {
 // The lines of a text that are neither blank nor comments.
 class Lines {
  public:
-  Lines(std::string_view text, const std::string& name) : rest_(text), name_(name) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (rest_.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
-      rest_.remove_prefix(kByteOrderMark.size());
-    }
-  }
+  Lines(TextSource& text, const std::string& name) : source_(text), name_(name) {}
 
   // Goes to the next line and returns false at the end. Refuses rows after a blank line, as two
   // files written into one have them.
   bool next(bool blanks_may_stand_before) {
     std::size_t blank_line = 0;
-    while (!rest_.empty()) {
-      const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-      line_ = trimmed(rest_.substr(0, end));
-      rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    while (readLine()) {
       ++number_;
+      if (number_ == 1) skipByteOrderMark();
+      line_ = trimmed(line_);
       if (line_.empty()) {
         if (blank_line == 0) blank_line = number_;
       } else if (line_.front() != '#') {
@@ -100,10 +95,64 @@ class Lines {
   std::size_t number() const { return number_; }
 
  private:
-  std::string_view rest_;
+  static constexpr std::size_t kPiece = 65536;
+  static constexpr std::size_t kMegabyte = std::size_t{1} << 20;
+  static constexpr std::size_t kLongestLine = 64 * kMegabyte;  // of a million columns and more
+
+  // Takes the next line off the buffer, which is filled as far as needed; false at the end.
+  bool readLine() {
+    std::size_t searched = start_;
+    std::size_t end = buffer_.find('\n', searched);
+    while (end == std::string::npos && !at_end_) {
+      buffer_.erase(0, start_);
+      start_ = 0;
+      searched = buffer_.size();
+      if (searched > kLongestLine) {
+        throw FileError(name_ + ": line " + std::to_string(number_ + 1) + " has more than " +
+                        std::to_string(kLongestLine / kMegabyte) + " MB, or no end");
+      }
+      buffer_.resize(searched + kPiece);
+      const std::size_t count = source_.read(&buffer_[searched], kPiece);
+      buffer_.resize(searched + count);
+      at_end_ = count == 0;
+      end = buffer_.find('\n', searched);
+    }
+    if (start_ == buffer_.size()) return false;
+    end = std::min(end, buffer_.size());
+    line_ = std::string_view(buffer_).substr(start_, end - start_);
+    start_ = std::min(end + 1, buffer_.size());
+    return true;
+  }
+
+  void skipByteOrderMark() {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (line_.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
+      line_.remove_prefix(kByteOrderMark.size());
+    }
+  }
+
+  TextSource& source_;
   const std::string& name_;
+  std::string buffer_;
+  std::size_t start_ = 0;  // of what has not been taken, in the buffer
+  bool at_end_ = false;
   std::string_view line_;
   std::size_t number_ = 0;
+};
+
+// A stream as text.
+class StreamSource : public TextSource {
+ public:
+  StreamSource(std::istream& stream, const std::string& name) : stream_(stream), name_(name) {}
+  std::size_t read(char* to, std::size_t most) override {
+    stream_.read(to, static_cast<std::streamsize>(most));
+    if (stream_.bad()) throw FileError(name_ + ": cannot be read");
+    return static_cast<std::size_t>(stream_.gcount());
+  }
+
+ private:
+  std::istream& stream_;
+  const std::string& name_;
 };
 
 // Calls `use(column index, cell)` for every cell of a line without quotes.
@@ -150,7 +199,7 @@ bool splitQuoted(std::string_view line, std::vector<std::string>& cells) {
 // rows.
 class CsvReader {
  public:
-  CsvReader(std::string_view text, const std::string& name) : lines_(text, name), name_(name) {}
+  CsvReader(TextSource& text, const std::string& name) : lines_(text, name), name_(name) {}
 
   MotionTable read(const std::vector<std::string>& joints, std::vector<std::string>* unused,
                    std::vector<std::size_t>* line_numbers) {
@@ -365,23 +414,27 @@ class CsvReader {
 
 }  // namespace
 
+MotionTable readMotionText(TextSource& text, const std::string& name, const JointChoice& choose,
+                           std::vector<std::string>* unused, std::vector<std::size_t>* lines) {
+  return CsvReader(text, name).read(choose, unused, lines);
+}
+
 MotionTable readMotionCsv(const std::string& path, const std::vector<std::string>& joints,
                           std::vector<std::string>* unused, std::vector<std::size_t>* lines) {
-  const std::string text = readTextFile(path);
-  return CsvReader(text, path).read(joints, unused, lines);
+  TextFile file(path);
+  return CsvReader(file, path).read(joints, unused, lines);
 }
 
 MotionTable readMotionCsv(const std::string& path, const JointChoice& choose,
                           std::vector<std::string>* unused, std::vector<std::size_t>* lines) {
-  const std::string text = readTextFile(path);
-  return CsvReader(text, path).read(choose, unused, lines);
+  TextFile file(path);
+  return readMotionText(file, path, choose, unused, lines);
 }
 
 MotionTable readMotionCsv(std::istream& stream, const std::string& name,
                           const std::vector<std::string>& joints, std::vector<std::string>* unused,
                           std::vector<std::size_t>* lines) {
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (stream.bad()) throw FileError(name + ": cannot be read");
+  StreamSource text(stream, name);
   return CsvReader(text, name).read(joints, unused, lines);
 }
 

@@ -16,7 +16,8 @@ constexpr int kMostStarting = 64;
 /// Samples that a filter of this model is started from: those of two time constants.
 inline int startingSamples(const StreamModel& model, int order, double interval) {
   const double samples = 2 * timeConstant(model, order, interval) / interval;
-  return static_cast<int>(std::clamp(samples, order + 0.0, kMostStarting + 0.0));
+  // Also where `samples` is not a number.
+  return samples > order ? static_cast<int>(std::min(samples, kMostStarting + 0.0)) : order;
 }
 
 /// The state at the first of some samples, position relative to it. Its derivatives are those of

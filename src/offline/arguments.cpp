@@ -28,7 +28,7 @@ Input
                         that start with # are comments. Missing accelerations, or velocities, are
                         estimated by a smoother that finds the noise of the recording. Where the
                         scene closes loops, the columns are of all joints, or of the actuated joints,
-                        which move the others.
+                        which move the others. - reads standard input.
   --scene FILE          scene file (YAML); the options below override it
 
 How missing derivatives are estimated
@@ -200,7 +200,8 @@ using Setter = std::function<void(const std::string& value, Arguments& arguments
 const std::map<std::string, Setter>& optionsWithValue() {
   static const std::map<std::string, Setter> options{
       {"--urdf", [](const auto& value, auto& arguments) { arguments.urdf = value; }},
-      {"--motion", [](const auto& value, auto& arguments) { arguments.motion = value; }},
+      {"--motion", [](const auto& value,
+                      auto& arguments) { arguments.motion = value == "-" ? "/dev/stdin" : value; }},
       {"--scene", [](const auto& value, auto& arguments) { arguments.scene = value; }},
       {"--output", [](const auto& value, auto& arguments) { arguments.output = value; }},
       {"--gravity",

@@ -1,8 +1,8 @@
 #include "offline/completed_motion.h"
 
-#include <algorithm>
 #include <iostream>
 #include <sstream>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -25,18 +25,15 @@ std::string joined(const Names& words) {
   return text;
 }
 
-bool contains(const Names& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
+using NameSet = std::unordered_set<std::string>;
 
-bool rests(const RecordingOptions& options, const std::string& name) {
-  return std::any_of(options.rest.begin(), options.rest.end(),
-                     [&](const auto& joint) { return joint.first == name; });
+NameSet setOf(const Names& names) {
+  return NameSet(names.begin(), names.end());
 }
 
 void checkRest(const Mechanism& mechanism, const RecordingOptions& options) {
   for (const auto& [name, position] : options.rest) {
-    if (contains(mechanism.coordinateNames(), name)) continue;
+    if (mechanism.coordinateIndex(name) >= 0) continue;
     throw UsageError("--rest: robot " + inQuotes(mechanism.name()) + " has no joint " +
                      inQuotes(name) + " that moves by itself" +
                      nameHelp(name, mechanism.coordinateNames()));
@@ -50,16 +47,19 @@ JointChoice choiceOf(const std::string& path, const Mechanism& mechanism, const 
   checkRest(mechanism, options);
   return [&path, &mechanism, &dynamics, &options](const Names& header) {
     const Names& all = mechanism.coordinateNames();
+    const NameSet has_columns = setOf(header);
+    NameSet rests;
+    for (const auto& joint : options.rest) rests.insert(joint.first);
     const GivenJoints rule(mechanism, dynamics);
     // The file's reader names missing actuated joints.
     std::vector<bool> given = dynamics.actuated();
     for (std::size_t i = 0; i < all.size(); ++i) {
-      if (contains(header, all[i]) || rests(options, all[i])) given[i] = true;
+      if (has_columns.count(all[i]) + rests.count(all[i]) > 0) given[i] = true;
     }
     if (const auto problem = rule.problem(given)) throw FileError(path + ": " + *problem);
     Names wanted;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const bool missing = rests(options, all[i]) && !contains(header, all[i]);
+      const bool missing = rests.count(all[i]) > 0 && has_columns.count(all[i]) == 0;
       if (given[i] && !missing) wanted.push_back(all[i]);
     }
     return wanted;
@@ -67,12 +67,13 @@ JointChoice choiceOf(const std::string& path, const Mechanism& mechanism, const 
 }
 
 // Widens the covariances, like the table.
-void widenCovariances(const Names& all, MotionTable& table) {
+void widenCovariances(const Mechanism& mechanism, MotionTable& table) {
+  const Names& all = mechanism.coordinateNames();
   const std::vector<Eigen::Matrix3d> given = std::move(table.covariances);
   table.covariances.assign(table.times.size() * all.size(), Eigen::Matrix3d::Zero());
   for (std::size_t row = 0; row < table.times.size(); ++row) {
     for (std::size_t i = 0; i < table.joints.size(); ++i) {
-      const auto place = std::find(all.begin(), all.end(), table.joints[i]) - all.begin();
+      const int place = mechanism.coordinateIndex(table.joints[i]);
       table.covariances[row * all.size() + static_cast<std::size_t>(place)] =
           given[row * table.joints.size() + i];
     }
@@ -82,13 +83,13 @@ void widenCovariances(const Names& all, MotionTable& table) {
 // Widens the table to columns of all coordinates; new columns are zero.
 void widen(const Mechanism& mechanism, MotionTable& table) {
   const Names& all = mechanism.coordinateNames();
-  if (table.hasCovariances()) widenCovariances(all, table);
+  if (table.hasCovariances()) widenCovariances(mechanism, table);
   for (Eigen::MatrixXd* columns : {&table.positions, &table.velocities, &table.accelerations}) {
     const Eigen::MatrixXd given = *columns;
     columns->setZero(static_cast<Eigen::Index>(table.times.size()),
                      static_cast<Eigen::Index>(all.size()));
     for (std::size_t i = 0; i < table.joints.size(); ++i) {
-      const auto place = std::find(all.begin(), all.end(), table.joints[i]) - all.begin();
+      const int place = mechanism.coordinateIndex(table.joints[i]);
       columns->col(place) = given.col(static_cast<Eigen::Index>(i));
     }
   }
@@ -122,8 +123,9 @@ CompletedMotion::CompletedMotion(const std::string& path, const Mechanism& mecha
               << joined(wrapped) << "\n";
   }
   std::vector<std::pair<std::string, double>> resting;
+  const NameSet given = setOf(file_.table.joints);
   for (const auto& joint : options.rest) {
-    if (!contains(file_.table.joints, joint.first)) resting.push_back(joint);
+    if (given.count(joint.first) == 0) resting.push_back(joint);
   }
   positions_follow_ =
       file_.table.joints.size() + resting.size() < mechanism.coordinateNames().size();
@@ -136,9 +138,7 @@ CompletedMotion::CompletedMotion(const std::string& path, const Mechanism& mecha
   completeDerivatives(mechanism, scene, completion, file_);
   if (positions_follow_ || !resting.empty()) widen(mechanism, file_.table);
   for (const auto& [name, position] : resting) {
-    const Names& all = file_.table.joints;
-    const auto place = std::find(all.begin(), all.end(), name) - all.begin();
-    file_.table.positions.col(place).setConstant(position);
+    file_.table.positions.col(mechanism.coordinateIndex(name)).setConstant(position);
   }
   Names follow;
   if (positions_follow_) follow.push_back("positions");

@@ -8,9 +8,12 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Rows that a thread computes between two hand-overs.
+// Rows that a thread computes between two hand-overs; fewer where each has many results, so that a
+// robot of a hundred thousand links does not take gigabytes.
 constexpr std::size_t kRowsAtOnce = 512;
 constexpr std::size_t kClosedRowsAtOnce = 64;
+constexpr std::size_t kFewestRowsAtOnce = 8;
+constexpr std::size_t kResultsAtOnce = 1000000;
 
 // Limits threads to the number of rows.
 int usefulThreads(int threads, std::size_t rows) {
@@ -20,8 +23,15 @@ int usefulThreads(int threads, std::size_t rows) {
 
 SampleRows samplesOf(const Dynamics& dynamics, std::size_t rows, int wanted) {
   const int threads = usefulThreads(wanted, rows);
-  const std::size_t at_once = dynamics.closed() ? kClosedRowsAtOnce : kRowsAtOnce;
-  return SampleRows(dynamics, at_once * static_cast<std::size_t>(threads), threads);
+  const Request& request = dynamics.request();
+  const std::size_t results = static_cast<std::size_t>(dynamics.coordinates()) +
+                              6 * (request.child_axes.size() + request.root_axes.size());
+  const std::size_t most = dynamics.closed() ? kClosedRowsAtOnce : kRowsAtOnce;
+  const std::size_t at_once =
+      std::clamp(kResultsAtOnce / std::max<std::size_t>(1, results), kFewestRowsAtOnce, most);
+  return SampleRows(dynamics,
+                    std::clamp<std::size_t>(rows, 1, at_once * static_cast<std::size_t>(threads)),
+                    threads);
 }
 
 }  // namespace

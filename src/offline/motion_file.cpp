@@ -6,11 +6,14 @@
 #include <limits>
 #include <set>
 #include <sstream>
+#include <unordered_set>
 #include <utility>
 
 #include "base/number_text.h"
 #include "base/printable.h"
+#include "motion/motion_text.h"
 #include "motion/stream_text.h"
+#include "offline/watched_file.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -175,7 +178,10 @@ MotionFile readMotion(const std::string& path, const Mechanism& mechanism,
   MotionFile motion;
   motion.path = path;
   std::vector<std::string> unused;
-  motion.table = readMotionCsv(path, choose, &unused, &motion.lines);
+  {
+    WatchedFile file(path);
+    motion.table = readMotionText(file, path, choose, &unused, &motion.lines);
+  }
   const Names& coordinates = mechanism.coordinateNames();
   noteUnused(path, sorted(path, unused, coordinates), coordinates);
   return motion;

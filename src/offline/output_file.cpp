@@ -99,6 +99,11 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
   const auto kind = std::filesystem::status(path_, no_matter).type();
   const bool may_replace =
       kind == std::filesystem::file_type::regular || kind == std::filesystem::file_type::not_found;
+  // A file that may not be written is not replaced either, though its folder would allow it.
+  if (kind == std::filesystem::file_type::regular &&
+      faccessat(AT_FDCWD, path_.c_str(), W_OK, AT_EACCESS) != 0) {
+    throwCannotWrite(errno);
+  }
   if (may_replace) {
     // A symbolic link is kept; the file to which it points is replaced.
     if (std::filesystem::is_symlink(path_, no_matter)) {

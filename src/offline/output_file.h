@@ -7,10 +7,10 @@ namespace virtual_work_dynamics {
 
 /// A file that is written as a whole or not at all: its text goes to a file of a name of its own
 /// beside it, `<path>.XXXXXX.part`, which commit() renames. The mode of a file that is replaced is
-/// kept. Without commit(), and when a signal that can be caught ends the process, the partial file
-/// is removed. Of several processes that write one path at once each writes its own file, and the
-/// last to commit() is what stays. Standard output, devices and pipes are written directly. A
-/// process may have one such object at a time.
+/// kept, and a file that may not be written stays. Without commit(), and when a signal that can be
+/// caught ends the process, the partial file is removed. Of several processes that write one path
+/// at once each writes its own file, and the last to commit() is what stays. Standard output,
+/// devices and pipes are written directly. A process may have one such object at a time.
 class OutputFile {
  public:
   /// Opens the file. @param path where it is to be; empty: standard output.

@@ -68,7 +68,7 @@ class Rows {
   Eigen::VectorXd effort_;
   std::vector<Wrench> reactions_;
   std::vector<double> more_;
-  Progress progress_{std::cerr, isatty(STDERR_FILENO) == 1};
+  Progress progress_{std::cerr, ProgressLine::whereIs(STDERR_FILENO), "computing"};
   std::size_t overflowed_ = 0;
   std::size_t first_line_ = 0;
   std::size_t singular_ = 0;

@@ -1,6 +1,5 @@
 #include "virtual_work_dynamics/mechanism.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "base/printable.h"
@@ -10,11 +9,18 @@ namespace virtual_work_dynamics {
 
 namespace {
 
+// The index of each name; the first one where several are equal.
 template <typename Named>
-int indexOf(const std::vector<Named>& list, const std::string& name) {
-  const auto found =
-      std::find_if(list.begin(), list.end(), [&](const Named& item) { return item.name == name; });
-  return found == list.end() ? -1 : static_cast<int>(found - list.begin());
+std::unordered_map<std::string, int> indicesOf(const std::vector<Named>& list) {
+  std::unordered_map<std::string, int> indices;
+  indices.reserve(list.size());
+  for (const Named& item : list) indices.emplace(item.name, static_cast<int>(&item - &list[0]));
+  return indices;
+}
+
+int indexIn(const std::unordered_map<std::string, int>& indices, const std::string& name) {
+  const auto found = indices.find(name);
+  return found == indices.end() ? -1 : found->second;
 }
 
 }  // namespace
@@ -55,14 +61,21 @@ Mechanism::Mechanism(std::string name, std::vector<Link> links, std::vector<Join
       throw UrdfError("joint " + inQuotes(joint.name) + ": mimics no generalized coordinate");
     }
   }
+  index_of_joint_ = indicesOf(joints_);
+  index_of_link_ = indicesOf(links_);
 }
 
 int Mechanism::jointIndex(const std::string& name) const {
-  return indexOf(joints_, name);
+  return indexIn(index_of_joint_, name);
 }
 
 int Mechanism::linkIndex(const std::string& name) const {
-  return indexOf(links_, name);
+  return indexIn(index_of_link_, name);
+}
+
+int Mechanism::coordinateIndex(const std::string& name) const {
+  const int index = jointIndex(name);
+  return index < 0 || joint(index).mimics ? -1 : joint(index).coordinate;
 }
 
 }  // namespace virtual_work_dynamics

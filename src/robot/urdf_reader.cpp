@@ -9,6 +9,8 @@
 #include <map>
 #include <mutex>
 #include <sstream>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -30,6 +32,8 @@ namespace {
 
 // Largest deviation of an axis from unit length of which the user is not told.
 constexpr long double kUnitTolerance = 1e-6L;
+// Bytes, beyond descriptions of a hundred thousand links with their shapes.
+constexpr std::size_t kLongestDescription = std::size_t{256} << 20;
 
 // Keeps the complaints of urdfdom off the console, through which alone it makes them.
 class CapturedConsole : public console_bridge::OutputHandler {
@@ -115,10 +119,11 @@ class Reader {
   // Refuses links that are one another's parents and so hang on no root; urdfdom accepts them.
   void checkReached() const {
     if (links_.size() == model_->links_.size()) return;
+    std::unordered_set<std::string> reached;
+    for (const Link& link : links_) reached.insert(link.name);
     for (const auto& entry : model_->links_) {
       const std::string& name = entry.first;
-      if (std::none_of(links_.begin(), links_.end(),
-                       [&](const Link& link) { return link.name == name; })) {
+      if (reached.count(name) == 0) {
         throw UrdfError("link " + inQuotes(name) +
                         ": its parents form a loop that never reaches the root " +
                         inQuotes(links_.front().name));
@@ -252,25 +257,45 @@ class Reader {
     return axis / length;
   }
 
-  // Follows every mimic joint to the coordinate that moves it in the end.
+  // Gives every mimic joint the coordinate that moves it in the end. A master that mimics, too,
+  // comes before what mimics it, so that each joint is followed once, however long the chains are.
   void resolveMimics() {
-    for (Joint& joint : joints_) {
-      std::size_t steps = 0;
-      for (const urdf::JointMimic* mimic = mimicOf(joint); mimic;) {
-        if (++steps > joints_.size()) {
-          throw UrdfError("joint " + inQuotes(joint.name) + ": its <mimic> leads in a cycle");
+    std::unordered_map<std::string, std::size_t> index_of;
+    for (std::size_t k = 0; k < joints_.size(); ++k) index_of.emplace(joints_[k].name, k);
+    enum class State { kNew, kFollowed, kResolved };
+    std::vector<State> states(joints_.size(), State::kNew);
+    std::vector<std::size_t> followed;
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+      followed.clear();
+      for (std::size_t at = k; states[at] != State::kResolved;) {
+        if (states[at] == State::kFollowed) {
+          throw UrdfError("joint " + inQuotes(joints_[k].name) + ": its <mimic> leads in a cycle");
         }
-        const Joint& master = masterOf(joint, mimic->joint_name);
-        joint.mimics = true;
-        joint.offset += joint.multiplier * mimic->offset;
-        joint.multiplier *= mimic->multiplier;
-        joint.coordinate = master.coordinate;
-        mimic = mimicOf(master);
+        states[at] = State::kFollowed;
+        followed.push_back(at);
+        const urdf::JointMimic* mimic = mimicOf(joints_[at]);
+        if (!mimic) break;
+        at = masterOf(joints_[at], mimic->joint_name, index_of);
       }
-      if (!std::isfinite(joint.multiplier) || !std::isfinite(joint.offset)) {
-        throw UrdfError("joint " + inQuotes(joint.name) +
-                        ": mimic multiplier or offset is not finite");
+      for (; !followed.empty(); followed.pop_back()) {
+        resolveMimic(joints_[followed.back()], index_of);
+        states[followed.back()] = State::kResolved;
       }
+    }
+  }
+
+  // Takes the coordinate of a mimic joint from its master, which has been resolved.
+  void resolveMimic(Joint& joint, const std::unordered_map<std::string, std::size_t>& index_of) {
+    const urdf::JointMimic* mimic = mimicOf(joint);
+    if (!mimic) return;
+    const Joint& master = joints_[index_of.at(mimic->joint_name)];
+    joint.mimics = true;
+    joint.offset = mimic->multiplier * master.offset + mimic->offset;
+    joint.multiplier = mimic->multiplier * master.multiplier;
+    joint.coordinate = master.coordinate;
+    if (!std::isfinite(joint.multiplier) || !std::isfinite(joint.offset)) {
+      throw UrdfError("joint " + inQuotes(joint.name) +
+                      ": mimic multiplier or offset is not finite");
     }
   }
 
@@ -279,17 +304,17 @@ class Reader {
     return model_->getJoint(joint.name)->mimic.get();
   }
 
-  const Joint& masterOf(const Joint& joint, const std::string& name) const {
-    const auto found = std::find_if(joints_.begin(), joints_.end(),
-                                    [&](const Joint& other) { return other.name == name; });
-    if (found == joints_.end()) {
+  std::size_t masterOf(const Joint& joint, const std::string& name,
+                       const std::unordered_map<std::string, std::size_t>& index_of) const {
+    const auto found = index_of.find(name);
+    if (found == index_of.end()) {
       throw UrdfError("joint " + inQuotes(joint.name) + ": mimics unknown joint " + inQuotes(name) +
                       nameHelp(name, jointNames()));
     }
-    if (found->type == JointType::kFixed) {
+    if (joints_[found->second].type == JointType::kFixed) {
       throw UrdfError("joint " + inQuotes(joint.name) + ": mimics fixed joint " + inQuotes(name));
     }
-    return *found;
+    return found->second;
   }
 
   std::vector<std::string> jointNames() const {
@@ -313,7 +338,7 @@ Mechanism readUrdf(const std::string& urdf) {
 }
 
 Mechanism readUrdfFile(const std::string& path) {
-  const std::string text = readTextFile(path);
+  const std::string text = readTextFile(path, kLongestDescription);
   try {
     return readUrdf(text);
   } catch (const UrdfError& error) {

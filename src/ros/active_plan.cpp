@@ -1,6 +1,7 @@
 #include "ros/active_plan.h"
 
-#include <algorithm>
+#include <string>
+#include <unordered_map>
 #include <utility>
 
 namespace virtual_work_dynamics {
@@ -20,10 +21,12 @@ Request computed(const Request& request, PlanChecks checks) {
 
 std::vector<std::size_t> placesOf(const std::vector<std::string>& names,
                                   const std::vector<std::string>& all) {
+  std::unordered_map<std::string, std::size_t> place_of;
+  for (const std::string& name : all) place_of.emplace(name, place_of.size());
   std::vector<std::size_t> places;
   for (const std::string& name : names) {
-    places.push_back(
-        static_cast<std::size_t>(std::find(all.begin(), all.end(), name) - all.begin()));
+    const auto place = place_of.find(name);
+    places.push_back(place == place_of.end() ? all.size() : place->second);
   }
   return places;
 }

@@ -1,7 +1,7 @@
 #include "ros/closure_frames.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
+#include <unordered_set>
 
 #include "base/printable.h"
 #include "virtual_work_dynamics/error.h"
@@ -30,11 +30,10 @@ tf2_msgs::TFMessage closureFrames(const Mechanism& mechanism, const Scene& scene
                                   const std::vector<std::string>& reactions,
                                   const std::string& frame_prefix) {
   tf2_msgs::TFMessage message;
-  const auto& links = mechanism.links();
+  const std::unordered_set<std::string> shown(reactions.begin(), reactions.end());
   for (const Closure& closure : scene.closures) {
-    if (std::find(reactions.begin(), reactions.end(), closure.name) == reactions.end()) continue;
-    if (std::any_of(links.begin(), links.end(),
-                    [&](const Link& link) { return link.name == closure.name; })) {
+    if (shown.count(closure.name) == 0) continue;
+    if (mechanism.linkIndex(closure.name) >= 0) {
       throw SceneError("closures: " + inQuotes(closure.name) +
                        " is also the name of a link; a closure's frame in tf needs another name");
     }

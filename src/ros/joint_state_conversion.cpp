@@ -6,6 +6,7 @@
 
 #include "base/number_text.h"
 #include "base/printable.h"
+#include "motion/largest_motion.h"
 #include "ros/joint_lookup.h"
 #include "ros/message_text.h"
 
@@ -104,14 +105,16 @@ void JointStateConversion::resolve(const std::vector<std::string>& names, Layout
 }
 
 void JointStateConversion::resolveMimics(Layout& layout) const {
+  std::vector<int> column_of(mechanism_.coordinates().size(), -1);
+  for (std::size_t i = 0; i < layout.columns.size(); ++i) {
+    column_of[static_cast<std::size_t>(layout.coordinates[i])] = layout.columns[i];
+  }
   for (std::size_t i = 0; i < layout.names.size(); ++i) {
     const int joint = mechanism_.jointIndex(layout.names[i]);
     if (joint < 0 || !mechanism_.joints()[static_cast<std::size_t>(joint)].mimics) continue;
     const int coordinate = mechanism_.joints()[static_cast<std::size_t>(joint)].coordinate;
-    const auto master = std::find(layout.coordinates.begin(), layout.coordinates.end(), coordinate);
-    if (master == layout.coordinates.end()) continue;
-    const auto entry = static_cast<std::size_t>(master - layout.coordinates.begin());
-    layout.mimics.push_back({static_cast<int>(i), layout.columns[entry], joint});
+    const int master_column = column_of[static_cast<std::size_t>(coordinate)];
+    if (master_column >= 0) layout.mimics.push_back({static_cast<int>(i), master_column, joint});
   }
 }
 
@@ -120,7 +123,7 @@ std::optional<Rejection> JointStateConversion::gatherPositions(
   for (std::size_t i = 0; i < layout.columns.size(); ++i) {
     const auto column = static_cast<std::size_t>(layout.columns[i]);
     q_[i] = positions[column];
-    if (!std::isfinite(q_[i])) {
+    if (!(std::abs(q_[i]) <= kLargestMotion)) {
       return Rejection{DropReason::kNotFinite, "the position of " + inQuotes(layout.names[column]) +
                                                    " is " + numberText(q_[i])};
     }
@@ -128,13 +131,14 @@ std::optional<Rejection> JointStateConversion::gatherPositions(
   return std::nullopt;
 }
 
-/// Makes NaN of velocities that are not finite. Drivers fill what they do not measure with NaN.
+/// Makes NaN of velocities that are not finite, or are beyond any robot's. Drivers fill what they
+/// do not measure with NaN.
 void JointStateConversion::gatherVelocities(const Layout& layout,
                                             const std::vector<double>& velocities,
                                             JointSample& sample) {
   for (std::size_t i = 0; i < layout.columns.size(); ++i) {
     qd_[i] = velocities[static_cast<std::size_t>(layout.columns[i])];
-    if (std::isfinite(qd_[i])) continue;
+    if (std::abs(qd_[i]) <= kLargestMotion) continue;
     sample.velocity_not_finite = true;
     char& reported = velocity_reported_[static_cast<std::size_t>(layout.coordinates[i])];
     if (!reported) {

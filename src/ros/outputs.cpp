@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
 
 #include "ros/determinacy_message.h"
 #include "ros/deviation_output.h"
@@ -17,8 +20,11 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-void addOnce(const std::string& name, Names& names) {
-  if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+void addOnce(const Names& added, Names& names) {
+  std::unordered_set<std::string> there(names.begin(), names.end());
+  for (const std::string& name : added) {
+    if (there.insert(name).second) names.push_back(name);
+  }
 }
 
 std::size_t placeOf(const std::string& name, const Names& names) {
@@ -26,8 +32,10 @@ std::size_t placeOf(const std::string& name, const Names& names) {
 }
 
 std::vector<std::size_t> placesOf(const Names& wanted, const Names& names) {
+  std::unordered_map<std::string, std::size_t> place_of;
+  for (const std::string& name : names) place_of.emplace(name, place_of.size());
   std::vector<std::size_t> places;
-  for (const std::string& name : wanted) places.push_back(placeOf(name, names));
+  for (const std::string& name : wanted) places.push_back(place_of.at(name));
   return places;
 }
 
@@ -198,7 +206,7 @@ class ReactionsOutput : public Output {
     return advertised<sensor_msgs::MultiDOFJointState>(topic, queue);
   }
   void addTo(Request& request) const override {
-    for (const std::string& name : reactions_) addOnce(name, request.root_axes);
+    addOnce(reactions_, request.root_axes);
     request.poses = true;
     request.twists = request.twists || twist_;
   }
@@ -240,7 +248,7 @@ class WrenchOutput : public Output {
   ros::AdvertiseOptions options(const std::string& topic, std::uint32_t queue) const override {
     return advertised<geometry_msgs::WrenchStamped>(topic, queue);
   }
-  void addTo(Request& request) const override { addOnce(reaction_, request.child_axes); }
+  void addTo(Request& request) const override { addOnce({reaction_}, request.child_axes); }
   std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan) const override {
     return std::make_unique<WrenchMessage>(plan, reaction_, frame_);
   }
@@ -289,10 +297,8 @@ class DeterminacyOutput : public Output {
   void start(const ros::Publisher& topic) const override { topic.publish(message_->message()); }
   void addTo(Request& request) const override {
     request.efforts = true;
-    for (const std::string& name : reactions_) {
-      addOnce(name, request.child_axes);
-      addOnce(name, request.root_axes);
-    }
+    addOnce(reactions_, request.child_axes);
+    addOnce(reactions_, request.root_axes);
   }
   std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan) const override {
     return std::make_unique<DeterminacyOutputMessage>(plan, reactions_, message_);

@@ -2,8 +2,6 @@
 
 #include <ros/console.h>
 
-#include <algorithm>
-
 #include "base/nearest_name.h"
 #include "base/number_text.h"
 #include "base/printable.h"
@@ -40,16 +38,15 @@ EstimatorSettings checkedSettings(const Mechanism& mechanism, EstimatorSettings 
 
 std::vector<std::pair<int, double>> restOf(const Mechanism& mechanism,
                                            const std::vector<RestingJoint>& joints) {
-  const std::vector<std::string>& names = mechanism.coordinateNames();
   std::vector<std::pair<int, double>> rest;
   for (const RestingJoint& joint : joints) {
-    const auto place = std::find(names.begin(), names.end(), joint.name);
-    if (place == names.end()) {
+    const int coordinate = mechanism.coordinateIndex(joint.name);
+    if (coordinate < 0) {
       throw parameterError("rest", "robot " + inQuotes(mechanism.name()) + " has no joint " +
                                        inQuotes(joint.name) + " that moves by itself" +
-                                       nameHelp(joint.name, names));
+                                       nameHelp(joint.name, mechanism.coordinateNames()));
     }
-    rest.emplace_back(static_cast<int>(place - names.begin()), joint.position);
+    rest.emplace_back(coordinate, joint.position);
   }
   return rest;
 }

@@ -38,13 +38,6 @@ int linkNamed(const Mechanism& mechanism, const std::string& name, const std::st
   return link;
 }
 
-int closureIndex(const Scene& scene, const std::string& name) {
-  for (std::size_t c = 0; c < scene.closures.size(); ++c) {
-    if (scene.closures[c].name == name) return static_cast<int>(c);
-  }
-  return -1;
-}
-
 void failAtUnknown(const Mechanism& mechanism, const Scene& scene, const std::string& name,
                    const std::string& place) {
   std::vector<std::string> known = namesOf(mechanism.joints());

@@ -17,9 +17,6 @@ std::string entryOf(const std::string& list, std::size_t index);
 int jointNamed(const Mechanism& mechanism, const std::string& name, const std::string& place);
 int linkNamed(const Mechanism& mechanism, const std::string& name, const std::string& place);
 
-/// Index of the closure of that name; -1 when there is none.
-int closureIndex(const Scene& scene, const std::string& name);
-
 /// Reports a name that is neither that of a joint nor of a closure. @throws SceneError always.
 [[noreturn]] void failAtUnknown(const Mechanism& mechanism, const Scene& scene,
                                 const std::string& name, const std::string& place);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <set>
+#include <unordered_map>
 
 #include "base/nearest_name.h"
 #include "base/number_text.h"
@@ -25,7 +26,11 @@ void requireOnce(const std::string& list, std::set<std::string>& seen, const std
 
 class Resolver {
  public:
-  Resolver(const Mechanism& mechanism, const Scene& scene) : mechanism_(mechanism), scene_(scene) {}
+  Resolver(const Mechanism& mechanism, const Scene& scene) : mechanism_(mechanism), scene_(scene) {
+    for (const Closure& closure : scene.closures) {
+      index_of_closure_.emplace(closure.name, static_cast<int>(index_of_closure_.size()));
+    }
+  }
 
   LoopScene resolve() {
     checkClosures();
@@ -45,6 +50,11 @@ class Resolver {
   }
 
  private:
+  int closureIndex(const std::string& name) const {
+    const auto found = index_of_closure_.find(name);
+    return found == index_of_closure_.end() ? -1 : found->second;
+  }
+
   void checkClosures() const {
     std::set<std::string> seen;
     for (const Closure& closure : scene_.closures) {
@@ -91,7 +101,7 @@ class Resolver {
     for (std::size_t i = 0; i < scene_.actuated->size(); ++i) {
       const std::string& name = (*scene_.actuated)[i];
       requireOnce("actuated", seen, name);
-      const int c = closureIndex(scene_, name);
+      const int c = closureIndex(name);
       if (c < 0) {
         const int k = jointOrClosure(name, entryOf("actuated", i));
         loops_.actuated[static_cast<std::size_t>(coordinateOf("actuated", name, k))] = true;
@@ -145,7 +155,7 @@ class Resolver {
     for (std::size_t i = 0; i < scene_.redundancy.zero_at.size(); ++i) {
       const std::string& name = scene_.redundancy.zero_at[i];
       requireOnce("redundancy: zero_at", seen, name);
-      const int c = closureIndex(scene_, name);
+      const int c = closureIndex(name);
       if (c < 0) {
         throw SceneError(entryOf("redundancy.zero_at", i) + ": no closure " + inQuotes(name) +
                          nameHelp(name, known));
@@ -161,7 +171,7 @@ class Resolver {
       const NamedNumber& stiffness = scene_.redundancy.stiffness[i];
       requireOnce(list, seen, stiffness.name);
       requirePositive(list + ": " + inQuotes(stiffness.name), stiffness.value);
-      const int c = closureIndex(scene_, stiffness.name);
+      const int c = closureIndex(stiffness.name);
       const int k =
           c < 0 ? jointOrClosure(stiffness.name, entryOf("redundancy.stiffness", i) + ".name") : -1;
       if (c < 0 && mechanism_.joint(k).type == JointType::kFixed) {
@@ -179,14 +189,14 @@ class Resolver {
       const NamedNumber& weight = scene_.redundancy.effort_weights[i];
       requireOnce(list, seen, weight.name);
       requirePositive(list + ": " + inQuotes(weight.name), weight.value);
-      const int c = closureIndex(scene_, weight.name);
+      const int c = closureIndex(weight.name);
       const std::string place = entryOf("redundancy.effort_weights", i) + ".name";
       const int coordinate =
           c < 0 ? coordinateOf(list, weight.name, jointOrClosure(weight.name, place)) : -1;
       const auto& closures = loops_.actuated_closures;
       const bool actuated =
           c < 0 ? loops_.actuated[static_cast<std::size_t>(coordinate)]
-                : std::find(closures.begin(), closures.end(), std::size_t(c)) != closures.end();
+                : std::binary_search(closures.begin(), closures.end(), std::size_t(c));
       if (!actuated) throw SceneError(list + ": " + inQuotes(weight.name) + " is not actuated");
       (c < 0 ? loops_.coordinate_weights[static_cast<std::size_t>(coordinate)]
              : loops_.closure_weights[static_cast<std::size_t>(c)]) = weight.value;
@@ -195,6 +205,7 @@ class Resolver {
 
   const Mechanism& mechanism_;
   const Scene& scene_;
+  std::unordered_map<std::string, int> index_of_closure_;
   LoopScene loops_;
 };
 

@@ -1,6 +1,7 @@
 #include "virtual_work_dynamics/scene.h"
 
-#include <algorithm>
+#include <string>
+#include <unordered_set>
 
 #include "base/printable.h"
 #include "scene/lookup.h"
@@ -11,17 +12,22 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-void checkNames(const Mechanism& mechanism, const Scene& scene) {
-  const std::vector<std::string>& names = scene.reaction_names;
-  for (auto name = names.begin(); name != names.end(); ++name) {
-    const std::string place = entryOf("reactions", static_cast<std::size_t>(name - names.begin()));
-    if (*name != kGround && mechanism.jointIndex(*name) < 0 && closureIndex(scene, *name) < 0) {
-      failAtUnknown(mechanism, scene, *name, place);
+using NameSet = std::unordered_set<std::string>;
+
+// The names of reactions that the scene lists.
+NameSet checkedNames(const Mechanism& mechanism, const Scene& scene) {
+  NameSet closures, names;
+  for (const Closure& closure : scene.closures) closures.insert(closure.name);
+  for (std::size_t i = 0; i < scene.reaction_names.size(); ++i) {
+    const std::string& name = scene.reaction_names[i];
+    if (name != kGround && mechanism.jointIndex(name) < 0 && closures.count(name) == 0) {
+      failAtUnknown(mechanism, scene, name, entryOf("reactions", i));
     }
-    if (std::find(names.begin(), name, *name) != name) {
-      throw SceneError(place + ": " + inQuotes(*name) + " is named twice");
+    if (!names.insert(name).second) {
+      throw SceneError(entryOf("reactions", i) + ": " + inQuotes(name) + " is named twice");
     }
   }
+  return names;
 }
 
 }  // namespace
@@ -32,12 +38,9 @@ bool needsClosedLoops(const Scene& scene) {
 
 std::vector<std::string> requestedReactions(const Mechanism& mechanism, const Scene& scene) {
   if (scene.reactions == ReactionSelection::kNone) return {};
-  const auto& wanted = scene.reaction_names;
   const bool all = scene.reactions == ReactionSelection::kAll;
-  if (!all) checkNames(mechanism, scene);
-  const auto isNamed = [&](const std::string& name) {
-    return std::find(wanted.begin(), wanted.end(), name) != wanted.end();
-  };
+  const NameSet wanted = all ? NameSet() : checkedNames(mechanism, scene);
+  const auto isNamed = [&](const std::string& name) { return wanted.count(name) > 0; };
   std::vector<std::string> names;
   if (!all && isNamed(kGround)) names.emplace_back(kGround);
   for (const Joint& joint : mechanism.joints()) {

@@ -15,6 +15,8 @@ namespace {
 const Names kSceneKeys = {"gravity",        "motion",           "reactions", "include_active",
                           "strict_inertia", "applied_wrenches", "joints",    "use_urdf_dynamics",
                           "tolerances"};
+// Bytes, beyond those of the most values that a scene may have.
+constexpr std::size_t kLongestScene = std::size_t{64} << 20;
 const Names kWrenchKeys = {"link", "at", "axes", "force", "torque"};
 const Names kToleranceKeys = {"mass", "inertia"};
 const Names kJointKeys = {"name",    "stiffness",        "rest",         "damping",
@@ -113,7 +115,7 @@ Scene readScene(const YAML::Node& node) {
 }
 
 Scene readSceneFile(const std::string& path) {
-  const std::string text = readTextFile(path);
+  const std::string text = readTextFile(path, kLongestScene);
   YAML::Node node;
   try {
     node = readYamlDocument(text);

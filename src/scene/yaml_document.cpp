@@ -12,9 +12,7 @@
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr std::size_t kDeepest = 64;
-constexpr std::size_t kLargest = 1000000;  // values, aliases replaced
-constexpr int kMostDocuments = 2;          // enough to know that there are several
+constexpr int kMostDocuments = 2;  // enough to know that there are several
 
 /// Counts what a text holds before any of it is kept.
 class Bounds : public YAML::EventHandler {
@@ -55,7 +53,7 @@ class Bounds : public YAML::EventHandler {
 
   void add(const YAML::Mark& mark, std::size_t values) {
     size_ += values;
-    if (size_ > kLargest) throw YAML::ParserException(mark, "more than a million values");
+    if (size_ > kMostYamlValues) throw YAML::ParserException(mark, "more than a million values");
   }
   void addValue(const YAML::Mark& mark, YAML::anchor_t anchor) {
     add(mark, 1);
@@ -63,8 +61,9 @@ class Bounds : public YAML::EventHandler {
   }
   void open(const YAML::Mark& mark, YAML::anchor_t anchor) {
     open_.push_back({anchor, size_});
-    if (open_.size() > kDeepest)
-      throw YAML::ParserException(mark, "nested more than " + std::to_string(kDeepest) + " deep");
+    if (open_.size() > kDeepestYaml)
+      throw YAML::ParserException(mark,
+                                  "nested more than " + std::to_string(kDeepestYaml) + " deep");
     add(mark, 1);
   }
   void close() {

@@ -1,6 +1,8 @@
 #include "tree/plan_reduction.h"
 
 #include <algorithm>
+#include <string>
+#include <unordered_set>
 
 namespace virtual_work_dynamics {
 
@@ -90,7 +92,10 @@ class Reduction {
 
   void needPose(int body) {
     plan_.any_pose = true;
-    for (; body >= 0; body = bodies_[body].parent) bodies_[body].pose_needed = true;
+    // Where a pose is needed already, those of the ancestors are.
+    for (; body >= 0 && !bodies_[body].pose_needed; body = bodies_[body].parent) {
+      bodies_[body].pose_needed = true;
+    }
   }
 
   void markPoses() {
@@ -116,10 +121,10 @@ class Reduction {
   void noteOmissions() {
     plan_.left_out.velocity_terms = plan_.static_motion;
     plan_.left_out.gravity = isZero(gamma_root_);
+    const std::unordered_set<std::string> massless(plan_.left_out.massless.begin(),
+                                                   plan_.left_out.massless.end());
     for (std::size_t k = 1; k < bodies_.size(); ++k) {
-      const auto& massless = plan_.left_out.massless;
-      if (!used(bodies_[k]) &&
-          std::find(massless.begin(), massless.end(), names_[k]) == massless.end()) {
+      if (!used(bodies_[k]) && massless.count(names_[k]) == 0) {
         plan_.left_out.unneeded.push_back(names_[k]);
       }
     }

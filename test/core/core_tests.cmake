@@ -72,6 +72,7 @@ set(core_test_files
   test/core/offline_deviations_test.cpp
   test/core/offline_errors_test.cpp
   test/core/offline_loops_checks_test.cpp
+  test/core/offline_inputs_test.cpp
   test/core/offline_loops_errors_test.cpp
   test/core/offline_loops_test.cpp
   test/core/offline_loops_threads_test.cpp

@@ -261,6 +261,21 @@ TEST(MotionCompletion, RefusesTimesThatDoNotIncrease) {
   EXPECT_EQ(firstTimeThatDoesNotIncrease({0, 1, 2}), 3u);
 }
 
+TEST(MotionCompletion, RefusesValuesWhoseSquaresOverflow) {
+  MotionTable motion = without(cubicMotion(unevenTimes(12)), true, true);
+  motion.positions(2, 0) = 3.1e307;
+  EXPECT_EQ(
+      refusal(motion).rfind(
+          "motion: the position of '" + motion.joints[0] + "' in row 3 is 3.1e+307, too large", 0),
+      0u)
+      << refusal(motion);
+  motion.positions(2, 0) = 1e99;
+  EXPECT_EQ(refusal(motion), "(not refused)");
+  motion.times[11] = 1e300;
+  EXPECT_EQ(refusal(motion),
+            "motion: the time of row 12 is 1e+300, too large to estimate anything from");
+}
+
 TEST(MotionCompletion, RefusesTablesThatDoNotFitTheRobot) {
   MotionTable motion = without(cubicMotion(unevenTimes(12)), true, true);
   motion.joints[1] = "whel";

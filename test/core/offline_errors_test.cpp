@@ -272,7 +272,8 @@ int interrupted(const std::string& folder, int signal_number) {
 TEST_F(OfflineToolErrors, AnEndingSignalLeavesNoPartialFile) {
   write("long.csv", longMotion(200000));
   for (const int signal_number :
-       {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGUSR1, SIGALRM, SIGXCPU, SIGABRT}) {
+       {SIGHUP, SIGINT, SIGQUIT, SIGILL, SIGTRAP, SIGABRT, SIGBUS, SIGFPE, SIGUSR1, SIGSEGV,
+        SIGUSR2, SIGPIPE, SIGALRM, SIGTERM, SIGXCPU, SIGXFSZ, SIGVTALRM}) {
     write("r.csv", "kept");
     // The tool may win the race and finish before the signal; then it is tried again.
     int status = 0;

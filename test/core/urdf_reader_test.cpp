@@ -162,6 +162,10 @@ TEST(UrdfReader, RefusesWhatIsNoTreeByName) {
                       joint("k", "revolute", "b", "b")),
                 "link 'b': is the child of two joints");
   expectRefusal(robot(link("a") + link("b") + joint("", "revolute", "a", "b")), "link 'b'");
+  // urdfdom would not free these links, which own one another.
+  expectRefusal(robot(link("a") + link("b") + joint("j", "revolute", "a", "b") +
+                      joint("k", "revolute", "b", "a")),
+                "");
 }
 
 TEST(UrdfReader, ReadsVeryLongChains) {
@@ -173,6 +177,25 @@ TEST(UrdfReader, ReadsVeryLongChains) {
                joint("j" + number, "fixed", "l" + std::to_string(i - 1), "l" + number, "");
   }
   EXPECT_EQ(readUrdf(robot(content)).links().size(), static_cast<std::size_t>(kLinks));
+}
+
+// Each joint mimics the next one; following every chain by itself would take days.
+TEST(UrdfReader, ResolvesVeryLongMimicChains) {
+  constexpr int kJoints = 100000;
+  std::string content = link("l0");
+  for (int i = 1; i <= kJoints; ++i) {
+    const std::string number = std::to_string(i);
+    const std::string mimic =
+        i == kJoints ? ""
+                     : "<mimic joint='j" + std::to_string(i + 1) + "' multiplier='-1' offset='1'/>";
+    content += "<link name='l" + number + "'/>" +
+               joint("j" + number, "continuous", "l0", "l" + number, "<axis xyz='0 0 1'/>" + mimic);
+  }
+  const Mechanism mechanism = readUrdf(robot(content));
+  const Joint& first = mechanism.joint(mechanism.jointIndex("j1"));
+  EXPECT_EQ(mechanism.coordinateNames(), std::vector<std::string>{"j100000"});
+  EXPECT_EQ(first.multiplier, -1);  // an odd number of signs
+  EXPECT_EQ(first.offset, 1);
 }
 
 TEST(UrdfReader, RefusesImpossibleNumbersByName) {

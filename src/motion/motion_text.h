@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "base/text_file.h"
+#include "virtual_work_dynamics/motion_csv.h"
+
+namespace virtual_work_dynamics {
+
+/// Reads a motion as readMotionCsv() does, line by line as the text comes. A line that seems to
+/// have no end is refused. @param name stands for the text in messages.
+MotionTable readMotionText(TextSource& text, const std::string& name, const JointChoice& choose,
+                           std::vector<std::string>* unused, std::vector<std::size_t>* lines);
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,130 @@
+// Joint states and trajectories whose values come from bytes, up to the core's motions.
+#include <fuzzer/FuzzedDataProvider.h>
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "fuzz_target.h"
+#include "ros/joint_state_conversion.h"
+#include "ros/trajectory_conversion.h"
+#include "virtual_work_dynamics/urdf_reader.h"
+
+using namespace virtual_work_dynamics;
+
+namespace {
+
+const Mechanism& robot() {
+  static const Mechanism robot = readUrdfFile(VWD_SOURCE_DIR "/test/fuzz/gripper.urdf");
+  return robot;
+}
+
+// Makes values of messages out of bytes. roscpp's own reader is left out: it takes as much memory
+// as a length in the bytes says, before it looks whether they are there.
+class Values {
+ public:
+  Values(const std::uint8_t* data, std::size_t size) : data_(data, size) {}
+
+  bool yes() { return data_.ConsumeBool(); }
+  std::size_t count(std::size_t most) { return data_.ConsumeIntegralInRange<std::size_t>(0, most); }
+  template <typename Integer>
+  Integer integer() {
+    return data_.ConsumeIntegral<Integer>();
+  }
+  // Any number, also NaN and infinity, but mostly those of robots.
+  double number() {
+    if (yes()) return data_.ConsumeFloatingPointInRange<double>(-10, 10);
+    const auto bits = data_.ConsumeIntegral<std::uint64_t>();
+    double value = 0;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
+  }
+  std::vector<double> numbers(std::size_t usual) {
+    std::vector<double> values(yes() ? usual : count(4));
+    for (double& value : values) value = number();
+    return values;
+  }
+  std::vector<std::string> names() {
+    std::vector<std::string> names(count(4));
+    for (std::string& name : names) {
+      name = yes() ? std::string(1, static_cast<char>('a' + count(3)))
+                   : data_.ConsumeRandomLengthString(8);
+    }
+    return names;
+  }
+
+ private:
+  FuzzedDataProvider data_;
+};
+
+void requireWord(const Rejection& rejection) {
+  if (rejection.text.empty()) failFuzz("dropped without a word");
+}
+
+void useJointStates(Values& values) {
+  JointStateConversion conversion(robot());
+  MotionEstimator estimator(robot(), EstimatorSettings());
+  Motion motion(static_cast<Eigen::Index>(robot().coordinates().size()));
+  sensor_msgs::JointState message;
+  message.header.stamp.sec = values.integer<std::uint32_t>();
+  for (std::size_t left = values.count(32); left > 0; --left) {
+    if (message.name.empty() || !values.yes()) message.name = values.names();
+    message.position = values.numbers(message.name.size());
+    message.velocity = values.numbers(message.name.size());
+    message.header.stamp = ros::Time().fromNSec(message.header.stamp.toNSec() +
+                                                values.integer<std::uint16_t>() * 1000);
+    JointSample sample;
+    if (const auto rejection = conversion.convert(message, sample)) {
+      requireWord(*rejection);
+      continue;
+    }
+    estimator.push(sample.stamp_ns, sample.coordinates, sample.q, sample.qd, sample.count);
+    while (estimator.ready()) estimator.evaluate(motion);
+  }
+}
+
+trajectory_msgs::JointTrajectory trajectoryOf(Values& values) {
+  trajectory_msgs::JointTrajectory message;
+  message.joint_names = values.names();
+  message.points.resize(values.count(8));
+  std::int64_t time = 0;
+  for (trajectory_msgs::JointTrajectoryPoint& point : message.points) {
+    point.positions = values.numbers(message.joint_names.size());
+    if (values.yes()) point.velocities = values.numbers(message.joint_names.size());
+    if (values.yes()) point.accelerations = values.numbers(message.joint_names.size());
+    if (values.yes()) point.effort = values.numbers(message.joint_names.size());
+    time += values.yes() ? 1 + values.integer<std::uint32_t>() % 2000000000
+                         : values.integer<std::int32_t>();
+    point.time_from_start.fromNSec(time);
+  }
+  return message;
+}
+
+void useTrajectory(Values& values) {
+  const trajectory_msgs::JointTrajectory message = trajectoryOf(values);
+  MotionEstimator estimator(robot(), EstimatorSettings());
+  for (const double sampling : {0.0, 50.0}) {
+    const TrajectoryConversion conversion(robot(), false, {true, true}, sampling);
+    TrajectoryMotion motion;
+    auto rejection = conversion.convert(message, 1000000000, estimator, motion);
+    if (!rejection) rejection = conversion.complete(message, motion);
+    if (rejection) {
+      requireWord(*rejection);
+      continue;
+    }
+    if (!motion.table.positions.allFinite()) failFuzz("a position that is not finite");
+    Motion sample;
+    for (std::size_t i = 0; motion.samples && i < motion.samples->count() && i < 100; ++i) {
+      motion.samples->evaluate(i, sample);
+    }
+    withEfforts(message, motion, motion.table.positions);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Values values(data, size);
+  acceptOrRefuse([&] { (values.yes() ? useJointStates : useTrajectory)(values); });
+  return 0;
+}
