@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "algebra/multifrontal_qr.h"
-#include "algebra/rank_factorization.h"
 #include "loops/groups.h"
 #include "loops/kinematics.h"
+#include "loops/rank.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 
@@ -57,16 +57,17 @@ class LoopCompletion {
  private:
   // The Jacobian of one group's conditions, with lengths divided by length().
   struct System {
-    System(const LoopGroup& group, const LoopKinematics& kinematics);
+    System(const Mechanism& mechanism, const LoopKinematics& kinematics, const LoopGroup& group,
+           double rank_tolerance, double length);
     LoopGroup group;
     MultifrontalQr qr;  // of the columns to be found
+    LoopRank rank;      // of these columns, where qr is no factorization
     std::vector<bool> wanted;
     bool sound = false;  // whether qr is a factorization
   };
   // Rows whose scale is zero count as absent.
   void factorize(const LoopKinematics& kinematics, const std::vector<bool>& given,
                  const Eigen::VectorXd& row_scales);
-  void factorizeWhole(const System& system);
   void setRight(const LoopKinematics& kinematics, const System& system,
                 const Eigen::VectorXd& conditions);
   // Finds the largest condition, with lengths divided by length().
@@ -89,13 +90,8 @@ class LoopCompletion {
   std::vector<double> column_scales_;  // by coordinate
   std::vector<bool> in_loop_;          // by coordinate
   int steps_ = 0;
-  // Memory for the group being solved; its conditions and the coordinates to be found come first.
-  Eigen::MatrixXd A_;  // used where columns may be dependent
-  RankFactorization factorization_;
-  std::vector<int> columns_;
-  Eigen::Index column_count_ = 0;
-  Eigen::VectorXd right_, packed_, found_, misses_;
-  Eigen::VectorXd step_, tried_;  // by coordinate
+  Eigen::VectorXd right_, found_, misses_;  // of the group being solved
+  Eigen::VectorXd step_, tried_;            // by coordinate
 };
 
 }  // namespace virtual_work_dynamics

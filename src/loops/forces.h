@@ -5,9 +5,9 @@
 
 #include "algebra/least_norms.h"
 #include "algebra/multifrontal_qr.h"
-#include "algebra/rank_factorization.h"
 #include "loops/groups.h"
 #include "loops/kinematics.h"
+#include "loops/rank.h"
 #include "loops/unknowns.h"
 #include "scene/resolved_loops.h"
 #include "virtual_work_dynamics/mechanism.h"
@@ -36,11 +36,13 @@ class LoopForces {
   void solve(const Eigen::VectorXd& tree_effort, const std::vector<Wrench>& tree_reactions);
 
   const LoopGroup& group() const { return group_; }
-  Eigen::Index coordinates() const { return B_.rows(); }
-  Eigen::Index unknowns() const { return B_.cols(); }
-  Eigen::Index rank() const { return sound_ ? coordinates() : factorization_.rank(); }
+  Eigen::Index coordinates() const { return qr_.columns(); }
+  Eigen::Index unknowns() const { return qr_.rows(); }
+  Eigen::Index rank() const { return sound_ ? coordinates() : rank_.rank(); }
   double gap() const;
-  double condition() const { return sound_ ? qr_.condition() : factorization_.condition(); }
+  /// Of B where the rank is full, with the sizes of ConditionSizes in place of what cancels; else
+  /// of the part that counts for the rank.
+  double condition() const;
   /// Dimension of the space of multipliers that load no coordinate. Known after solve().
   Eigen::Index redundantConstraints() const { return redundant_constraints_; }
   /// Whether a coordinate of the group takes part in a motion that nothing holds.
@@ -77,8 +79,8 @@ class LoopForces {
   void setEntries();
   bool isClosure(std::size_t local) const { return local < group_.closures.size(); }
   void gatherForce(const LoopUnknowns::OfSet& own, const ClosureWrench& wrench);
-  void factorizeWhole();
   void bearLoad();
+  void solveWhole(State& state) const;
   void choose(const std::vector<Wrench>& tree_reactions);
   void startNorms();
   void addOpenLoads();
@@ -97,10 +99,10 @@ class LoopForces {
   Eigen::Index cost_rows_ = 0;
 
   MultifrontalQr qr_;  // of the transpose of B
-  // Whether qr_ holds a factorization; otherwise factorization_ and transposed_ do.
+  LoopRank rank_;
+  // Whether qr_ holds a factorization; otherwise rank_ does.
   bool sound_ = true;
-  Eigen::MatrixXd B_, B_transposed_;  // of B x = load
-  RankFactorization factorization_, transposed_;
+  const std::vector<bool> all_;  // coordinates
   LeastNorms norms_;
   Eigen::VectorXd load_, gathered_;
   bool bears_ = true;  // whether the load is in the range of B

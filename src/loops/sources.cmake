@@ -5,12 +5,14 @@ vwd_core(
   closure_conditions.cpp
   completion.cpp
   condition.cpp
+  condition_sizes.cpp
   cut_tree.cpp
   forces.cpp
   groups.cpp
   kinematics.cpp
   link_kinematics.cpp
   point_springs.cpp
+  rank.cpp
   reactions.cpp
   residuals.cpp
   unknowns.cpp)

@@ -50,6 +50,7 @@ set(core_test_files
   test/core/loop_conditions_test.cpp
   test/core/loop_kinematics_test.cpp
   test/core/loop_oracles_test.cpp
+  test/core/loop_rank_test.cpp
   test/core/loop_residuals_test.cpp
   test/core/motion_completion_accuracy_test.cpp
   test/core/motion_completion_test.cpp
