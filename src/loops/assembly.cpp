@@ -13,8 +13,6 @@ namespace {
 
 // How far coordinates are moved to leave a singular position, rad or as a fraction of the length.
 constexpr double kDisplacement = 0.01;
-// Ends of a rod closer than this fraction of the loops' length give it no direction.
-constexpr double kCoincide = 1e-9;
 // Angles below this fraction of the remaining distance, over the length, are not reported.
 constexpr double kMatters = 1e-3;
 

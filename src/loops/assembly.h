@@ -12,6 +12,9 @@
 
 namespace virtual_work_dynamics {
 
+/// Ends of a rod or spring closer than this fraction of the loops' length give it no direction.
+constexpr double kCoincide = 1e-9;
+
 /// Closes the loops from the scene's start and leaves `kinematics` there. Actuated coordinates stay
 /// where they start unless there are more of them than degrees of freedom.
 /// @throws SceneError naming the closure that stays open furthest, and by how much.

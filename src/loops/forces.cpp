@@ -15,6 +15,8 @@ namespace {
 constexpr double kBorne = 1e-9;
 // Entry of a free motion, a unit vector, below which its coordinate does not take part in it.
 constexpr double kTakesPart = 1e-6;
+// Least work on free motions, of a unit vector of load, that counts as bearing them.
+constexpr double kWorks = 1e-6;
 // Largest effort in a change, a unit vector, that counts as rounding.
 constexpr double kNoEffort = 1e-10;
 // A component is determined when no unit vector of change alters it by more.
@@ -27,6 +29,15 @@ Eigen::Index index(std::size_t i) {
 // Most rows of costs: one for each unknown, or six for each reaction.
 Eigen::Index mostCosts(const LoopGroup& group, Eigen::Index unknowns) {
   return std::max(unknowns, index(6 * (group.closures.size() + group.joints.size())));
+}
+
+// How many joints the wrenches of all closures pass through, each counted anew.
+Eigen::Index passages(const LoopGroup& group) {
+  std::size_t count = 0;
+  for (const LoopGroup::CrossedJoint& crossed : group.joints) {
+    if (crossed.moves) count += crossed.passages.size();
+  }
+  return index(count);
 }
 
 Eigen::VectorXd sizesOf(const Mechanism& mechanism, const LoopKinematics& kinematics,
@@ -67,7 +78,8 @@ LoopForces::LoopForces(const Mechanism& mechanism, const LoopKinematics& kinemat
       norms_(unknowns(), mostCosts(group, unknowns())),
       load_(coordinates()),
       gathered_(scene.start.size()),
-      directions_(unknowns(), unknowns() + coordinates()) {
+      directions_(unknowns(), unknowns() + coordinates() + passages(group)) {
+  turns_.reserve(static_cast<std::size_t>(passages(group)));
   addCosts(scene);
   for (std::size_t j = 0; j < unknowns_.effort_rows.size(); ++j) {
     const std::size_t row = static_cast<std::size_t>(unknowns_.effort_rows[j]);
@@ -161,17 +173,20 @@ void LoopForces::solve(const Eigen::VectorXd& tree_effort,
         tree_effort[group_.coordinates[std::size_t(row)]] / unknowns_.row_units[std::size_t(row)];
   }
   bearLoad();
+  turns_.clear();
   if (sound_) {
     qr_.leastNorm(load_, solution_.x);
     direction_count_ = index(qr_.nullity());
   } else {
     direction_count_ = rank_.changes();
     rank_.getChanges(directions_.leftCols(direction_count_));
-    solveWhole(solution_);
+    solveWhole(solution_.x);
   }
   choose(tree_reactions);
   setClosures(solution_);
-  if (!bears_) addOpenLoads();
+  if (bears_) return;
+  addOpenLoads();
+  addTurns();
 }
 
 // Removes from the load what points along a free motion, which nothing bears.
@@ -188,10 +203,10 @@ void LoopForces::bearLoad() {
 }
 
 // Solves for the x of least norm, once the directions of changes are set.
-void LoopForces::solveWhole(State& state) const {
-  rank_.solveLoad(load_, state.x);
+void LoopForces::solveWhole(Eigen::Ref<Eigen::VectorXd> x) const {
+  rank_.solveLoad(load_, x);
   for (Eigen::Index j = 0; j < rank_.changes(); ++j) {
-    state.x -= directions_.col(j).dot(state.x) * directions_.col(j);
+    x -= directions_.col(j).dot(x) * directions_.col(j);
   }
 }
 
@@ -203,10 +218,53 @@ void LoopForces::addOpenLoads() {
     if (!isFree(row)) continue;
     load_.setZero();
     load_[row] = 1;
-    solveWhole(change_);
+    solveWhole(change_.x);
     const double norm = change_.x.norm();
     if (norm > 0) directions_.col(direction_count_++) = change_.x / norm;
   }
+}
+
+// Beside the position, what bears the load grows without bound and turns with the joints: to first
+// order a finite change, which takes part in bearing the load. A mixture of all changes stands for
+// the multipliers that grow.
+void LoopForces::addTurns() {
+  change_.x.setZero();
+  for (Eigen::Index j = 0; j < rank_.changes(); ++j) {
+    change_.x += (1 + 0.37 * std::sin(1.0 + 2.1 * static_cast<double>(j))) * directions_.col(j);
+  }
+  if (change_.x.norm() > 0) change_.x.normalize();
+  touchAll(change_);
+  setClosures(change_);
+  for (std::size_t local = 0; local < group_.closures.size(); ++local) {
+    for (const PathStep& step : kinematics_.path(group_.closures[local])) addTurn(local, step);
+  }
+}
+
+void LoopForces::addTurn(std::size_t local, const PathStep& step) {
+  const int coordinate = kinematics_.links().coordinateOf(step);
+  if (coordinate < 0) return;
+  const ClosureWrench growing = change_.closures[local];
+  const LinkKinematics::Displacement moves =
+      kinematics_.closure(group_.closures[local]).displacedBy(kinematics_.links(), step, length_);
+  Turn turn;
+  turn.local = local;
+  turn.wrench.force = moves.turn.cross(growing.force);
+  turn.wrench.moment = moves.turn.cross(growing.moment);
+  turn.shift = moves.origin.cross(growing.force);
+  const LoopUnknowns::OfSet& own = unknowns_.of_sets[local];
+  gatherForce(own, {turn.wrench.force, turn.wrench.moment + turn.shift});
+  load_.setZero();
+  for (const int row : own.coordinates) {
+    load_[row] =
+        -gathered_[group_.coordinates[std::size_t(row)]] / unknowns_.row_units[std::size_t(row)];
+  }
+  double works = 0;
+  for (Eigen::Index j = 0; j < coordinates() - rank(); ++j) {
+    works = std::max(works, std::abs(rank_.freeMotions().col(j).dot(load_)));
+  }
+  if (!(works > kWorks)) return;
+  solveWhole(directions_.col(direction_count_++));
+  turns_.push_back(turn);
 }
 
 void LoopForces::choose(const std::vector<Wrench>& tree_reactions) {
@@ -284,6 +342,15 @@ const LoopForces::State& LoopForces::direction(Eigen::Index i) {
     change_.x = directions_.col(i);
     touchAll(change_);
     setClosures(change_);
+    const Eigen::Index turns = index(turns_.size());
+    change_.shift.setZero();
+    if (i >= direction_count_ - turns) {
+      const Turn& turn = turns_[static_cast<std::size_t>(i - direction_count_ + turns)];
+      change_.closures[turn.local].force += turn.wrench.force;
+      change_.closures[turn.local].moment += turn.wrench.moment;
+      change_.shifted = turn.local;
+      change_.shift = turn.shift;
+    }
     return change_;
   }
   for (const std::size_t effort : change_.touched_efforts) {
@@ -348,6 +415,7 @@ ClosureWrench LoopForces::jointWrench(const LoopGroup::CrossedJoint& crossed,
         kinematics_.childOrigin(group_.closures[passage.closure]) - origin;
     sum.force -= passage.sign * wrench.force;
     sum.moment -= passage.sign * (wrench.moment + lever.cross(wrench.force));
+    if (passage.closure == state.shifted) sum.moment -= passage.sign * state.shift;
   }
   return sum;
 }

@@ -47,6 +47,8 @@ class LoopForces {
   Eigen::Index redundantConstraints() const { return redundant_constraints_; }
   /// Whether a coordinate of the group takes part in a motion that nothing holds.
   bool isFree(Eigen::Index local) const;
+  /// Whether a solution exists: what solve() was given loads no free motion. Known after solve().
+  bool bears() const { return bears_; }
 
   /// The solution, or a change of it that mechanics leaves open.
   struct State {
@@ -56,11 +58,15 @@ class LoopForces {
     /// zero.
     std::vector<std::size_t> touched_closures, touched_efforts;
     std::vector<std::size_t> touched_others;  ///< sets without a wrench
+    /// Moment by which the wrench of one closure is shifted on the joints that it passes through.
+    std::size_t shifted = 0;
+    Eigen::Vector3d shift = Eigen::Vector3d::Zero();
   };
   const State& solution() const { return solution_; }
   /// Number of unit vectors that span the changes, with moments divided by the length. In a
   /// singular position that cannot bear the load, they include every change that shifting the load
-  /// between the freely moving coordinates would make.
+  /// between the freely moving coordinates would make, and what the unlimited wrenches that would
+  /// bear it beside the position change when they turn with its joints.
   Eigen::Index directions() const { return direction_count_; }
   /// One of these unit vectors; valid until the next call.
   const State& direction(Eigen::Index i);
@@ -80,10 +86,12 @@ class LoopForces {
   bool isClosure(std::size_t local) const { return local < group_.closures.size(); }
   void gatherForce(const LoopUnknowns::OfSet& own, const ClosureWrench& wrench);
   void bearLoad();
-  void solveWhole(State& state) const;
+  void solveWhole(Eigen::Ref<Eigen::VectorXd> x) const;
   void choose(const std::vector<Wrench>& tree_reactions);
   void startNorms();
   void addOpenLoads();
+  void addTurns();
+  void addTurn(std::size_t local, const PathStep& step);
   void putCosts(const State& state, const std::vector<Wrench>* tree_reactions,
                 Eigen::Ref<Eigen::VectorXd> costs) const;
   void touchAll(State& state) const;
@@ -109,6 +117,13 @@ class LoopForces {
   Eigen::Index redundant_constraints_ = 0;
   Eigen::Index direction_count_ = 0;
   Eigen::MatrixXd directions_;
+  /// What a change adds to the wrench of a closure besides its multipliers.
+  struct Turn {
+    std::size_t local;
+    ClosureWrench wrench;
+    Eigen::Vector3d shift;
+  };
+  std::vector<Turn> turns_;  // of the last directions
   State solution_, change_;
 };
 

@@ -15,4 +15,5 @@ vwd_core(
   rank.cpp
   reactions.cpp
   residuals.cpp
+  spring_reach.cpp
   unknowns.cpp)
