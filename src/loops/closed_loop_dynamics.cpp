@@ -159,6 +159,10 @@ const Eigen::VectorXd& ClosedLoopDynamics::assembly() const {
   return impl_->assembly;
 }
 
+std::vector<std::string> ClosedLoopDynamics::assemblyDoubts() const {
+  return farFromStart(impl_->mechanism, impl_->loops.start, impl_->assembly, impl_->length);
+}
+
 const std::vector<bool>& ClosedLoopDynamics::actuated() const {
   return impl_->loops.actuated;
 }

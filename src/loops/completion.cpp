@@ -115,6 +115,12 @@ LoopCompletion::LoopCompletion(const Mechanism& mechanism, const LoopKinematics&
   tried_ = step_;
 }
 
+std::vector<LoopGroup> LoopCompletion::groups() const {
+  std::vector<LoopGroup> groups;
+  for (const System& system : systems_) groups.push_back(system.group);
+  return groups;
+}
+
 double LoopCompletion::columnScale(int coordinate) const {
   return column_scales_[static_cast<std::size_t>(coordinate)];
 }

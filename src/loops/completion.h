@@ -41,6 +41,13 @@ class LoopCompletion {
              const Search& search = kFromAnywhere);
 
   double length() const { return length_; }
+  std::vector<LoopGroup> groups() const;
+  /// By coordinate: 1, or the length for slides.
+  const std::vector<double>& scales() const { return column_scales_; }
+  /// How far the loops are open, without units.
+  double misfit(const LoopKinematics& kinematics) const;
+  /// Largest entry of coordinates in loops, with lengths divided by length().
+  double largest(const Eigen::VectorXd& rates) const;
   /// Number of steps that close() took.
   int steps() const { return steps_; }
 
@@ -74,8 +81,6 @@ class LoopCompletion {
   double largestCondition(const Eigen::VectorXd& conditions) const;
   bool solve(System& system);
   double misses(const System& system);
-  double misfit(const LoopKinematics& kinematics) const;
-  double largest(const Eigen::VectorXd& rates) const;  // with lengths divided by length()
   void newtonStep(const LoopKinematics& kinematics, const std::vector<bool>& given);
   bool solveRates(const LoopKinematics& kinematics, const Eigen::VectorXd& rates, double size,
                   Eigen::VectorXd& unknown);

@@ -11,6 +11,7 @@ vwd_core(
   groups.cpp
   kinematics.cpp
   link_kinematics.cpp
+  nearest_closing.cpp
   point_springs.cpp
   rank.cpp
   reactions.cpp

@@ -127,6 +127,9 @@ void check(const Arguments& arguments, const Mechanism& mechanism) {
   refuseByLoops(arguments, needsClosedLoops(scene));
   const Dynamics dynamics(mechanism, scene, requestOf(mechanism, scene, arguments));
   if (dynamics.closed()) printLoops(std::cout, mechanism, scene, dynamics);
+  for (const std::string& doubt : dynamics.assemblyDoubts()) {
+    std::cout << "warning: " << doubt << "\n";
+  }
   printReactions(dynamics.request());
   if (!arguments.motion.empty()) checkMotion(arguments, mechanism, scene, dynamics);
   std::cout << "The robot can run.\n" << std::flush;
@@ -143,6 +146,9 @@ void explain(const Arguments& arguments, const Mechanism& mechanism) {
 void compute(const Arguments& arguments, const Mechanism& mechanism, const Scene& scene) {
   const Request written = requestOf(mechanism, scene, arguments);
   const Dynamics dynamics(mechanism, scene, computedFor(written, arguments));
+  for (const std::string& doubt : dynamics.assemblyDoubts()) {
+    std::cerr << "warning: " << doubt << "\n";
+  }
   std::optional<CertifiedRows> certified;
   if (arguments.certificates) certified.emplace(mechanism, dynamics);
   std::optional<LagrangeRows> lagrange;

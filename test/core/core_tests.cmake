@@ -16,6 +16,7 @@ set(stability_scenes
   benchmark/stability/sweeps.cpp
   benchmark/stability/worst_certificates.cpp)
 set(core_test_files
+  test/core/assembly_test.cpp
   test/core/axis_direction_test.cpp
   test/core/block_record_test.cpp
   test/core/block_test.cpp
