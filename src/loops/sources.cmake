@@ -17,4 +17,5 @@ vwd_core(
   reactions.cpp
   residuals.cpp
   spring_reach.cpp
+  unborne_loads.cpp
   unknowns.cpp)

@@ -198,6 +198,10 @@ TEST(Existence, EverythingExistsInRegularPositions) {
       EXPECT_EQ(found.root_axes, everything);
       const LoopResults& loops = workspace.results().loops;
       EXPECT_NE(loops.child_axes_determined, everything);  // but not all of it is determined
+      Dynamics::Workspace fresh = dynamics.makeWorkspace();
+      dynamics.compute(regular, fresh);
+      EXPECT_EQ(loops.child_axes_determined, fresh.results().loops.child_axes_determined);
+      EXPECT_EQ(loops.root_axes_determined, fresh.results().loops.root_axes_determined);
     }
   }
 }
