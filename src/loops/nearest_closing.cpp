@@ -24,7 +24,8 @@ constexpr int kMostSteps = 200;
 constexpr double kDamping = 1e-4, kLeastDamping = 1e-14, kMostDamping = 1e8;
 // A solution closer to the start than this is near enough, rad or of the length.
 constexpr double kNear = 0.02;
-// Further descents: many where they cost little, few where many coordinates move.
+// Further descents: many where they cost little; in large mechanisms few, and only where the first
+// one leaves the loops open.
 constexpr int kAttempts = 32, kFewAttempts = 4;
 constexpr std::size_t kManyCoordinates = 60;
 // Where nothing is closed yet, they set out from up to so far.
@@ -245,7 +246,7 @@ bool NearestClosing::closeGroup(const LoopGroup& group, Eigen::VectorXd& q,
   }
   const Eigen::VectorXd start = q;
   Attempt best = descend(group, start, start, moving);
-  const bool many = moving.size() > kManyCoordinates;
+  const bool many = scales_.size() > kManyCoordinates;
   const int attempts = many && best.misfit <= kClosed ? 0 : many ? kFewAttempts : kAttempts;
   Eigen::VectorXd shares(moving.size());
   for (int i = 0; i < attempts && (best.misfit > kClosed || best.moved > kNear); ++i) {
