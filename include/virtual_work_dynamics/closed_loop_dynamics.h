@@ -42,6 +42,9 @@ class ClosedLoopDynamics {
   const Request& request() const;
   /// The assembled position that the scene's start leads to.
   const Eigen::VectorXd& assembly() const;
+  /// Says in a line each which coordinates are assembled more than 1.5 rad, or the size of the
+  /// loops, from their start: perhaps on another branch.
+  std::vector<std::string> assemblyDoubts() const;
   /// Whether each generalized coordinate is actuated.
   const std::vector<bool>& actuated() const;
   /// Names of the actuated closures, whose efforts come after those of the coordinates.

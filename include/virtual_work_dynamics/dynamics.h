@@ -55,6 +55,8 @@ class Dynamics {
   bool closuresDetermine() const;
   /// The position in which the loops are assembled; zero in an open chain.
   const Eigen::VectorXd& assembly() const;
+  /// See ClosedLoopDynamics::assemblyDoubts(); none in an open chain.
+  std::vector<std::string> assemblyDoubts() const;
 
   /// The mechanism as a tree, for Certifier, LagrangeDynamics and ErrorBound, which do not know
   /// loops: an open chain's own scene, or what is left when closures and springs are cut, with

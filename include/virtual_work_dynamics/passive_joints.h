@@ -30,13 +30,14 @@ class PassiveJoints {
   /// The position that was found last.
   const Eigen::VectorXd& position() const { return closed_; }
   /// Continues from a position that was found elsewhere.
-  void moveTo(const Eigen::VectorXd& position) { closed_ = position; }
+  void moveTo(const Eigen::VectorXd& position) { previous_ = closed_ = position; }
 
  private:
   static constexpr int kHalvings = 8;
 
   bool search(const Motion& motion, const Eigen::VectorXd& target, const Dynamics& dynamics,
               Dynamics::Workspace& workspace);
+  void start(const Motion& motion, const Eigen::VectorXd& target, double further);
   bool givenUp() const;
   void setNearest(const Motion& motion);
   bool follow(const Motion& motion, int halvings, const Dynamics& dynamics,
@@ -49,6 +50,8 @@ class PassiveJoints {
   int searches_ = 0, failures_ = 0;
   Motion completed_;
   Eigen::VectorXd before_, closed_;
+  Eigen::VectorXd previous_;                            // before closed_ on the way
+  Eigen::VectorXd missed_;                              // where a search ended that failed
   std::array<Eigen::VectorXd, kHalvings + 1> targets_;  // by the halvings that are left
 };
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -64,6 +65,10 @@ struct LoopResults {
   std::vector<bool> effort_exists;
   std::vector<Determined> child_axes_exist, root_axes_exist;
 
+  /// By spring of the scene: whether its force has a direction. Not where its ends meet while it is
+  /// longer at rest; what the force reaches then has no value.
+  std::vector<bool> springs_directed;
+
   /// By closure: Determinacy::condition of the loops that are solved together with its own.
   std::vector<double> closure_conditions;
   /// By closure: how far the motion violates it.
@@ -97,6 +102,11 @@ struct Results {
 
   /// Whether actuated joints and closures do not hold the mechanism in its position.
   bool singular() const { return loops.determinacy.free_motions > 0; }
+  /// Whether the force of a spring has no direction in the position.
+  bool undirected() const {
+    const std::vector<bool>& directed = loops.springs_directed;
+    return std::find(directed.begin(), directed.end(), false) != directed.end();
+  }
   /// Whether an effort has a value.
   bool effortExists(std::size_t i) const {
     return loops.effort_exists.empty() || loops.effort_exists[i];

@@ -173,7 +173,8 @@ void MultifrontalQr::compress(std::size_t f) {
   for (Eigen::Index row = work.steps; row < work.rows; ++row) null_rows_.push_back({f, row});
 }
 
-bool MultifrontalQr::factorize(double worst_condition) {
+bool MultifrontalQr::factorize(double worst_condition, double size) {
+  condition_ = std::numeric_limits<double>::infinity();
   lengths_.setZero();
   null_rows_.clear();
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
@@ -181,7 +182,7 @@ bool MultifrontalQr::factorize(double worst_condition) {
     if (!eliminate(f)) return false;
     compress(f);
   }
-  longest_ = columns_ > 0 ? std::sqrt(lengths_.maxCoeff()) : 0;
+  longest_ = std::max(size, columns_ > 0 ? std::sqrt(lengths_.maxCoeff()) : 0);
   estimateCondition();
   return condition_ <= worst_condition;
 }

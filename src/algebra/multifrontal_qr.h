@@ -36,12 +36,15 @@ class MultifrontalQr {
 
   /// Factorizes M. Returns false when its columns are dependent, or so close to it that the
   /// condition number may be above `worst_condition`; then there is no factorisation.
-  bool factorize(double worst_condition);
+  /// @param size length that rows would have without cancellation, which the condition number
+  ///   counts from when it is longer than the longest column
+  bool factorize(double worst_condition, double size = 0);
   /// A condition number up to which the rank is full beyond doubt: far from the tolerance of the
   /// rank, and low enough for rounding to stay far below 1e-8 of a null vector.
   static double sureCondition(double rank_tolerance);
-  /// The estimated condition number of M: the length of the longest column times an estimate of the
-  /// norm of the inverse of R.
+  /// The estimated condition number of M: the length of the longest column, or the size of its
+  /// rows, times an estimate of the norm of the inverse of R; also when that is why factorize()
+  /// returned false. Infinite when columns are dependent.
   double condition() const { return condition_; }
 
   /// Computes the x of least norm with M^T x = b; b has an entry for each column.

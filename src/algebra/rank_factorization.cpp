@@ -83,7 +83,7 @@ double RankFactorization::gap() const {
 }
 
 double RankFactorization::condition() const {
-  return rank_ == 0 ? 1 : std::abs(R_(0, 0)) / std::abs(R_(rank_ - 1, rank_ - 1));
+  return rank_ == 0 ? 1 : largest() / least();
 }
 
 // From G^T P = Q (R11 R12; 0 0) follows x = Q1 y, where R11^T y = the independent rows of P^T b.
@@ -94,6 +94,27 @@ void RankFactorization::solve(const Vector& b, Eigen::Ref<Eigen::VectorXd> x) co
   }
   x.setZero();
   for (Eigen::Index i = 0; i < rank_; ++i) x += work_[i] * Q_.col(i).head(columns_);
+}
+
+// Sets y to P (y', 0), where R11 y' is what work_ holds.
+void RankFactorization::substituteBack(Eigen::Ref<Eigen::VectorXd> y) const {
+  y.setZero();
+  for (Eigen::Index i = rank_; i-- > 0;) {
+    const double value = work_[i] / R_(i, i);
+    y[pivots_[static_cast<std::size_t>(i)]] = value;
+    work_.head(i) -= value * R_.col(i).head(i);
+  }
+}
+
+void RankFactorization::solveTransposed(const Vector& b, Eigen::Ref<Eigen::VectorXd> y) const {
+  for (Eigen::Index i = 0; i < rank_; ++i) work_[i] = Q_.col(i).head(columns_).dot(b);
+  substituteBack(y);
+}
+
+void RankFactorization::leftNullVector(Eigen::Index i, Eigen::Ref<Eigen::VectorXd> y) const {
+  work_.head(rank_) = -R_.col(rank_ + i).head(rank_);
+  substituteBack(y);
+  y[pivots_[static_cast<std::size_t>(rank_ + i)]] = 1;
 }
 
 }  // namespace virtual_work_dynamics

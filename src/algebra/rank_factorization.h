@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 namespace virtual_work_dynamics {
@@ -34,10 +35,18 @@ class RankFactorization {
   /// The first entry of the triangle's diagonal over the last that counts for the rank, a lower
   /// bound of the condition number; 1 for rank 0.
   double condition() const;
+  /// The first of these entries, and the last; the rank must not be 0.
+  double largest() const { return std::abs(R_(0, 0)); }
+  double least() const { return std::abs(R_(rank_ - 1, rank_ - 1)); }
 
   /// Solves the independent rows for the x of least norm; the other rows then hold too if b is
   /// consistent.
   void solve(const Vector& b, Eigen::Ref<Eigen::VectorXd> x) const;
+  /// Solves G^T y = b for b in rowSpace(), with zeros in y for the rows that depend on others.
+  void solveTransposed(const Vector& b, Eigen::Ref<Eigen::VectorXd> y) const;
+  /// Computes vector i of a basis, not orthonormal, of the y with G^T y = 0; there are rows() less
+  /// rank() of them. It agrees with rank() and nullSpace(), as it follows from the same triangle.
+  void leftNullVector(Eigen::Index i, Eigen::Ref<Eigen::VectorXd> y) const;
 
   /// Orthonormal columns, rank() of them, that span the space of the rows.
   auto rowSpace() const { return Q_.topLeftCorner(columns_, rank_); }
@@ -46,6 +55,7 @@ class RankFactorization {
 
  private:
   void reflect(Eigen::Index step);
+  void substituteBack(Eigen::Ref<Eigen::VectorXd> y) const;
   void accumulate();
   Eigen::Index steps() const { return rows_ < columns_ ? rows_ : columns_; }
 

@@ -93,6 +93,10 @@ const Eigen::VectorXd& Dynamics::assembly() const {
   return impl_->assembly;
 }
 
+std::vector<std::string> Dynamics::assemblyDoubts() const {
+  return impl_->loops ? impl_->loops->assemblyDoubts() : std::vector<std::string>();
+}
+
 const Scene& Dynamics::tree() const {
   return impl_->tree;
 }

@@ -14,6 +14,8 @@ constexpr double kFar = 0.3;
 // Number of shortest pieces of a way that may end where the loops cannot be closed, as happens at
 // singular positions, before the rest of the way is given up.
 constexpr int kMostFailures = 4;
+// How far a way is continued, in lengths of its last piece.
+constexpr double kFurthest = 4;
 constexpr double kTurn = 6.283185307179586476925286766559;
 
 // Whether each coordinate is mimicked, so that its whole turns are not without effect.
@@ -32,7 +34,11 @@ constexpr int PassiveJoints::kHalvings;
 constexpr int PassiveJoints::kMostSearches;
 
 PassiveJoints::PassiveJoints(const Mechanism& mechanism, const Dynamics& dynamics)
-    : completed_(dynamics.coordinates()), before_(dynamics.assembly()), closed_(before_) {
+    : completed_(dynamics.coordinates()),
+      before_(dynamics.assembly()),
+      closed_(before_),
+      previous_(before_),
+      missed_(before_) {
   const std::vector<bool> is_mimicked = mimicked(mechanism);
   for (std::size_t i = 0; i < mechanism.coordinates().size(); ++i) {
     const Joint& joint = mechanism.joints()[static_cast<std::size_t>(mechanism.coordinates()[i])];
@@ -57,6 +63,7 @@ bool PassiveJoints::complete(Motion& motion, const Dynamics& dynamics,
   // the position itself. Where they close after all, the way there led through a gap.
   if (givenUp()) closes = search(motion, targets_[kHalvings], dynamics, workspace);
   closed_ = closes ? completed_.q : before_;
+  if (!closes || givenUp()) previous_ = closed_;
   // Given positions stay as they are, with their whole turns.
   for (const Eigen::Index i : given_) completed_.q[i] = motion.q[i];
   motion = completed_;
@@ -87,19 +94,40 @@ bool PassiveJoints::follow(const Motion& motion, int halvings, const Dynamics& d
     targets_[place - 1] = targets_[place];
     return follow(motion, halvings - 1, dynamics, workspace);
   }
-  if (closes) closed_ = completed_.q;
+  if (closes) {
+    previous_ = closed_;
+    closed_ = completed_.q;
+  }
   if (!closes) ++failures_;
   return closes;
 }
 
-// Searches for `target` from the position that was found last.
+// Searches for `target` from the position that was found last, and where that fails from where the
+// way to it leads on: past a flat position the links would otherwise have to turn back on each
+// other.
 bool PassiveJoints::search(const Motion& motion, const Eigen::VectorXd& target,
                            const Dynamics& dynamics, Dynamics::Workspace& workspace) {
   ++searches_;
+  start(motion, target, 0);
+  if (dynamics.completeFromCloseBy(completed_, workspace)) return true;
+  double along = 0, square = 0;
+  for (const Eigen::Index i : given_) {
+    const double step = closed_[i] - previous_[i];
+    along += step * (target[i] - closed_[i]);
+    square += step * step;
+  }
+  if (square == 0 || !(std::abs(along) <= kFurthest * square)) return false;
+  missed_.swap(completed_.q);
+  start(motion, target, along / square);
+  if (dynamics.completeFromCloseBy(completed_, workspace)) return true;
+  completed_.q.swap(missed_);  // the better start for telling what stays open
+  return false;
+}
+
+void PassiveJoints::start(const Motion& motion, const Eigen::VectorXd& target, double further) {
   completed_ = motion;
-  completed_.q = closed_;
+  completed_.q = closed_ + further * (closed_ - previous_);
   for (const Eigen::Index i : given_) completed_.q[i] = target[i];
-  return dynamics.completeFromCloseBy(completed_, workspace);
 }
 
 bool PassiveJoints::givenUp() const {

@@ -1,10 +1,12 @@
 #include "loops/assembly.h"
 
 #include <cmath>
+#include <sstream>
 #include <string>
 
 #include "base/number_text.h"
 #include "base/printable.h"
+#include "loops/nearest_closing.h"
 #include "scene/closure_types.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -14,10 +16,20 @@ namespace {
 
 // How far coordinates are moved to leave a singular position, rad or as a fraction of the length.
 constexpr double kDisplacement = 0.01;
-// Ends of a rod closer than this fraction of the loops' length give it no direction.
-constexpr double kCoincide = 1e-9;
+// Loops that are open by less are closed by Newton's method alone, when no coordinate moves further
+// than the short way, rad or of the length.
+constexpr double kNearlyClosed = 1e-2, kShortWay = 0.1;
+// A coordinate that ends further from its start may be on another branch, rad.
+constexpr double kFar = 1.5;
 // Angles below this fraction of the remaining distance, over the length, are not reported.
 constexpr double kMatters = 1e-3;
+
+std::string shortText(double number) {
+  std::ostringstream text;
+  text.precision(4);
+  text << number;
+  return text.str();
+}
 
 std::string names(const Mechanism& mechanism, const std::vector<std::size_t>& coordinates) {
   std::string text;
@@ -66,16 +78,81 @@ std::vector<std::size_t> unheld(const LoopScene& loops, std::vector<LoopForces>&
   return indices;
 }
 
+// Closes the loops near `q`, which they leave only where they are nearly closed at once.
+bool closeNear(LoopCompletion& completion, LoopKinematics& kinematics, NearestClosing& nearest,
+               Eigen::VectorXd& q, const std::vector<bool>& given) {
+  kinematics.setPosition(q);
+  if (completion.misfit(kinematics) <= kNearlyClosed) {
+    Eigen::VectorXd tried = q;
+    if (completion.close(kinematics, tried, given) && completion.largest(tried - q) <= kShortWay) {
+      q = tried;
+      return true;
+    }
+  }
+  return nearest.close(q, given) && completion.close(kinematics, q, given);
+}
+
+// Moves the given coordinates of a closed position to `start` in short steps, the others with them.
+bool moveGiven(LoopCompletion& completion, LoopKinematics& kinematics, Eigen::VectorXd& q,
+               const Eigen::VectorXd& start, const std::vector<bool>& given) {
+  const Eigen::VectorXd from = q;
+  const double way = completion.largest(start - from);
+  const int steps = 1 + static_cast<int>(way / kShortWay);
+  for (int step = 1; step <= steps; ++step) {
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      if (given[static_cast<std::size_t>(i)]) q[i] = from[i] + (start[i] - from[i]) * step / steps;
+    }
+    if (!completion.close(kinematics, q, given)) return false;
+  }
+  return true;
+}
+
+// Whether given coordinates have to move is decided where the loops are closed: where they are
+// open, redundant conditions look like independent ones, which would leave no coordinate to be
+// given.
+Eigen::VectorXd closedPosition(const LoopScene& loops, LoopCompletion& completion,
+                               LoopKinematics& kinematics) {
+  kinematics.setPosition(loops.start);
+  NearestClosing nearest(kinematics, completion.groups(), completion.scales(), completion.length());
+  const std::vector<bool>& given = loops.actuated;
+  Eigen::VectorXd q = loops.start;
+  if (closeNear(completion, kinematics, nearest, q, given)) return q;
+  const Eigen::VectorXd open = q;
+  const std::vector<bool> none(given.size(), false);
+  q = loops.start;
+  if (closeNear(completion, kinematics, nearest, q, none)) {
+    if (completion.rank(kinematics, given) < completion.rank(kinematics, none)) return q;
+    if (moveGiven(completion, kinematics, q, loops.start, given)) return q;
+  }
+  // The conditions themselves do not tell frames that fit from those that are half a turn apart,
+  // which is what assemble() then refuses.
+  q = loops.start;
+  if (completion.close(kinematics, q, given)) return q;
+  kinematics.setPosition(open);
+  refuseOpen(kinematics, completion.length());
+}
+
 }  // namespace
+
+std::vector<std::string> farFromStart(const Mechanism& mechanism, const Eigen::VectorXd& start,
+                                      const Eigen::VectorXd& assembly, double length) {
+  std::vector<std::string> far;
+  for (Eigen::Index i = 0; i < start.size(); ++i) {
+    const Unit unit = mechanism.unitOf(static_cast<int>(i));
+    const double way = std::abs(assembly[i] - start[i]);
+    if (way <= (unit == Unit::kMetre ? length : kFar)) continue;
+    const std::string name = unit == Unit::kMetre ? " m" : " rad";
+    far.push_back(
+        "assembly: " + inQuotes(mechanism.coordinateNames()[static_cast<std::size_t>(i)]) +
+        " ends " + shortText(way) + name + " from its start, at " + shortText(assembly[i]) + name +
+        ": perhaps on another branch; start it closer");
+  }
+  return far;
+}
 
 Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopCompletion& completion,
                          LoopKinematics& kinematics) {
-  Eigen::VectorXd q = loops.start;
-  kinematics.setPosition(q);
-  std::vector<bool> given = loops.actuated;
-  const std::vector<bool> none(given.size(), false);
-  if (completion.rank(kinematics, given) < completion.rank(kinematics, none)) given = none;
-  if (!completion.close(kinematics, q, given)) refuseOpen(kinematics, completion.length());
+  const Eigen::VectorXd q = closedPosition(loops, completion, kinematics);
   for (std::size_t c = 0; c < scene.closures.size(); ++c) {
     if (kinematics.reversed(c)) {
       throw SceneError("closures: " + inQuotes(scene.closures[c].name) +

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "loops/completion.h"
@@ -12,11 +13,21 @@
 
 namespace virtual_work_dynamics {
 
-/// Closes the loops from the scene's start and leaves `kinematics` there. Actuated coordinates stay
-/// where they start unless there are more of them than degrees of freedom.
+/// Ends of a rod or spring closer than this fraction of the loops' length give it no direction.
+constexpr double kCoincide = 1e-9;
+
+/// Closes the loops at the solution nearest to the scene's start, whichever of a closure's links is
+/// the parent, and leaves `kinematics` there. Actuated coordinates stay where they start whenever
+/// the loops can be closed so; otherwise they move when there are more of them than degrees of
+/// freedom.
 /// @throws SceneError naming the closure that stays open furthest, and by how much.
 Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopCompletion& completion,
                          LoopKinematics& kinematics);
+
+/// Says of each coordinate that is assembled more than 1.5 rad, or the length, from its start how
+/// far that is, in one line.
+std::vector<std::string> farFromStart(const Mechanism& mechanism, const Eigen::VectorXd& start,
+                                      const Eigen::VectorXd& assembly, double length);
 
 /// Finds a position close to the assembly at which the loops are closed. It is regular even where
 /// the assembly is singular, unless the mechanism is singular everywhere. Returns the assembly

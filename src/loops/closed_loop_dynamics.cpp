@@ -65,6 +65,9 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& of, const Scene& scene, const Re
   for (const std::size_t c : loops.actuated_closures) {
     actuated_closures.push_back(scene.closures[c].name);
   }
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    reach.emplace_back(mechanism, scene, loops, groups, springs, i, wanted);
+  }
   close(scene);
   child_axes = std::make_unique<LoopReactions>(mechanism, scene, loops, groups, wanted.child_axes,
                                                Axes::kLink);
@@ -89,6 +92,23 @@ void ClosedLoopDynamics::Impl::close(const Scene& scene) {
   length = loops.length.value_or(loopLength(groups, kinematics));
   LoopSolvers solvers(mechanism, loops, groups, kinematics, length, closures);
   requireHeld(mechanism, loops, assembly, solvers.completion, solvers.kinematics, solvers.forces);
+  requireSprings(solvers);
+}
+
+// Refuses springs that have no length in the assembly nor beside it: their ends always coincide.
+void ClosedLoopDynamics::Impl::requireSprings(LoopSolvers& solvers) const {
+  const auto without = [&](std::size_t i, const LoopKinematics& at) {
+    return springs.length(i, at) <= kCoincide * length;
+  };
+  for (std::size_t i = 0; i < springs.size(); ++i) {
+    if (!without(i, kinematics)) continue;
+    const Eigen::VectorXd beside =
+        positionBeside(assembly, mechanism, solvers.completion, solvers.kinematics);
+    solvers.kinematics.setPosition(beside);
+    if (!without(i, solvers.kinematics)) continue;
+    throw SceneError("springs: '" + springs.name(i) +
+                     "': its ends coincide in every position, so that it has no direction");
+  }
 }
 
 std::vector<ClosedLoopDynamics::Impl::UsuallyOpen> ClosedLoopDynamics::Impl::usuallyOpen(
@@ -137,6 +157,10 @@ const Request& ClosedLoopDynamics::request() const {
 
 const Eigen::VectorXd& ClosedLoopDynamics::assembly() const {
   return impl_->assembly;
+}
+
+std::vector<std::string> ClosedLoopDynamics::assemblyDoubts() const {
+  return farFromStart(impl_->mechanism, impl_->loops.start, impl_->assembly, impl_->length);
 }
 
 const std::vector<bool>& ClosedLoopDynamics::actuated() const {

@@ -5,6 +5,13 @@
 
 namespace virtual_work_dynamics {
 
+namespace {
+
+// Stands for a change of an effort that mechanics leaves open altogether; more than 1 is open.
+constexpr double kOpenEffort = 2;
+
+}  // namespace
+
 ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compiled)
     : plan(compiled),
       solvers(plan.mechanism, plan.loops, plan.groups, plan.kinematics, plan.length, plan.closures),
@@ -33,6 +40,7 @@ ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compil
   loops.effort_exists = loops.effort_determined;
   loops.child_axes_exist = loops.child_axes_determined;
   loops.root_axes_exist = loops.root_axes_determined;
+  loops.springs_directed.assign(plan.springs.size(), true);
   loops.closure_conditions.assign(plan.closures, 1);
   loops.residuals.resize(plan.closures);
   loops.relative_residuals.resize(plan.closures);
@@ -52,6 +60,7 @@ void ClosedLoopDynamics::Workspace::Impl::compute(const Motion& motion, const Lo
   setFlags();
   setDeterminacy();
   setExistence();
+  leaveOutSprings();
 }
 
 // Computes the efforts of the open tree, which closures and actuators have to balance.
@@ -60,6 +69,7 @@ void ClosedLoopDynamics::Workspace::Impl::push(const Motion& motion, const Load&
   std::copy(load.wrenches.begin(), load.wrenches.end(), first_load_.wrenches.begin());
   for (std::size_t i = 0; i < plan.springs.size(); ++i) {
     const Eigen::Vector3d force = plan.springs.force(i, solvers.kinematics);
+    results.loops.springs_directed[i] = plan.springs.directed(i, solvers.kinematics);
     const std::size_t end = plan.own_wrenches + 2 * i;
     first_load_.wrenches[end] = {force, Eigen::Vector3d::Zero()};
     first_load_.wrenches[end + 1] = {-force, Eigen::Vector3d::Zero()};
@@ -136,6 +146,14 @@ void ClosedLoopDynamics::Workspace::Impl::setFlags() {
         effort_freedoms_[actuator.index] += open * open;
       }
     }
+    if (group.bears()) continue;
+    child_axes_.addUnborne(kinematics, g, group);
+    root_axes_.addUnborne(kinematics, g, group);
+    const std::vector<int>& coordinates = group.group().coordinates;
+    for (std::size_t local = 0; local < coordinates.size(); ++local) {
+      if (!group.isFree(static_cast<Eigen::Index>(local))) continue;
+      effort_freedoms_[static_cast<std::size_t>(coordinates[local])] = kOpenEffort;
+    }
   }
   child_axes_.setFlags(results.loops.child_axes_determined);
   root_axes_.setFlags(results.loops.root_axes_determined);
@@ -174,6 +192,9 @@ void ClosedLoopDynamics::Workspace::Impl::setRanks() {
       child_axes_.addSpan(solvers.kinematics, g, group, change);
       root_axes_.addSpan(solvers.kinematics, g, group, change);
     }
+    if (group.bears()) continue;
+    child_axes_.addUnborneSpan(solvers.kinematics, g, group);
+    root_axes_.addUnborneSpan(solvers.kinematics, g, group);
   }
   child_axes_.getRanks(child_axes_ranks);
   root_axes_.getRanks(root_axes_ranks);
@@ -183,7 +204,8 @@ void ClosedLoopDynamics::Workspace::Impl::setRanks() {
 // there; when the position leaves no more of the wrench open than regular positions do; and when it
 // is one of as many components that regular positions leave open as there are dimensions, as what
 // the position opens then lies in the others. What is not determined in regular positions has the
-// value that the scene's policy chooses. An effort of loops that are singular must be determined.
+// value that the scene's policy chooses. An effort of loops that are singular must be determined;
+// so must that of a passive joint, zero, which is not what a load demands that nothing bears.
 void ClosedLoopDynamics::Workspace::Impl::setExistence() {
   LoopResults& loops = results.loops;
   std::fill(loops.effort_exists.begin(), loops.effort_exists.end(), true);
@@ -208,6 +230,30 @@ void ClosedLoopDynamics::Workspace::Impl::setExistence() {
     if (group.rank() == group.coordinates()) continue;
     for (const LoopUnknowns::Effort& actuator : group.efforts()) {
       loops.effort_exists[actuator.index] = loops.effort_determined[actuator.index];
+    }
+    for (const int i : group.group().coordinates) {
+      const auto coordinate = static_cast<std::size_t>(i);
+      loops.effort_exists[coordinate] = loops.effort_determined[coordinate];
+    }
+  }
+}
+
+// A force without a direction leaves everything without a value that it reaches.
+void ClosedLoopDynamics::Workspace::Impl::leaveOutSprings() {
+  if (!results.undirected()) return;
+  LoopResults& loops = results.loops;
+  constexpr Determined kNone{};
+  for (std::size_t i = 0; i < plan.reach.size(); ++i) {
+    if (loops.springs_directed[i]) continue;
+    const SpringReach& reach = plan.reach[i];
+    for (const std::size_t j : reach.efforts) {
+      loops.effort_determined[j] = loops.effort_exists[j] = false;
+    }
+    for (const std::size_t j : reach.child_axes) {
+      loops.child_axes_determined[j] = loops.child_axes_exist[j] = kNone;
+    }
+    for (const std::size_t j : reach.root_axes) {
+      loops.root_axes_determined[j] = loops.root_axes_exist[j] = kNone;
     }
   }
 }

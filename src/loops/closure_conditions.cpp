@@ -98,6 +98,7 @@ ClosureConditions::ClosureConditions(const Closure& closure, const Frame& parent
       parent_(parent),
       child_(child),
       path_(std::move(path)),
+      given_length_(closure.length),
       length_(closure.length.value_or(0)) {}
 
 void ClosureConditions::setPosition(const LoopState& state, ConditionRows rows) const {
@@ -175,6 +176,17 @@ double ClosureConditions::freeVelocity(const LinkKinematics& links) const {
   const LinkKinematics::Point P = links.pointOf(parent_), C = links.pointOf(child_);
   if (freeUnit() == Unit::kRadian) return freeAxis(links).dot(C.w - P.w);
   return freeAxis(links).dot(C.v - P.v - P.w.cross(C.o - P.o));
+}
+
+LinkKinematics::Displacement ClosureConditions::displacedBy(const LinkKinematics& links,
+                                                            const PathStep& step,
+                                                            double length) const {
+  LinkKinematics::Displacement moves = links.displacementBy(step, links.originOf(child_), length);
+  if (!traits_.hasLength()) return moves;
+  const Eigen::Vector3d r = links.originOf(child_) - links.originOf(parent_);
+  const double square = r.squaredNorm();
+  if (square > 0) moves.turn = r.cross(moves.origin) / square;  // a rod's, which joins the origins
+  return moves;
 }
 
 bool ClosureConditions::reversed(const LinkKinematics& links) const {

@@ -27,6 +27,9 @@ class ClosureConditions : public ConditionSet {
   void setPosition(const LoopState& state, ConditionRows rows) const override;
   void setMotion(const LoopState& state, ConditionRows rows) const override;
 
+  ClosureType type() const { return traits_.type; }
+  /// Length of a rod, m; empty where the assembly tells it, and for other types.
+  const std::optional<double>& length() const { return given_length_; }
   const Frame& parent() const { return parent_; }
   const Frame& child() const { return child_; }
   /// Joints between the links, fixed ones included; a positive step moves the child's link.
@@ -40,6 +43,9 @@ class ClosureConditions : public ConditionSet {
   double freePosition(const LinkKinematics& links) const;
   /// Rate of freePosition(), rad/s or m/s.
   double freeVelocity(const LinkKinematics& links) const;
+  /// How a step of a joint on the path displaces the line of a wrench between the frames.
+  LinkKinematics::Displacement displacedBy(const LinkKinematics& links, const PathStep& step,
+                                           double length) const;
   /// Whether the closure lets nothing turn and its frames are more than a quarter turn apart, which
   /// the conditions do not detect.
   bool reversed(const LinkKinematics& links) const;
@@ -48,6 +54,7 @@ class ClosureConditions : public ConditionSet {
   const ClosureTypeTraits& traits_;
   Frame parent_, child_;
   std::vector<PathStep> path_;
+  std::optional<double> given_length_;
   double length_;
 };
 

@@ -13,6 +13,7 @@
 #include "loops/point_springs.h"
 #include "loops/reactions.h"
 #include "loops/residuals.h"
+#include "loops/spring_reach.h"
 #include "scene/resolved_loops.h"
 #include "virtual_work_dynamics/closed_loop_dynamics.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
@@ -54,6 +55,7 @@ struct ClosedLoopDynamics::Impl {
   std::vector<std::string> actuated_closures;
   LoopKinematics kinematics;  // at the assembly
   std::vector<LoopGroup> groups;
+  std::vector<SpringReach> reach;  // by spring
   double length = 1;
   Eigen::VectorXd assembly;
   std::unique_ptr<LoopReactions> child_axes, root_axes;  // to be copied
@@ -70,6 +72,7 @@ struct ClosedLoopDynamics::Impl {
 
  private:
   void close(const Scene& scene);
+  void requireSprings(LoopSolvers& solvers) const;
   void setUsual();
   static std::vector<UsuallyOpen> usuallyOpen(const std::vector<Determined>& determined,
                                               const std::vector<int>& ranks);
@@ -96,6 +99,7 @@ struct ClosedLoopDynamics::Workspace::Impl {
   void setActuatedClosures();
   void setFlags();
   void setExistence();
+  void leaveOutSprings();
   void setDeterminacy();
 
   virtual_work_dynamics::Workspace first_, second_;  // of the two passes

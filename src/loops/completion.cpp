@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "loops/condition_sizes.h"
+
 namespace virtual_work_dynamics {
 
 namespace {
@@ -32,6 +34,12 @@ Eigen::Index conditionsOf(const LoopKinematics& kinematics, std::size_t set) {
   return kinematics.firstOf(set + 1) - kinematics.firstOf(set);
 }
 
+Eigen::Index ownConditions(const LoopGroup& group, const LoopKinematics& kinematics) {
+  Eigen::Index own = 0;
+  for (const std::size_t s : group.sets) own += conditionsOf(kinematics, s);
+  return own;
+}
+
 Eigen::Index mostCoordinates(const std::vector<LoopGroup>& groups) {
   std::size_t most = 0;
   for (const LoopGroup& group : groups) most = std::max(most, group.coordinates.size());
@@ -41,11 +49,7 @@ Eigen::Index mostCoordinates(const std::vector<LoopGroup>& groups) {
 Eigen::Index mostConditions(const std::vector<LoopGroup>& groups,
                             const LoopKinematics& kinematics) {
   Eigen::Index most = 0;
-  for (const LoopGroup& group : groups) {
-    Eigen::Index own = 0;
-    for (const std::size_t s : group.sets) own += conditionsOf(kinematics, s);
-    most = std::max(most, own);
-  }
+  for (const LoopGroup& group : groups) most = std::max(most, ownConditions(group, kinematics));
   return most;
 }
 
@@ -57,14 +61,30 @@ std::vector<RowBlock> conditionBlocks(const LoopGroup& group, const LoopKinemati
   return blocks;
 }
 
+Eigen::VectorXd sizesOf(const Mechanism& mechanism, const LoopKinematics& kinematics,
+                        const LoopGroup& group, double length) {
+  const ConditionSizes sizes(mechanism, kinematics, group, length);
+  Eigen::VectorXd by_row(ownConditions(group, kinematics));
+  Eigen::Index row = 0;
+  for (std::size_t local = 0; local < group.sets.size(); ++local) {
+    const std::size_t s = group.sets[local];
+    for (Eigen::Index i = kinematics.firstOf(s); i < kinematics.firstOf(s + 1); ++i) {
+      by_row[row++] = sizes.ofRow(local, kinematics.condition(i).unit);
+    }
+  }
+  return by_row;
+}
+
 }  // namespace
 
 constexpr LoopCompletion::Search LoopCompletion::kFromAnywhere;
 constexpr LoopCompletion::Search LoopCompletion::kFromCloseBy;
 
-LoopCompletion::System::System(const LoopGroup& own, const LoopKinematics& kinematics)
+LoopCompletion::System::System(const Mechanism& mechanism, const LoopKinematics& kinematics,
+                               const LoopGroup& own, double rank_tolerance, double length)
     : group(own),
       qr(conditionBlocks(own, kinematics), static_cast<int>(own.coordinates.size())),
+      rank(sizesOf(mechanism, kinematics, own, length), qr.columns(), rank_tolerance),
       wanted(own.coordinates.size()) {}
 
 LoopCompletion::LoopCompletion(const Mechanism& mechanism, const LoopKinematics& kinematics,
@@ -74,13 +94,9 @@ LoopCompletion::LoopCompletion(const Mechanism& mechanism, const LoopKinematics&
       length_(length),
       row_scales_(kinematics.conditions()),
       in_loop_(mechanism.coordinates().size()),
-      A_(mostConditions(groups, kinematics), mostCoordinates(groups)),
-      factorization_(A_.rows(), A_.cols()),
-      columns_(static_cast<std::size_t>(A_.cols())),
-      right_(A_.rows()),
-      packed_(A_.cols()),
-      found_(A_.cols()),
-      misses_(A_.rows()) {
+      right_(mostConditions(groups, kinematics)),
+      found_(mostCoordinates(groups)),
+      misses_(right_.size()) {
   for (Eigen::Index i = 0; i < row_scales_.size(); ++i) {
     row_scales_[i] = 1 / scaleOf(kinematics.condition(i).unit, length);
   }
@@ -92,11 +108,17 @@ LoopCompletion::LoopCompletion(const Mechanism& mechanism, const LoopKinematics&
     column_scales_.push_back(scaleOf(mechanism.unitOf(i), length));
   }
   for (const LoopGroup& group : groups) {
-    systems_.emplace_back(group, kinematics);
+    systems_.emplace_back(mechanism, kinematics, group, rank_tolerance, length);
     for (const int i : group.coordinates) in_loop_[static_cast<std::size_t>(i)] = true;
   }
   step_.setZero(static_cast<Eigen::Index>(in_loop_.size()));
   tried_ = step_;
+}
+
+std::vector<LoopGroup> LoopCompletion::groups() const {
+  std::vector<LoopGroup> groups;
+  for (const System& system : systems_) groups.push_back(system.group);
+  return groups;
 }
 
 double LoopCompletion::columnScale(int coordinate) const {
@@ -123,38 +145,21 @@ void LoopCompletion::factorize(const LoopKinematics& kinematics, const std::vect
       }
     }
     system.qr.setPresent(system.wanted);
-    system.sound = system.qr.factorize(MultifrontalQr::sureCondition(rank_tolerance_));
+    system.sound = system.qr.factorize(MultifrontalQr::sureCondition(rank_tolerance_),
+                                       system.rank.largestSize());
   }
-}
-
-void LoopCompletion::factorizeWhole(const System& system) {
-  const MultifrontalQr& qr = system.qr;
-  column_count_ = 0;
-  for (std::size_t i = 0; i < system.wanted.size(); ++i) {
-    columns_[i] = system.wanted[i] ? static_cast<int>(column_count_++) : -1;
-  }
-  auto A = A_.topLeftCorner(qr.rows(), column_count_);
-  A.setZero();
-  for (std::size_t b = 0; b < qr.blocks(); ++b) {
-    const Eigen::MatrixXd& entries = qr.entriesOf(b);
-    for (Eigen::Index k = 0; k < entries.cols(); ++k) {
-      const int column = columns_[static_cast<std::size_t>(qr.columnsOf(b)[std::size_t(k)])];
-      if (column >= 0) A.col(column).segment(qr.firstOf(b), entries.rows()) = entries.col(k);
-    }
-  }
-  factorization_.factorize(A, rank_tolerance_);
 }
 
 Eigen::Index LoopCompletion::rank(const LoopKinematics& kinematics,
                                   const std::vector<bool>& given) {
   Eigen::Index sum = 0;
   factorize(kinematics, given, position_scales_);
-  for (const System& system : systems_) {
+  for (System& system : systems_) {
     if (system.sound) {
       sum += std::count(system.wanted.begin(), system.wanted.end(), true);
     } else {
-      factorizeWhole(system);
-      sum += factorization_.rank();
+      system.rank.decide(system.qr, system.wanted);
+      sum += system.rank.rank();
     }
   }
   return sum;
@@ -180,14 +185,9 @@ bool LoopCompletion::solve(System& system) {
     system.qr.leastSquares(right, found);
     return true;
   }
-  factorizeWhole(system);
-  auto packed = packed_.head(column_count_);
-  factorization_.solve(right, packed);
-  for (Eigen::Index i = 0; i < found.size(); ++i) {
-    const int column = columns_[static_cast<std::size_t>(i)];
-    found[i] = column >= 0 ? packed[column] : 0;
-  }
-  return factorization_.redundancy() == 0 && factorization_.condition() <= kSharpest;
+  system.rank.decide(system.qr, system.wanted);
+  system.rank.solve(right, found);
+  return system.rank.rank() == system.rank.columns() && system.rank.condition() <= kSharpest;
 }
 
 // Finds the largest violation of a condition by what solve() found.

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "algebra/multifrontal_qr.h"
-#include "algebra/rank_factorization.h"
 #include "loops/groups.h"
 #include "loops/kinematics.h"
+#include "loops/rank.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 
@@ -41,6 +41,13 @@ class LoopCompletion {
              const Search& search = kFromAnywhere);
 
   double length() const { return length_; }
+  std::vector<LoopGroup> groups() const;
+  /// By coordinate: 1, or the length for slides.
+  const std::vector<double>& scales() const { return column_scales_; }
+  /// How far the loops are open, without units.
+  double misfit(const LoopKinematics& kinematics) const;
+  /// Largest entry of coordinates in loops, with lengths divided by length().
+  double largest(const Eigen::VectorXd& rates) const;
   /// Number of steps that close() took.
   int steps() const { return steps_; }
 
@@ -57,24 +64,23 @@ class LoopCompletion {
  private:
   // The Jacobian of one group's conditions, with lengths divided by length().
   struct System {
-    System(const LoopGroup& group, const LoopKinematics& kinematics);
+    System(const Mechanism& mechanism, const LoopKinematics& kinematics, const LoopGroup& group,
+           double rank_tolerance, double length);
     LoopGroup group;
     MultifrontalQr qr;  // of the columns to be found
+    LoopRank rank;      // of these columns, where qr is no factorization
     std::vector<bool> wanted;
     bool sound = false;  // whether qr is a factorization
   };
   // Rows whose scale is zero count as absent.
   void factorize(const LoopKinematics& kinematics, const std::vector<bool>& given,
                  const Eigen::VectorXd& row_scales);
-  void factorizeWhole(const System& system);
   void setRight(const LoopKinematics& kinematics, const System& system,
                 const Eigen::VectorXd& conditions);
   // Finds the largest condition, with lengths divided by length().
   double largestCondition(const Eigen::VectorXd& conditions) const;
   bool solve(System& system);
   double misses(const System& system);
-  double misfit(const LoopKinematics& kinematics) const;
-  double largest(const Eigen::VectorXd& rates) const;  // with lengths divided by length()
   void newtonStep(const LoopKinematics& kinematics, const std::vector<bool>& given);
   bool solveRates(const LoopKinematics& kinematics, const Eigen::VectorXd& rates, double size,
                   Eigen::VectorXd& unknown);
@@ -89,13 +95,8 @@ class LoopCompletion {
   std::vector<double> column_scales_;  // by coordinate
   std::vector<bool> in_loop_;          // by coordinate
   int steps_ = 0;
-  // Memory for the group being solved; its conditions and the coordinates to be found come first.
-  Eigen::MatrixXd A_;  // used where columns may be dependent
-  RankFactorization factorization_;
-  std::vector<int> columns_;
-  Eigen::Index column_count_ = 0;
-  Eigen::VectorXd right_, packed_, found_, misses_;
-  Eigen::VectorXd step_, tried_;  // by coordinate
+  Eigen::VectorXd right_, found_, misses_;  // of the group being solved
+  Eigen::VectorXd step_, tried_;            // by coordinate
 };
 
 }  // namespace virtual_work_dynamics

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "loops/condition_sizes.h"
+
 namespace virtual_work_dynamics {
 
 namespace {
@@ -27,6 +29,36 @@ Eigen::Index mostCosts(const LoopGroup& group, Eigen::Index unknowns) {
   return std::max(unknowns, index(6 * (group.closures.size() + group.joints.size())));
 }
 
+// How many joints the wrenches of all closures pass through, each counted anew.
+Eigen::Index passages(const LoopGroup& group) {
+  std::size_t count = 0;
+  for (const LoopGroup::CrossedJoint& crossed : group.joints) {
+    if (crossed.moves) count += crossed.passages.size();
+  }
+  return index(count);
+}
+
+Eigen::VectorXd sizesOf(const Mechanism& mechanism, const LoopKinematics& kinematics,
+                        const LoopGroup& group, const LoopUnknowns& unknowns, double length) {
+  const ConditionSizes sizes(mechanism, kinematics, group, length);
+  Eigen::VectorXd by_unknown(unknowns.count);
+  for (std::size_t j = 0; j < unknowns.effort_rows.size(); ++j) {
+    const std::size_t row = static_cast<std::size_t>(unknowns.effort_rows[j]);
+    by_unknown[index(j)] = unknowns.efforts[j].unit / unknowns.row_units[row];
+  }
+  for (std::size_t local = 0; local < unknowns.of_sets.size(); ++local) {
+    const LoopUnknowns::OfSet& own = unknowns.of_sets[local];
+    for (std::size_t j = 0; j < own.columns.size(); ++j) {
+      const LoopUnknowns::Column& column = own.columns[j];
+      const Unit unit = column.condition >= 0 ? kinematics.condition(column.condition).unit
+                                              : kinematics.closure(own.set).freeUnit();
+      by_unknown[own.first + index(j)] =
+          sizes.ofRow(local, unit) * column.unit / effortScaleOf(unit, length);
+    }
+  }
+  return by_unknown;
+}
+
 }  // namespace
 
 LoopForces::LoopForces(const Mechanism& mechanism, const LoopKinematics& kinematics,
@@ -38,21 +70,21 @@ LoopForces::LoopForces(const Mechanism& mechanism, const LoopKinematics& kinemat
       length_(length),
       unit_wrenches_(static_cast<std::size_t>(unknowns_.count)),
       qr_(unknowns_.rowBlocks(), static_cast<int>(group.coordinates.size())),
-      B_(qr_.columns(), qr_.rows()),
-      B_transposed_(B_.cols(), B_.rows()),
-      factorization_(B_.rows(), B_.cols()),
-      transposed_(B_.cols(), B_.rows()),
-      norms_(B_.cols(), mostCosts(group, B_.cols())),
-      load_(B_.rows()),
+      rank_(sizesOf(mechanism, kinematics, group, unknowns_, length), qr_.columns(),
+            rank_tolerance_),
+      all_(group.coordinates.size(), true),
+      norms_(unknowns(), mostCosts(group, unknowns())),
+      load_(coordinates()),
       gathered_(scene.start.size()),
-      directions_(B_.cols(), B_.cols() + B_.rows()) {
+      directions_(unknowns(), unknowns() + coordinates() + passages(group)) {
+  turns_.reserve(static_cast<std::size_t>(passages(group)));
   addCosts(scene);
   for (std::size_t j = 0; j < unknowns_.effort_rows.size(); ++j) {
     const std::size_t row = static_cast<std::size_t>(unknowns_.effort_rows[j]);
     qr_.entriesOf(j)(0, 0) = unknowns_.efforts[j].unit / unknowns_.row_units[row];
   }
   for (State* state : {&solution_, &change_}) {
-    state->x.setZero(B_.cols());
+    state->x.setZero(unknowns());
     state->closures.resize(group_.closures.size());
     touchAll(*state);
   }
@@ -115,51 +147,45 @@ void LoopForces::gatherForce(const LoopUnknowns::OfSet& own, const ClosureWrench
 
 void LoopForces::setPosition() {
   setEntries();
-  sound_ = qr_.factorize(MultifrontalQr::sureCondition(rank_tolerance_));
-  if (!sound_) factorizeWhole();
-}
-
-void LoopForces::factorizeWhole() {
-  B_.setZero();
-  for (std::size_t b = 0; b < qr_.blocks(); ++b) {
-    const Eigen::MatrixXd& entries = qr_.entriesOf(b);
-    for (Eigen::Index k = 0; k < entries.cols(); ++k) {
-      B_.row(qr_.columnsOf(b)[std::size_t(k)]).segment(qr_.firstOf(b), entries.rows()) =
-          entries.col(k).transpose();
-    }
-  }
-  factorization_.factorize(B_, rank_tolerance_);
-  if (rank() == coordinates()) return;
-  B_transposed_ = B_.transpose();
-  transposed_.factorize(B_transposed_, rank_tolerance_);
+  sound_ = qr_.factorize(MultifrontalQr::sureCondition(rank_tolerance_), rank_.largestSize());
+  if (!sound_) rank_.decide(qr_, all_);
 }
 
 double LoopForces::gap() const {
-  return sound_ ? std::numeric_limits<double>::infinity() : factorization_.gap();
+  return sound_ ? std::numeric_limits<double>::infinity() : rank_.gap();
+}
+
+double LoopForces::condition() const {
+  const double whole = qr_.condition();
+  return rank() == coordinates() && std::isfinite(whole) ? whole : rank_.condition();
 }
 
 bool LoopForces::isFree(Eigen::Index local) const {
-  return rank() < coordinates() && transposed_.nullSpace().row(local).norm() > kTakesPart;
+  return rank() < coordinates() && rank_.freeMotions().row(local).norm() > kTakesPart;
 }
 
 void LoopForces::solve(const Eigen::VectorXd& tree_effort,
                        const std::vector<Wrench>& tree_reactions) {
-  for (Eigen::Index row = 0; row < B_.rows(); ++row) {
+  for (Eigen::Index row = 0; row < coordinates(); ++row) {
     load_[row] =
         tree_effort[group_.coordinates[std::size_t(row)]] / unknowns_.row_units[std::size_t(row)];
   }
   bearLoad();
+  turns_.clear();
+  change_.shift.setZero();
   if (sound_) {
     qr_.leastNorm(load_, solution_.x);
     direction_count_ = index(qr_.nullity());
   } else {
-    factorization_.solve(load_, solution_.x);
-    direction_count_ = factorization_.redundancy();
-    directions_.leftCols(direction_count_) = factorization_.nullSpace();
+    direction_count_ = rank_.changes();
+    rank_.getChanges(directions_.leftCols(direction_count_));
+    solveWhole(solution_.x);
   }
   choose(tree_reactions);
   setClosures(solution_);
-  if (!bears_) addOpenLoads();
+  if (bears_) return;
+  addOpenLoads();
+  addTurns();
 }
 
 // Removes from the load what points along a free motion, which nothing bears.
@@ -167,25 +193,19 @@ void LoopForces::bearLoad() {
   bears_ = true;
   if (rank() == coordinates()) return;
   const double load = load_.norm();
-  for (Eigen::Index j = 0; j < transposed_.redundancy(); ++j) {
-    const auto motion = transposed_.nullSpace().col(j);
+  for (Eigen::Index j = 0; j < coordinates() - rank(); ++j) {
+    const auto motion = rank_.freeMotions().col(j);
     const double along = motion.dot(load_);
     load_ -= along * motion;
     if (!(std::abs(along) <= kBorne * load)) bears_ = false;
   }
 }
 
-// Adds what a unit load on a coordinate that takes part in a free motion changes; loads on
-// coordinates that depend on others follow from these and add nothing new.
-void LoopForces::addOpenLoads() {
-  touchAll(change_);
-  for (Eigen::Index row = 0; row < coordinates(); ++row) {
-    if (!isFree(row)) continue;
-    load_.setZero();
-    load_[row] = 1;
-    factorization_.solve(load_, change_.x);
-    const double norm = change_.x.norm();
-    if (norm > 0) directions_.col(direction_count_++) = change_.x / norm;
+// Solves for the x of least norm, once the directions of changes are set.
+void LoopForces::solveWhole(Eigen::Ref<Eigen::VectorXd> x) const {
+  rank_.solveLoad(load_, x);
+  for (Eigen::Index j = 0; j < rank_.changes(); ++j) {
+    x -= directions_.col(j).dot(x) * directions_.col(j);
   }
 }
 
@@ -216,7 +236,7 @@ void LoopForces::choose(const std::vector<Wrench>& tree_reactions) {
 
 // Starts with the open directions that the criteria of choose() can tell apart.
 void LoopForces::startNorms() {
-  if (!sound_) return norms_.start(factorization_.nullSpace());
+  if (!sound_) return norms_.start(directions_.leftCols(direction_count_));
   Eigen::Index count = 0;
   for (Eigen::Index i = 0; i < direction_count_; ++i) {
     const State& change = direction(i);
@@ -255,7 +275,7 @@ void LoopForces::putCosts(const State& state, const std::vector<Wrench>* tree_re
 }
 
 double LoopForces::leastChange() const {
-  const double steps = static_cast<double>(B_.rows() + B_.cols());
+  const double steps = static_cast<double>(coordinates() + unknowns());
   return std::max(kOpen, steps * std::numeric_limits<double>::epsilon() * condition());
 }
 
@@ -264,6 +284,15 @@ const LoopForces::State& LoopForces::direction(Eigen::Index i) {
     change_.x = directions_.col(i);
     touchAll(change_);
     setClosures(change_);
+    const Eigen::Index turns = index(turns_.size());
+    change_.shift.setZero();
+    if (i >= direction_count_ - turns) {
+      const Turn& turn = turns_[static_cast<std::size_t>(i - direction_count_ + turns)];
+      change_.closures[turn.local].force += turn.wrench.force;
+      change_.closures[turn.local].moment += turn.wrench.moment;
+      change_.shifted = turn.local;
+      change_.shift = turn.shift;
+    }
     return change_;
   }
   for (const std::size_t effort : change_.touched_efforts) {
@@ -328,6 +357,7 @@ ClosureWrench LoopForces::jointWrench(const LoopGroup::CrossedJoint& crossed,
         kinematics_.childOrigin(group_.closures[passage.closure]) - origin;
     sum.force -= passage.sign * wrench.force;
     sum.moment -= passage.sign * (wrench.moment + lever.cross(wrench.force));
+    if (passage.closure == state.shifted) sum.moment -= passage.sign * state.shift;
   }
   return sum;
 }

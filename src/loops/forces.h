@@ -5,9 +5,9 @@
 
 #include "algebra/least_norms.h"
 #include "algebra/multifrontal_qr.h"
-#include "algebra/rank_factorization.h"
 #include "loops/groups.h"
 #include "loops/kinematics.h"
+#include "loops/rank.h"
 #include "loops/unknowns.h"
 #include "scene/resolved_loops.h"
 #include "virtual_work_dynamics/mechanism.h"
@@ -36,15 +36,19 @@ class LoopForces {
   void solve(const Eigen::VectorXd& tree_effort, const std::vector<Wrench>& tree_reactions);
 
   const LoopGroup& group() const { return group_; }
-  Eigen::Index coordinates() const { return B_.rows(); }
-  Eigen::Index unknowns() const { return B_.cols(); }
-  Eigen::Index rank() const { return sound_ ? coordinates() : factorization_.rank(); }
+  Eigen::Index coordinates() const { return qr_.columns(); }
+  Eigen::Index unknowns() const { return qr_.rows(); }
+  Eigen::Index rank() const { return sound_ ? coordinates() : rank_.rank(); }
   double gap() const;
-  double condition() const { return sound_ ? qr_.condition() : factorization_.condition(); }
+  /// Of B where the rank is full, with the sizes of ConditionSizes in place of what cancels; else
+  /// of the part that counts for the rank.
+  double condition() const;
   /// Dimension of the space of multipliers that load no coordinate. Known after solve().
   Eigen::Index redundantConstraints() const { return redundant_constraints_; }
   /// Whether a coordinate of the group takes part in a motion that nothing holds.
   bool isFree(Eigen::Index local) const;
+  /// Whether a solution exists: what solve() was given loads no free motion. Known after solve().
+  bool bears() const { return bears_; }
 
   /// The solution, or a change of it that mechanics leaves open.
   struct State {
@@ -54,11 +58,15 @@ class LoopForces {
     /// zero.
     std::vector<std::size_t> touched_closures, touched_efforts;
     std::vector<std::size_t> touched_others;  ///< sets without a wrench
+    /// Moment by which the wrench of one closure is shifted on the joints that it passes through.
+    std::size_t shifted = 0;
+    Eigen::Vector3d shift = Eigen::Vector3d::Zero();
   };
   const State& solution() const { return solution_; }
   /// Number of unit vectors that span the changes, with moments divided by the length. In a
   /// singular position that cannot bear the load, they include every change that shifting the load
-  /// between the freely moving coordinates would make.
+  /// between the freely moving coordinates would make, and what the unlimited wrenches that would
+  /// bear it beside the position change when they turn with its joints.
   Eigen::Index directions() const { return direction_count_; }
   /// One of these unit vectors; valid until the next call.
   const State& direction(Eigen::Index i);
@@ -77,11 +85,13 @@ class LoopForces {
   void setEntries();
   bool isClosure(std::size_t local) const { return local < group_.closures.size(); }
   void gatherForce(const LoopUnknowns::OfSet& own, const ClosureWrench& wrench);
-  void factorizeWhole();
   void bearLoad();
+  void solveWhole(Eigen::Ref<Eigen::VectorXd> x) const;
   void choose(const std::vector<Wrench>& tree_reactions);
   void startNorms();
   void addOpenLoads();
+  void addTurns();
+  void addTurn(std::size_t local, const PathStep& step);
   void putCosts(const State& state, const std::vector<Wrench>* tree_reactions,
                 Eigen::Ref<Eigen::VectorXd> costs) const;
   void touchAll(State& state) const;
@@ -97,16 +107,23 @@ class LoopForces {
   Eigen::Index cost_rows_ = 0;
 
   MultifrontalQr qr_;  // of the transpose of B
-  // Whether qr_ holds a factorization; otherwise factorization_ and transposed_ do.
+  LoopRank rank_;
+  // Whether qr_ holds a factorization; otherwise rank_ does.
   bool sound_ = true;
-  Eigen::MatrixXd B_, B_transposed_;  // of B x = load
-  RankFactorization factorization_, transposed_;
+  const std::vector<bool> all_;  // coordinates
   LeastNorms norms_;
   Eigen::VectorXd load_, gathered_;
   bool bears_ = true;  // whether the load is in the range of B
   Eigen::Index redundant_constraints_ = 0;
   Eigen::Index direction_count_ = 0;
   Eigen::MatrixXd directions_;
+  /// What a change adds to the wrench of a closure besides its multipliers.
+  struct Turn {
+    std::size_t local;
+    ClosureWrench wrench;
+    Eigen::Vector3d shift;
+  };
+  std::vector<Turn> turns_;  // of the last directions
   State solution_, change_;
 };
 

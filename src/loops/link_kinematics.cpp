@@ -75,6 +75,16 @@ LinkKinematics::Point LinkKinematics::pointOf(const Frame& frame) const {
           link.a + link.alpha.cross(r) + link.w.cross(link.w.cross(r)), link.alpha};
 }
 
+LinkKinematics::Displacement LinkKinematics::displacementBy(const PathStep& step,
+                                                            const Eigen::Vector3d& at,
+                                                            double length) const {
+  const LinkState& link = links_[static_cast<std::size_t>(step.joint) + 1];
+  if (joints_[static_cast<std::size_t>(step.joint)].slides) {
+    return {Eigen::Vector3d::Zero(), step.sign * length * link.z};
+  }
+  return {step.sign * link.z, step.sign * link.z.cross(at - link.o)};
+}
+
 double LinkKinematics::workOf(const PathStep& step, const Eigen::Vector3d& at,
                               const ClosureWrench& wrench) const {
   const JointConstants& joint = joints_[static_cast<std::size_t>(step.joint)];

@@ -58,6 +58,13 @@ class LinkKinematics {
   int coordinateOf(const PathStep& step) const {
     return joints_[static_cast<std::size_t>(step.joint)].coordinate;
   }
+  /// How a step of a joint displaces the second link relative to the first: by a unit angle, or by
+  /// a slide of `length`.
+  struct Displacement {
+    Eigen::Vector3d turn, origin;  ///< rad; of a point on the second link, m
+  };
+  Displacement displacementBy(const PathStep& step, const Eigen::Vector3d& at, double length) const;
+
   /// Generalized force, for the coordinate that moves the joint, of a wrench on the second link at
   /// a point and its opposite on the first.
   double workOf(const PathStep& step, const Eigen::Vector3d& at, const ClosureWrench& wrench) const;

@@ -61,16 +61,32 @@ std::vector<AppliedWrench> PointSprings::wrenches() const {
   return wrenches;
 }
 
-Eigen::Vector3d PointSprings::force(std::size_t i, const LoopKinematics& kinematics) const {
-  const Spring& spring = springs_[i];
+// From the end on link_a to that on link_b.
+Eigen::Vector3d PointSprings::between(const Spring& spring,
+                                      const LoopKinematics& kinematics) const {
   const auto pointOf = [&](int link, const Eigen::Vector3d& at) -> Eigen::Vector3d {
     return kinematics.originOf(link) + kinematics.axesOf(link) * at;
   };
-  const Eigen::Vector3d r =
-      pointOf(spring.link_b, spring.scene.at_b) - pointOf(spring.link_a, spring.scene.at_a);
-  const double length = r.norm();
-  if (length == 0) return Eigen::Vector3d::Zero();
-  return spring.scene.stiffness * (length - spring.scene.rest_length) / length * r;
+  return pointOf(spring.link_b, spring.scene.at_b) - pointOf(spring.link_a, spring.scene.at_a);
+}
+
+Eigen::Vector3d PointSprings::force(std::size_t i, const LoopKinematics& kinematics) const {
+  const Spring& spring = springs_[i];
+  const Eigen::Vector3d r = between(spring, kinematics);
+  // Divided by the largest entry, as squares of short lengths underflow.
+  const double largest = r.cwiseAbs().maxCoeff();
+  if (largest == 0) return Eigen::Vector3d::Zero();
+  const Eigen::Vector3d scaled = r / largest;
+  const double norm = scaled.norm();
+  return spring.scene.stiffness * (largest * norm - spring.scene.rest_length) / norm * scaled;
+}
+
+bool PointSprings::directed(std::size_t i, const LoopKinematics& kinematics) const {
+  return springs_[i].scene.rest_length == 0 || !between(springs_[i], kinematics).isZero(0);
+}
+
+double PointSprings::length(std::size_t i, const LoopKinematics& kinematics) const {
+  return between(springs_[i], kinematics).stableNorm();
 }
 
 }  // namespace virtual_work_dynamics

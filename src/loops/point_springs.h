@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
 #include "loops/kinematics.h"
@@ -20,14 +21,23 @@ class PointSprings {
   /// link_b.
   std::vector<AppliedWrench> wrenches() const;
   /// Force on link_a, in root axes, at the position of `kinematics`; its opposite acts on link_b.
-  /// Zero where the ends meet, as a force has no direction there. Does not allocate.
+  /// Zero where the ends meet. Does not allocate.
   Eigen::Vector3d force(std::size_t spring, const LoopKinematics& kinematics) const;
+  /// Whether the force has a direction, or is zero: not where the ends of a spring meet that is
+  /// longer at rest.
+  bool directed(std::size_t spring, const LoopKinematics& kinematics) const;
+  /// Distance of the ends, m.
+  double length(std::size_t spring, const LoopKinematics& kinematics) const;
+  const std::string& name(std::size_t spring) const { return springs_[spring].scene.name; }
+  int linkA(std::size_t spring) const { return springs_[spring].link_a; }
+  int linkB(std::size_t spring) const { return springs_[spring].link_b; }
 
  private:
   struct Spring {
     PointSpring scene;
     int link_a, link_b;
   };
+  Eigen::Vector3d between(const Spring& spring, const LoopKinematics& kinematics) const;
   std::vector<Spring> springs_;
 };
 

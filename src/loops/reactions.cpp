@@ -186,19 +186,55 @@ void LoopReactions::addChange(const LoopKinematics& kinematics, std::size_t grou
                });
 }
 
+// Calls visit(item, wrench) with the unit effort of each joint of the group that moves freely.
+template <typename Visit>
+void LoopReactions::visitUnborne(const LoopKinematics& kinematics, std::size_t group,
+                                 const LoopForces& forces, Visit visit) {
+  for (const Change& change : changes_[group]) {
+    if (!change.crossed) continue;
+    const int coordinate = kinematics.links().coordinateOf({change.crossed->joint, 1});
+    const std::vector<int>& all = forces.group().coordinates;
+    const auto local = std::find(all.begin(), all.end(), coordinate) - all.begin();
+    if (coordinate < 0 || !forces.isFree(local)) continue;
+    const Item& item = items_[change.item];
+    ClosureWrench wrench;
+    activePart(item.active, wrench) =
+        effortScaleOf(item.active, forces.length()) * kinematics.axisOf(item.joint);
+    visit(change.item, reported(kinematics, item, wrench));
+  }
+}
+
+void LoopReactions::addUnborne(const LoopKinematics& kinematics, std::size_t group,
+                               const LoopForces& forces) {
+  visitUnborne(kinematics, group, forces, [&](std::size_t item, const ClosureWrench& wrench) {
+    addSquares(wrench, forces, freedoms_[item]);
+  });
+}
+
+void LoopReactions::addUnborneSpan(const LoopKinematics& kinematics, std::size_t group,
+                                   const LoopForces& forces) {
+  visitUnborne(kinematics, group, forces, [&](std::size_t item, const ClosureWrench& wrench) {
+    addSpanOf(item, forces, wrench);
+  });
+}
+
 void LoopReactions::resetSpans() {
   for (auto& span : spans_) span.setZero();
 }
 
 void LoopReactions::addSpan(const LoopKinematics& kinematics, std::size_t group,
                             const LoopForces& forces, const LoopForces::State& change) {
+  visitChanged(
+      kinematics, group, forces, change,
+      [&](std::size_t item, const ClosureWrench& wrench) { addSpanOf(item, forces, wrench); });
+}
+
+void LoopReactions::addSpanOf(std::size_t item, const LoopForces& forces,
+                              const ClosureWrench& wrench) {
   const double scale = std::min(1.0, kLeastSpan / (10 * forces.leastChange()));
-  visitChanged(kinematics, group, forces, change,
-               [&](std::size_t item, const ClosureWrench& wrench) {
-                 Eigen::Matrix<double, 6, 1> entries;
-                 entries << scale * wrench.force, scale / forces.length() * wrench.moment;
-                 spans_[item] += entries * entries.transpose();
-               });
+  Eigen::Matrix<double, 6, 1> entries;
+  entries << scale * wrench.force, scale / forces.length() * wrench.moment;
+  spans_[item] += entries * entries.transpose();
 }
 
 void LoopReactions::getRanks(std::vector<int>& ranks) const {

@@ -41,6 +41,9 @@ class LoopReactions {
   void reset();
   void addChange(const LoopKinematics& kinematics, std::size_t group, const LoopForces& forces,
                  const LoopForces::State& change);
+  /// Also once for each group that does not bear its load: what no multiplier balances is left to
+  /// joints that move freely, as an effort that they do not have.
+  void addUnborne(const LoopKinematics& kinematics, std::size_t group, const LoopForces& forces);
   void setFlags(std::vector<Determined>& determined) const;
 
   /// Starts anew. How many dimensions the changes of each wrench span, whatever the axes, follows
@@ -48,6 +51,9 @@ class LoopReactions {
   void resetSpans();
   void addSpan(const LoopKinematics& kinematics, std::size_t group, const LoopForces& forces,
                const LoopForces::State& change);
+  /// As addUnborne().
+  void addUnborneSpan(const LoopKinematics& kinematics, std::size_t group,
+                      const LoopForces& forces);
   void getRanks(std::vector<int>& ranks) const;
 
   std::size_t size() const { return items_.size(); }
@@ -71,6 +77,10 @@ class LoopReactions {
                     const LoopForces::State& change, Visit visit);
   static Item itemOfClosure(const Scene& scene, const LoopScene& loops, std::size_t closure);
   static Item itemOfJoint(const Mechanism& mechanism, const Scene& scene, const std::string& name);
+  template <typename Visit>
+  void visitUnborne(const LoopKinematics& kinematics, std::size_t group, const LoopForces& forces,
+                    Visit visit);
+  void addSpanOf(std::size_t item, const LoopForces& forces, const ClosureWrench& wrench);
   void addChanges(const std::vector<LoopGroup>& groups);
   ClosureWrench reported(const LoopKinematics& kinematics, const Item& item,
                          ClosureWrench wrench) const;

@@ -5,12 +5,17 @@ vwd_core(
   closure_conditions.cpp
   completion.cpp
   condition.cpp
+  condition_sizes.cpp
   cut_tree.cpp
   forces.cpp
   groups.cpp
   kinematics.cpp
   link_kinematics.cpp
+  nearest_closing.cpp
   point_springs.cpp
+  rank.cpp
   reactions.cpp
   residuals.cpp
+  spring_reach.cpp
+  unborne_loads.cpp
   unknowns.cpp)

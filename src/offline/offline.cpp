@@ -148,6 +148,9 @@ void check(const Arguments& arguments, const Mechanism& mechanism) {
   const Dynamics dynamics =
       dynamicsOf(mechanism, scene, requestOf(mechanism, scene, arguments), arguments);
   if (dynamics.closed()) printLoops(std::cout, mechanism, scene, dynamics);
+  for (const std::string& doubt : dynamics.assemblyDoubts()) {
+    std::cout << "warning: " << doubt << "\n";
+  }
   printReactions(dynamics.request());
   if (!arguments.motion.empty()) checkMotion(arguments, mechanism, scene, dynamics);
   std::cout << "The robot can run.\n" << std::flush;
@@ -166,6 +169,9 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, const Scene
   const Request written = requestOf(mechanism, scene, arguments);
   const Dynamics dynamics =
       dynamicsOf(mechanism, scene, computedFor(written, arguments), arguments);
+  for (const std::string& doubt : dynamics.assemblyDoubts()) {
+    std::cerr << "warning: " << doubt << "\n";
+  }
   std::optional<CertifiedRows> certified;
   if (arguments.certificates) certified.emplace(mechanism, dynamics);
   std::optional<LagrangeRows> lagrange;

@@ -59,7 +59,9 @@ void Rows::write(std::size_t row, const Motion& motion, const Results& results) 
   take(row, results);
   more_.clear();
   if (loops_) {
-    if (results.singular()) leaveOut(row, results);
+    if (results.singular() && ++singular_ == 1) first_singular_line_ = file_.lines[row];
+    if (results.undirected() && ++undirected_ == 1) first_undirected_line_ = file_.lines[row];
+    if (results.singular() || results.undirected()) leaveOut(results);
     conditions_.note(row, results);
     addLoopCells(results);
   }
@@ -81,9 +83,8 @@ void Rows::take(std::size_t row, const Results& results) {
 }
 
 // Turns results without a value into NaN, which is written as an empty cell.
-void Rows::leaveOut(std::size_t row, const Results& results) {
+void Rows::leaveOut(const Results& results) {
   constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-  if (++singular_ == 1) first_singular_line_ = file_.lines[row];
   for (Eigen::Index i = 0; i < effort_.size(); ++i) {
     if (!results.effortExists(static_cast<std::size_t>(i))) effort_[i] = kNothing;
   }
@@ -125,6 +126,11 @@ std::string Rows::warning() const {
     text += "warning: " + file_.path + ": " + rows(singular_) +
             " in singular positions, first in line " + std::to_string(first_singular_line_) +
             "; cells of results without a value there are empty\n";
+  }
+  if (undirected_ > 0) {
+    text += "warning: " + file_.path + ": the ends of a spring meet in " + rows(undirected_) +
+            ", first in line " + std::to_string(first_undirected_line_) +
+            ", so that its force has no direction; cells of results that it reaches are empty\n";
   }
   if (conditions_.close() > 0) {
     text += "warning: " + file_.path + ": " + rows(conditions_.close()) +

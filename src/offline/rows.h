@@ -55,7 +55,7 @@ class Rows {
 
  private:
   void take(std::size_t row, const Results& results);
-  void leaveOut(std::size_t row, const Results& results);
+  void leaveOut(const Results& results);
   void addLoopCells(const Results& results);
 
   const MotionFile& file_;
@@ -73,6 +73,8 @@ class Rows {
   std::size_t first_line_ = 0;
   std::size_t singular_ = 0;
   std::size_t first_singular_line_ = 0;
+  std::size_t undirected_ = 0;
+  std::size_t first_undirected_line_ = 0;
   Conditions conditions_;
 };
 

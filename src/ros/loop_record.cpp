@@ -44,8 +44,10 @@ void LoopRecord::record(const Results& results, const ActivePlan& plan) {
   free_motions_.store(found.free_motions, std::memory_order_relaxed);
   gap_.store(found.gap, std::memory_order_relaxed);
   condition_.store(found.condition, std::memory_order_relaxed);
-  if (results.singular()) {
-    recordSingular(results, plan);
+  if (results.singular()) singular_.add();
+  if (results.undirected()) undirected_.add();
+  if (results.singular() || results.undirected()) {
+    recordLeftOut(results, plan);
   } else if (found.condition > limits_.condition) {
     close_to_singular_.add();
   }
@@ -69,8 +71,7 @@ void LoopRecord::recordResiduals(const Results& results) {
 }
 
 // Marks results that somebody listens to and that have no value.
-void LoopRecord::recordSingular(const Results& results, const ActivePlan& plan) {
-  singular_.add();
+void LoopRecord::recordLeftOut(const Results& results, const ActivePlan& plan) {
   const auto mark = [](std::atomic<bool>& left_out, bool exists) {
     if (!exists) left_out.store(true, std::memory_order_relaxed);
   };
@@ -102,6 +103,7 @@ LoopRecord::Report LoopRecord::take() {
   report.efforts = takeMarks(efforts_);
   report.reactions = takeMarks(reactions_);
   report.singular = singular_.value();
+  report.undirected = undirected_.value();
   report.violations = violations_.value();
   report.close_to_singular = close_to_singular_.value();
   report.determinacy.rank = rank_;

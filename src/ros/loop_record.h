@@ -38,6 +38,7 @@ class LoopRecord {
     std::vector<double> conditions;  ///< largest of each closure, without singular positions
     std::vector<std::size_t> efforts, reactions;  ///< indices of those left out
     std::uint64_t singular = 0;                   ///< samples, ever
+    std::uint64_t undirected = 0;                 ///< samples, ever, in which a spring's ends meet
     std::uint64_t violations = 0;                 ///< samples, ever
     std::uint64_t close_to_singular = 0;          ///< samples, ever, without singular ones
     Determinacy determinacy;                      ///< of the latest sample
@@ -53,7 +54,7 @@ class LoopRecord {
   };
 
   void recordResiduals(const Results& results);
-  void recordSingular(const Results& results, const ActivePlan& plan);
+  void recordLeftOut(const Results& results, const ActivePlan& plan);
 
   const bool closed_;
   const LoopLimits limits_;
@@ -63,7 +64,7 @@ class LoopRecord {
   std::atomic<int> rank_{0}, redundant_constraints_{0}, redundancy_{0}, free_motions_{0};
   std::atomic<double> gap_{0}, condition_{0};
   std::atomic<bool> passive_given_{false};
-  Counter samples_, singular_, violations_, close_to_singular_;
+  Counter samples_, singular_, undirected_, violations_, close_to_singular_;
   std::uint64_t reported_ = 0;  // samples; only the taking thread uses it
 };
 

@@ -93,9 +93,20 @@ void LoopReport::add(DiagnosticStatusWrapper& status) {
   if (latest_.news) addResiduals(status, latest_);
   if (report.violations > violations_) addViolations(status, report);
   if (report.news) addConditions(status, report.conditions);
-  if (report.singular > singular_) addSingular(status, report);
+  if (report.singular > singular_) {
+    addLeftOut(status, report,
+               count(report.singular - singular_, "sample", "samples") +
+                   " in singular positions; not determined there, and left out: ");
+  }
+  if (report.undirected > undirected_) {
+    addLeftOut(status, report,
+               count(report.undirected - undirected_, "sample", "samples") +
+                   " in which the ends of a spring meet, so that its force has no direction; left "
+                   "out: ");
+  }
   violations_ = report.violations;
   singular_ = report.singular;
+  undirected_ = report.undirected;
 }
 
 void LoopReport::addResiduals(DiagnosticStatusWrapper& status,
@@ -148,15 +159,12 @@ void LoopReport::addConditions(DiagnosticStatusWrapper& status,
                           privateName("condition_warn") + " is " + numberText(limits_.condition));
 }
 
-void LoopReport::addSingular(DiagnosticStatusWrapper& status,
-                             const LoopRecord::Report& report) const {
+void LoopReport::addLeftOut(DiagnosticStatusWrapper& status, const LoopRecord::Report& report,
+                            const std::string& why) const {
   Names left_out;
   for (const std::size_t i : report.efforts) left_out.push_back("effort of " + efforts_[i]);
   for (const std::size_t i : report.reactions) left_out.push_back("reaction of " + reactions_[i]);
-  status.mergeSummary(
-      DiagnosticStatus::WARN,
-      count(report.singular - singular_, "sample", "samples") +
-          " in singular positions; not determined there, and left out: " + listOf(left_out));
+  status.mergeSummary(DiagnosticStatus::WARN, why + listOf(left_out));
 }
 
 }  // namespace virtual_work_dynamics

@@ -37,15 +37,15 @@ class LoopReport {
                      const LoopRecord::Report& report) const;
   void addConditions(diagnostic_updater::DiagnosticStatusWrapper& status,
                      const std::vector<double>& conditions) const;
-  void addSingular(diagnostic_updater::DiagnosticStatusWrapper& status,
-                   const LoopRecord::Report& report) const;
+  void addLeftOut(diagnostic_updater::DiagnosticStatusWrapper& status,
+                  const LoopRecord::Report& report, const std::string& why) const;
 
   std::vector<std::string> closures_, efforts_, reactions_;
   bool closed_;
   LoopRecord& record_;
   LoopLimits limits_;
   LoopRecord::Report latest_;  // the last one with news
-  std::uint64_t singular_ = 0, violations_ = 0;
+  std::uint64_t singular_ = 0, undirected_ = 0, violations_ = 0;
 };
 
 }  // namespace virtual_work_dynamics

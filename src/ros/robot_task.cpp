@@ -119,6 +119,9 @@ std::vector<bool> RobotTask::passive() const {
 
 void RobotTask::log(const InverseDynamicsParameters& parameters) const {
   for (const Doubt& doubt : mechanism.doubts()) ROS_WARN("%s", printable(doubt.text).c_str());
+  for (const std::string& doubt : everything.assemblyDoubts()) {
+    ROS_WARN("%s", printable(doubt).c_str());
+  }
   const auto& names = mechanism.coordinateNames();
   const Eigen::Vector3d& g = scene.gravity;
   const std::string accelerations =

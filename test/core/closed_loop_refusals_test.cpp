@@ -174,11 +174,11 @@ TEST(ClosedLoopRefusals, Assembly) {
         scene.assembly[2].value = SliderCrank::motion(0.7, 0, 0).q[2];
       },
       "closures: 'pin': its ends coincide in the assembly");
-  // A weld that fits with the rod turned over.
+  // A weld that fits with the slider turned over, which no joint can do.
   expectRefusal(
       [](Scene& scene) {
         pinOf(scene).type = ClosureType::kFixed;
-        pinOf(scene).child.rpy.z() = M_PI + 0.3;
+        pinOf(scene).child.rpy << M_PI, 0, 0.3;
         scene.assembly = {{"joint_1", -0.3}, {"joint_2", 0.6}, {"joint_3", 1.6}};
         scene.actuated = std::vector<std::string>{};
       },

@@ -72,7 +72,7 @@ TEST(ClosedLoopDynamics, LoadThatDeadCentreCannotBearFlagsWhatItReaches) {
   EXPECT_NEAR(dynamics.effort()[2] / near, 10, 0.01);
   dynamics.compute(slider_crank.motion(0, 0, 0, 4));
   ASSERT_TRUE(dynamics.finite());
-  EXPECT_EQ(dynamics.effortDetermined(), (std::vector<bool>{true, true, false, true}));
+  EXPECT_EQ(dynamics.effortDetermined(), (std::vector<bool>{false, false, false, true}));
   EXPECT_FALSE(results.rootDetermined("pin")[0]);
   EXPECT_FALSE(results.rootDetermined("pin")[1]);
   EXPECT_FALSE(results.rootDetermined("joint_1")[1]);

@@ -16,6 +16,7 @@ set(stability_scenes
   benchmark/stability/sweeps.cpp
   benchmark/stability/worst_certificates.cpp)
 set(core_test_files
+  test/core/assembly_test.cpp
   test/core/axis_direction_test.cpp
   test/core/block_record_test.cpp
   test/core/block_test.cpp
@@ -55,6 +56,7 @@ set(core_test_files
   test/core/loop_conditions_test.cpp
   test/core/loop_kinematics_test.cpp
   test/core/loop_oracles_test.cpp
+  test/core/loop_rank_test.cpp
   test/core/loop_residuals_test.cpp
   test/core/motion_completion_accuracy_test.cpp
   test/core/motion_completion_test.cpp

@@ -41,6 +41,7 @@ struct Singular {
   std::vector<std::string> names;  // of reactions
   Motion position;
   std::vector<Motion> regular;
+  bool bears = false;  // its load in the singular position; else passive joints lack efforts, too
 
   Dynamics dynamics() const {
     Request request;
@@ -60,6 +61,7 @@ Singular sliderCrankAtDeadCentre(double rod_mass) {
                     {kGround, "joint_1", "joint_2", "joint_3", "joint_4", "pin"},
                     SliderCrank::motion(0, 3, 0, 4),
                     {}};
+  singular.bears = rod_mass == 0;
   for (const double angle : {0.7, -0.4, 1.2, 2.0, -1.9, 0.05}) {
     singular.regular.push_back(SliderCrank::motion(angle, 3, 1, 4));
   }
@@ -142,7 +144,7 @@ TEST(Existence, DoesNotDependOnThePositionsMetBefore) {
     SCOPED_TRACE(singular.mechanism.name());
     const Dynamics dynamics = singular.dynamics();
     const Existing fresh = existingAt(dynamics, singular.position);
-    EXPECT_EQ(std::count(fresh.effort.begin(), fresh.effort.end(), false), 1);
+    EXPECT_EQ(std::count(fresh.effort.begin(), fresh.effort.end(), false), singular.bears ? 1 : 3);
     for (int i = 0; i < kOrders; ++i) {
       std::shuffle(singular.regular.begin(), singular.regular.end(), generator);
       Dynamics::Workspace workspace = dynamics.makeWorkspace();
@@ -196,6 +198,10 @@ TEST(Existence, EverythingExistsInRegularPositions) {
       EXPECT_EQ(found.root_axes, everything);
       const LoopResults& loops = workspace.results().loops;
       EXPECT_NE(loops.child_axes_determined, everything);  // but not all of it is determined
+      Dynamics::Workspace fresh = dynamics.makeWorkspace();
+      dynamics.compute(regular, fresh);
+      EXPECT_EQ(loops.child_axes_determined, fresh.results().loops.child_axes_determined);
+      EXPECT_EQ(loops.root_axes_determined, fresh.results().loops.root_axes_determined);
     }
   }
 }
@@ -252,13 +258,47 @@ TEST(Existence, AtTheChangePointTheLinksAreStretchedByAnyForce) {
 }
 
 // In motion, the links want torques that nothing gives there: nothing in the plane has a value but
-// what ground bears in all, and the moment of the pivot, which turns freely.
+// what ground bears in all, and the moment of the pivot, which turns freely; nor has the effort
+// zero of passive joints, which is not what the links want.
 TEST(Existence, ALoadThatTheChangePointDoesNotBearLeavesMoreOpen) {
   constexpr Determined kOutOfPlane{{false, false, true, true, true, false}};
   constexpr Determined kPivot{{false, false, true, true, true, true}};
   expectExisting(
       parallelogramAtItsChangePoint(),
-      {{false, true, true}, {kAllComponents, kOutOfPlane, kOutOfPlane, kOutOfPlane, kPivot}});
+      {{false, false, false}, {kAllComponents, kOutOfPlane, kOutOfPlane, kOutOfPlane, kPivot}});
+}
+
+/// An arm along x that a rod along it does not hold against its weight.
+Singular armInLineWithItsRod() {
+  RobotBuilder builder(1);
+  builder.add(JointType::kRevolute, 0, Vector3l::UnitZ(), Matrix3l::Identity(), Vector3l::Zero());
+  builder.link(1).p_KoCm_K << 0.3L, 0.01L, 0.02L;
+  Scene scene;
+  scene.gravity << 0, -9.81, 0;
+  Closure rod;
+  rod.name = "rod";
+  rod.type = ClosureType::kDistance;
+  rod.parent = {"link_0", {1.1, 0, 0}, {0, 0, 0}};
+  rod.child = {"link_1", {0.5, 0, 0}, {0, 0, 0}};
+  scene.closures = {rod};
+  scene.actuated.emplace();
+  return {builder.build(), scene, {kGround, "joint_1", "rod"}, Motion(1), {}};
+}
+
+// One coordinate that moves freely is like many: what nothing balances has no value, neither in the
+// effort of the passive joint nor about its axis, nor have forces across the rod, which beside the
+// position bear a finite part of the load however close to it.
+TEST(Existence, ALoadThatARodInLineDoesNotBearHasNoValue) {
+  expectExisting(armInLineWithItsRod(), {{false},
+                                         {kAllComponents,
+                                          {{false, false, true, true, true, false}},
+                                          {{false, false, true, true, true, true}}}});
+  Singular light = armInLineWithItsRod();
+  light.scene.gravity.setZero();
+  expectExisting(light, {{true},
+                         {kAllComponents,
+                          {{false, true, true, true, true, true}},
+                          {{false, true, true, true, true, true}}}});
 }
 
 // Values chosen by the policy exist in singular positions, too, and equal those beside them: the

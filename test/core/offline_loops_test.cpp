@@ -328,5 +328,41 @@ TEST_F(OfflineLoops, ExplainSaysThatLoopsAreSolved) {
       << result.out;
 }
 
+// Where the ends of a spring meet, its force has no direction, and what it reaches no value.
+TEST_F(OfflineLoops, SpringsWithoutDirectionLeaveOutWhatTheyReach) {
+  write("spring.yaml",
+        pinned("0.5") +
+            "springs:\n  - {name: s, link_a: base, at_a: [0, 0, 0.3], link_b: coupler, "
+            "at_b: [0, 0, 0], stiffness: 100, rest_length: 0.1}\n");
+  write("all.csv", kAllColumns + row(0, kStates[1]) + row(0.1, {0, 0, 0}));
+  const NumberTable results =
+      table("--scene spring.yaml --motion all.csv",
+            "warning: all.csv: the ends of a spring meet in 1 row, first in line 3, so that its "
+            "force has no direction; cells of results that it reaches are empty\n");
+  ASSERT_EQ(results.rows.size(), 2u);
+  for (std::size_t j = 0; j < results.header.size(); ++j) {
+    const std::string& name = results.header[j];
+    EXPECT_TRUE(std::isfinite(results.rows[0][j])) << name;
+    const bool reached =
+        name.compare(0, 7, "effort.") == 0 ||
+        (name.compare(0, 9, "reaction.") == 0 && name.find(".ground.") == std::string::npos);
+    EXPECT_EQ(std::isfinite(results.rows[1][j]), !reached) << name;
+  }
+}
+
+// The start may have been meant for another branch.
+TEST_F(OfflineLoops, JointsThatAreAssembledFarFromTheirStartAreNamed) {
+  write("far.yaml", pinned("0.5") + "assembly:\n  - {name: elbow, position: 3}\n");
+  write("all.csv", kAllColumns + row(0, kStates[1]));
+  for (const char* arguments : {"--scene far.yaml --motion all.csv", "--scene far.yaml --check"}) {
+    const Run result = run(std::string("--urdf l.urdf ") + arguments);
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_TRUE(contains(result.out + result.err, "warning: assembly: 'elbow' ends "))
+        << result.err;
+    EXPECT_TRUE(contains(result.out + result.err, " rad from its start, at ")) << result.err;
+  }
+  EXPECT_FALSE(contains(run("--urdf l.urdf --scene s.yaml --motion all.csv").err, "assembly"));
+}
+
 }  // namespace
 }  // namespace virtual_work_dynamics

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "closed_loops.h"
 #include "robot_builder.h"
@@ -177,6 +179,50 @@ TEST(ActuatedClosures, SayHowFarTheyHaveSlid) {
   dynamics.compute(motion);
   EXPECT_NEAR(dynamics.actuatedPositions()[0], crank.q[2] - 0.2, kClosed);
   EXPECT_NEAR(dynamics.actuatedVelocities()[0], crank.qd[2], kClosed);
+}
+
+/// A bar on equal parallel cranks, driven at the first. Twice a turn all lie in one line.
+Mechanism barOnCranks(int cranks, double length, Scene& scene) {
+  RobotBuilder builder(1);
+  const Matrix3l R = Matrix3l::Identity();
+  const Vector3l z = Vector3l::UnitZ();
+  builder.add(JointType::kContinuous, 0, z, R, Vector3l::Zero());
+  builder.add(JointType::kContinuous, 1, z, R, Vector3l(length, 0, 0));
+  for (int i = 1; i < cranks; ++i) {
+    builder.add(JointType::kContinuous, 0, z, R, Vector3l(i, 0, 0));
+    Closure pin;
+    pin.name = "pin_" + std::to_string(i);
+    pin.type = ClosureType::kRevolute;
+    pin.parent.link = "link_" + std::to_string(i + 2);
+    pin.parent.xyz << length, 0, 0;
+    pin.child.link = "link_2";
+    pin.child.xyz << i, 0, 0;
+    scene.closures.push_back(pin);
+  }
+  scene.actuated = std::vector<std::string>{"joint_1"};
+  return builder.build();
+}
+
+// Beyond the line, the position that Newton's method leads to has the other cranks turn back, which
+// three of them cannot: the way goes on as it came.
+TEST(PassiveJoints, OfThreeEqualCranksPassTheLineInWhichAllLie) {
+  for (const double step : {0.2, -0.17, 0.4}) {
+    Scene scene;
+    const Mechanism mechanism = barOnCranks(3, 0.25, scene);
+    scene.assembly = {{"joint_1", 1}, {"joint_2", -1}, {"joint_3", 1}, {"joint_4", 1}};
+    const Dynamics dynamics(mechanism, scene, kNothing);
+    Dynamics::Workspace workspace = dynamics.makeWorkspace();
+    PassiveJoints passive(mechanism, dynamics);
+    for (int i = 1; i <= 60; ++i) {
+      const double angle = 1 + step * i;
+      Motion motion(4);
+      motion.q[0] = angle;
+      motion.qd[0] = 1;
+      ASSERT_TRUE(passive.complete(motion, dynamics, workspace)) << angle;
+      EXPECT_LE((motion.q - Eigen::Vector4d(angle, -angle, angle, angle)).norm(), 1e-9) << angle;
+      EXPECT_LE((motion.qd - Eigen::Vector4d(1, -1, 1, 1)).norm(), 1e-6) << angle;
+    }
+  }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "closed_loop_results.h"
 #include "robot_builder.h"
 #include "slider_crank.h"
+#include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -89,16 +90,77 @@ TEST(PointSprings, DriveALoopByTheirPower) {
   EXPECT_GT(std::abs(pull * rates.qd[2]), 1);
 }
 
-// Nothing pulls where the ends meet, and nothing is divided by that.
-TEST(PointSprings, EndsThatMeetPullNowhere) {
-  RobotBuilder builder = chainOf(2);
+// Ends that meet where the spring is as long at rest pull nowhere; a spring that is longer at rest
+// pushes hard, but where to is not known.
+TEST(PointSprings, EndsThatMeetHaveNoDirection) {
+  RobotBuilder builder(1);
+  builder.add(JointType::kPrismatic, 0, Vector3l::UnitX(), Matrix3l::Identity(), Vector3l::Zero());
+  builder.add(JointType::kPrismatic, 0, Vector3l::UnitX(), Matrix3l::Identity(), Vector3l::Zero());
   Scene scene;
   scene.gravity.setZero();
   scene.springs = {spring("spring", "link_0", {0, 0, 0}, "link_1", {0, 0, 0})};
+  ClosedLoopResults results(builder.build(), scene);
+  const ClosedLoops& dynamics = results.dynamics;
+  const auto compute = [&](double at) {
+    Motion motion(2);
+    motion.q[0] = at;
+    results.dynamics.compute(motion);
+    EXPECT_TRUE(dynamics.finite());
+  };
+  for (const double at : {1e-9, 1e-160, 1e-300, 1e-310}) {
+    for (const double sign : {-1.0, 1.0}) {
+      compute(sign * at);
+      EXPECT_NEAR(dynamics.effort()[0], sign * 150 * (at - 0.2), kTolerance * 30) << at;
+      EXPECT_FALSE(dynamics.results().undirected());
+      EXPECT_TRUE(dynamics.effortExists()[0]);
+    }
+  }
+  compute(0);
+  EXPECT_TRUE(dynamics.results().undirected());
+  for (const auto& flags : {dynamics.effortExists(), dynamics.effortDetermined()}) {
+    EXPECT_EQ(flags, (std::vector<bool>{false, true}));
+  }
+  EXPECT_EQ(dynamics.rootAxesExist()[0], Determined{});
+  EXPECT_EQ(dynamics.childAxesExist()[0], Determined{});
+  EXPECT_EQ(dynamics.rootAxesExist()[1], kAllComponents);
+  compute(0.1);
+  EXPECT_TRUE(dynamics.effortExists()[0]);
+  scene.springs[0].rest_length = 0;
+  ClosedLoopResults relaxed(builder.build(), scene, Motion(2));
+  EXPECT_EQ(relaxed.dynamics.effort()[0], 0);
+  EXPECT_TRUE(relaxed.dynamics.effortExists()[0]);
+}
+
+// What the loops hand on has no value, either.
+TEST(PointSprings, WithoutDirectionReachTheLoopsOfTheirJoints) {
+  const SliderCrank slider_crank(0, true);
+  Scene scene = slider_crank.scene("joint_1");
+  scene.actuated->push_back("joint_4");
+  scene.reactions = ReactionSelection::kAll;
+  const Motion motion = SliderCrank::motion(0.8, 1, 0, 4);
+  scene.springs = {spring("spring", "link_0", {motion.q[2], 0, 0}, "link_3", {0, 0, 0})};
+  ClosedLoopResults results(slider_crank.mechanism(), scene, motion);
+  EXPECT_FALSE(results.dynamics.results().singular());
+  EXPECT_EQ(results.dynamics.effortExists(), (std::vector<bool>{false, false, false, true}));
+  for (const char* name : {"pin", "joint_1", "joint_3"}) {
+    EXPECT_EQ(results.rootDetermined(name), Determined{}) << name;
+  }
+  EXPECT_EQ(results.rootDetermined("joint_4"), kAllComponents);
+}
+
+TEST(PointSprings, EndsThatAlwaysMeetAreRefused) {
+  RobotBuilder builder = chainOf(2);
+  Scene scene;
+  scene.springs = {spring("spring", "link_0", {0, 0, 0}, "link_1", {0, 0, 0})};
   scene.springs[0].at_a = builder.joint(1).p_PoKo_P.cast<double>();
-  const ClosedLoopResults results(builder.build(), scene, Motion(2));
-  EXPECT_TRUE(results.dynamics.finite());
-  EXPECT_EQ(results.dynamics.effort().norm(), 0);
+  try {
+    ClosedLoopResults(builder.build(), scene);
+    ADD_FAILURE() << "not refused";
+  } catch (const SceneError& error) {
+    EXPECT_EQ(
+        std::string(error.what()),
+        "springs: 'spring': its ends coincide in every position, so that it has no direction");
+  }
 }
 
 }  // namespace

@@ -94,6 +94,26 @@ TEST(RankFactorization, SolutionIsTheOneOfLeastNorm) {
       });
 }
 
+// One triangle tells both null spaces, so that their dimensions always agree.
+TEST(RankFactorization, SolvesTheTransposeAndFindsItsNullSpace) {
+  forRandomMatrices([](const Eigen::MatrixXd& G, int rank, const RankFactorization& found,
+                       RandomMatrices& random) {
+    const Eigen::VectorXd load = G.transpose() * random.matrix(G.rows(), 1);
+    Eigen::VectorXd y(G.rows());
+    found.solveTransposed(load, y);
+    EXPECT_LE((G.transpose() * y - load).norm(), kSolution * std::max(1.0, load.norm()));
+    EXPECT_LE((y.array() != 0).count(), rank);
+    Eigen::MatrixXd null(G.rows(), G.rows() - rank);
+    for (Eigen::Index i = 0; i < null.cols(); ++i) {
+      found.leftNullVector(i, y);
+      null.col(i) = y;
+    }
+    EXPECT_LE((G.transpose() * null).norm(), kSolution * std::max(1.0, G.norm()) * null.norm());
+    if (null.cols() == 0) return;
+    EXPECT_EQ(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(null).rank(), null.cols());
+  });
+}
+
 TEST(RankFactorization, RowsBelowTheToleranceDoNotCount) {
   Eigen::MatrixXd G(2, 3);
   G << 1, 0, 0, 1, 1e-9, 0;

@@ -21,7 +21,6 @@ COMPONENTS = ['fx', 'fy', 'fz', 'tx', 'ty', 'tz']
 # Of the slider-crank with the crank above the slider's way, rad and m.
 ASSEMBLY = [{'name': 'crank_joint', 'position': 0.8}, {'name': 'rod_joint', 'position': -1.04},
             {'name': 'slider_joint', 'position': 0.35}]
-PASSIVE_WITH_SLIDER = JOINTS[:2]  # when the slider is actuated
 # Forces there are as many times those elsewhere as a radian over the angle.
 NEAR_DEAD_CENTRE = 1e-11
 
@@ -66,10 +65,9 @@ class LoopPositions(LoopTest):
         reactions = self.recorders['reactions'].wait(5)
         for motion, effort, reaction in zip(motions, efforts, reactions):
             if motion is motions[2]:
-                self.assertEqual(effort.name, PASSIVE_WITH_SLIDER)
-                self.assertClose(effort.effort, [0, 0], CLOSED_FORM, 'passive')
-                self.assertEqual(effort.position[0], 0)
-                self.assertEqual(len(effort.velocity), 2)
+                # Nothing bears the weights: passive joints would have to, and have no effort either.
+                self.assertEqual([list(field) for field in (
+                    effort.name, effort.effort, effort.position, effort.velocity)], 4 * [[]])
                 self.assertEqual((reaction.joint_names, reaction.wrench, reaction.transforms),
                                  ([], [], []))
                 continue
@@ -90,7 +88,8 @@ class LoopPositions(LoopTest):
                              from_the_start=True)
         self.assertEqual(status.level, DiagnosticStatus.WARN)
         self.assertIn('1 sample in singular positions', status.message)
-        self.assertIn('left out: effort of slider_joint, reaction of crank_joint', status.message)
+        self.assertIn('left out: effort of crank_joint, effort of rod_joint, effort of '
+                      'slider_joint, reaction of crank_joint', status.message)
         self.assertFalse(self.node.ended())
 
     def test_close_to_dead_centre(self):
