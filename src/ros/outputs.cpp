@@ -10,6 +10,7 @@
 
 #include "ros/determinacy_message.h"
 #include "ros/deviation_output.h"
+#include "ros/marker_output.h"
 #include "ros/message_copies.h"
 
 namespace virtual_work_dynamics {
@@ -379,10 +380,15 @@ Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
         std::make_unique<ReactionsOutput>(settings.reactions, root_frame, settings.twist));
   }
   outputs.push_back(std::make_unique<TrajectoryOutput>());
+  Names frames;
   for (std::size_t i = 0; i < settings.reactions.size(); ++i) {
     const std::string& name = settings.reactions[i];
-    outputs.push_back(std::make_unique<WrenchOutput>(
-        name, settings.reaction_topics[i], settings.frame_prefix + childFrame(mechanism, name)));
+    frames.push_back(settings.frame_prefix + childFrame(mechanism, name));
+    outputs.push_back(
+        std::make_unique<WrenchOutput>(name, settings.reaction_topics[i], frames.back()));
+  }
+  if (!settings.reactions.empty()) {
+    outputs.push_back(makeMarkerOutput(mechanism, settings, frames, root_frame));
   }
   if (everything.closed()) {
     outputs.push_back(std::make_unique<DeterminacyOutput>(mechanism, everything, settings));
