@@ -22,8 +22,8 @@ constexpr double kTurn =
 constexpr double kCell = 0.2;  // of a grid, of the size
 // A force below this part of the weight, a moment below this part of force times size, is nothing.
 constexpr double kNothing = 1e-9;
-// Moments that are small at the start by chance do not count as less than this part of the largest
-// force times size: motion would make their arrows gigantic.
+// What is small at the start by chance does not count as less than this part of the largest force
+// times size, or the largest moment over size: motion would make its arrows gigantic.
 constexpr double kLeastArm = 0.1;
 // What counts as the arm of the largest force where there is no moment at all.
 constexpr double kUsualArm = 0.5;
@@ -192,11 +192,12 @@ Largest referenceOf(const Mechanism& mechanism, const Dynamics& dynamics, Motion
 }
 
 void setScales(const Largest& reference, ModelView& view) {
-  const double force = std::max(reference.force, reference.torque / view.size);
+  const double from_torque = reference.torque / view.size;
+  const bool pulls = reference.force > kNothing * from_torque;
+  const double force = pulls ? std::max(reference.force, kLeastArm * from_torque) : from_torque;
   const bool turns = reference.torque > kNothing * force * view.size;
   const double torque = turns ? std::max(reference.torque, kLeastArm * force * view.size)
                               : kUsualArm * force * view.size;
-  // Where only moments are, a force counts by its moment at the size of the model.
   view.force_scale = ModelView::kArrow * view.size / force;
   view.torque_scale = ModelView::kArrow * view.size / torque;
   view.legend_force = roundDown(force);

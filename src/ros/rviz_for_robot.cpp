@@ -147,7 +147,8 @@ std::string configurationFor(const Options& options) {
   scene.robot_description = inputs.robot_description;
   scene.frame_prefix = inputs.frame_prefix;
   scene.root_frame = inputs.frame_prefix + inputs.mechanism.links().front().name;
-  scene.fixed_frame = options["frame"].empty() ? scene.root_frame : options["frame"];
+  const std::string& frame = options["frame"];
+  scene.fixed_frame = frame.empty() || frame == "auto" ? scene.root_frame : frame;
   if (!inputs.frame_prefix.empty() && inputs.frame_prefix.back() != '/') {
     std::fprintf(stderr,
                  "rviz_for_robot: RViz shows a robot only where its frame prefix ends with /, "

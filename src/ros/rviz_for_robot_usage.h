@@ -13,7 +13,7 @@ are scaled by the largest reaction at rest at the start, and the camera shows th
   ROBOT.urdf             robot description; without it, robot, scene and frame prefix are those of the
                          node's parameters
   --scene FILE           scene file (YAML) of a robot that is given; none: a scene without any keys
-  --frame FRAME          fixed frame (default: the root link's)
+  --frame FRAME          fixed frame; auto, the default: the root link's
   --frame-prefix PREFIX  ~frame_prefix of the node and of the robot in tf, such as left/
   --node NAME            the node whose topics are shown (default: inverse_dynamics)
   --template FILE        RViz configuration to fill (default: the package's config/inverse_dynamics.rviz)
