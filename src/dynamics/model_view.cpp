@@ -36,6 +36,7 @@ double roundDown(double value) {
 
 // Texts: height, of the size; distance of lines and width of a letter, of the height.
 constexpr double kTextHeight = 0.03, kLinePitch = 1.25, kLetterWidth = 0.43;
+constexpr double kManyTexts = 10;  // of which on texts are smaller
 constexpr double kLettersOfNumbers = 18;
 constexpr std::array<int, 9> kPlaces{0, 1, -1, 2, -2, 3, -3, 4, -4};  // lines above
 constexpr std::size_t kMostTexts = 200;  // of more, each would have to look at all others
@@ -284,7 +285,8 @@ ModelView modelView(const Mechanism& mechanism, const Scene& scene,
   setBox(mechanism, scene, motion.q, dynamics.closed(), points, view);
   setScales(referenceOf(mechanism, dynamics, motion, view.size), view);
   setCamera(scene.gravity, points.normalOfPlane(), view);
-  view.text_height = kTextHeight * view.size;
+  const double crowd = static_cast<double>(reactions.size()) / kManyTexts;
+  view.text_height = kTextHeight * view.size / std::clamp(std::sqrt(crowd), 1.0, 1.5);
   setTexts(points, reactions, view);
   return view;
 }

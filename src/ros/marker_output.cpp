@@ -21,7 +21,7 @@ using visualization_msgs::Marker;
 // Of the model's size: diameters of an arrow's shaft and head.
 constexpr double kShaft = 0.0045, kHead = 0.009;
 // Where the legend begins in the picture, from its centre, of the model's size.
-constexpr double kLeft = 0.6, kBelow = 0.38, kStep = 0.06;
+constexpr double kLeft = 0.68, kBelow = 0.42, kStep = 0.06;
 // What is smaller than this part of the largest value at the start is shown as 0.
 constexpr double kNothing = 1e-4;
 
@@ -46,15 +46,38 @@ void appendRounded(std::string& text, double value, double nothing) {
   appendNumber(text, std::strtod(digits, nullptr));
 }
 
-Marker textMarker(const std::string& kind, const std::string& frame, double height) {
+Marker markerOf(int type, const std::string& kind, int id, const std::string& frame,
+                const std_msgs::ColorRGBA& color) {
   Marker marker;
   marker.header.frame_id = frame;
   marker.ns = kind;
-  marker.type = Marker::TEXT_VIEW_FACING;
+  marker.id = id;
+  marker.type = type;
   marker.pose.orientation.w = 1;
-  marker.scale.z = height;
-  marker.color = kTextColor;
+  marker.color = color;
   return marker;
+}
+
+Marker textMarker(const std::string& kind, int id, const std::string& frame, double height) {
+  Marker marker = markerOf(Marker::TEXT_VIEW_FACING, kind, id, frame, kTextColor);
+  marker.scale.z = height;
+  return marker;
+}
+
+Marker arrowMarker(const std::string& kind, int id, const std::string& frame,
+                   const std_msgs::ColorRGBA& color, double size) {
+  Marker marker = markerOf(Marker::ARROW, kind, id, frame, color);
+  marker.points.resize(2);
+  marker.scale.x = kShaft * size;
+  marker.scale.y = kHead * size;
+  return marker;
+}
+
+// RViz does not show an arrow without length.
+void setArrow(const Vector3d& arrow, Marker& marker) {
+  const bool shown = arrow.norm() > marker.scale.x;
+  marker.action = shown ? Marker::ADD : Marker::DELETE;
+  if (shown) copyVector(arrow, marker.points[1]);
 }
 
 class MarkerMessage : public MessageOf<visualization_msgs::MarkerArray> {
@@ -69,8 +92,12 @@ class MarkerMessage : public MessageOf<visualization_msgs::MarkerArray> {
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const auto found = std::find(all.begin(), all.end(), names_[i]);
       places_.push_back(static_cast<std::size_t>(found - all.begin()));
-      message_.markers.push_back(textMarker(names_[i], frames[i], view_.text_height));
+      message_.markers.push_back(textMarker(names_[i], 0, frames[i], view_.text_height));
+      message_.markers.push_back(arrowMarker(names_[i], 1, frames[i], kForceColor, view_.size));
+      message_.markers.push_back(arrowMarker(names_[i], 2, frames[i], kTorqueColor, view_.size));
     }
+    // RViz draws them where the link is in each picture, as it draws the link itself.
+    for (Marker& marker : message_.markers) marker.frame_locked = true;
     addLegend(kBelow, view_.legend_force, view_.force_scale, " N", kForceColor, root_frame);
     addLegend(kBelow + kStep, view_.legend_torque, view_.torque_scale, " N m", kTorqueColor,
               root_frame);
@@ -82,26 +109,32 @@ class MarkerMessage : public MessageOf<visualization_msgs::MarkerArray> {
     if (!exists_) return;
     due_ = now + period_;
     for (Marker& marker : message_.markers) marker.header.stamp = timeOf(sample.stamp_ns);
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      write(sample.results, i, message_.markers[i].text);
-    }
+    for (std::size_t i = 0; i < names_.size(); ++i) write(sample.results, i);
   }
 
  private:
   using Clock = std::chrono::steady_clock;
 
+  void write(const Results& results, std::size_t i) {
+    Marker* const markers = &message_.markers[3 * i];
+    const bool exists = results.childAxesExist(places_[i]) == kAllComponents;
+    const Wrench wrench = exists ? results.child_axes[places_[i]] : Wrench();
+    writeText(exists ? &wrench : nullptr, i, markers[0].text);
+    setArrow(view_.force_scale * wrench.force, markers[1]);
+    setArrow(view_.torque_scale * wrench.torque, markers[2]);
+  }
+
   // RViz centres a text about its point: two empty lines on one side move it by one to the other.
   // The text begins one line above the point.
-  void write(const Results& results, std::size_t i, std::string& text) const {
+  void writeText(const Wrench* wrench, std::size_t i, std::string& text) const {
     const int lines = 1 + view_.text_lines[i];
     text.assign(static_cast<std::size_t>(std::max(0, -2 * lines)), '\n');
     text += names_[i];
-    if (results.childAxesExist(places_[i]) == kAllComponents) {
-      const Wrench& wrench = results.child_axes[places_[i]];
+    if (wrench) {
       text += ": ";
-      appendRounded(text, wrench.force.norm(), kNothing * view_.legend_force);
+      appendRounded(text, wrench->force.norm(), kNothing * view_.legend_force);
       text += " N, ";
-      appendRounded(text, wrench.torque.norm(), kNothing * view_.legend_torque);
+      appendRounded(text, wrench->torque.norm(), kNothing * view_.legend_torque);
       text += " N m";
     } else {
       text += ": not determined";
@@ -114,22 +147,11 @@ class MarkerMessage : public MessageOf<visualization_msgs::MarkerArray> {
     const Vector3d start =
         view_.box.center() - view_.size * (kLeft * view_.right + below * view_.up);
     const Vector3d end = start + value * scale * view_.right;
-    Marker arrow;
-    arrow.header.frame_id = frame;
-    arrow.ns = "legend";
-    arrow.id = legend_++;
-    arrow.type = Marker::ARROW;
-    arrow.pose.orientation.w = 1;
-    arrow.points.resize(2);
-    copyVector(start, arrow.points[0]);
-    copyVector(end, arrow.points[1]);
-    arrow.scale.x = kShaft * view_.size;
-    arrow.scale.y = kHead * view_.size;
-    arrow.color = color;
-    message_.markers.push_back(arrow);
+    message_.markers.push_back(arrowMarker("legend", legend_++, frame, color, view_.size));
+    copyVector(start, message_.markers.back().points[0]);
+    copyVector(end, message_.markers.back().points[1]);
 
-    Marker text = textMarker("legend", frame, view_.text_height);
-    text.id = legend_++;
+    Marker text = textMarker("legend", legend_++, frame, view_.text_height);
     copyVector(end + 3 * view_.text_height * view_.right, text.pose.position);
     text.text = numberText(value) + unit;
     message_.markers.push_back(text);

@@ -8,9 +8,10 @@
 
 namespace virtual_work_dynamics {
 
-/// Makes ~markers, for RViz: a text with the magnitudes of force and moment of each reaction at its
-/// origin, and a legend of the lengths that rviz_for_robot gives arrows. Some samples are left out,
-/// so that there are no more than OutputSettings::marker_rate messages a second.
+/// Makes ~markers, for RViz: at the origin of each reaction, arrows of force and moment and a text
+/// with their magnitudes, and a legend of the arrows' lengths, which are those of rviz_for_robot.
+/// Some samples are left out, so that there are no more than OutputSettings::marker_rate messages a
+/// second.
 /// @param frames of ~reaction/<name>, by reaction
 /// @param root_frame of the legend
 std::unique_ptr<Output> makeMarkerOutput(const Mechanism& mechanism, const OutputSettings& settings,

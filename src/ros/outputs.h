@@ -90,7 +90,7 @@ struct OutputSettings {
   double condition_warn = kCloseToSingular;  ///< a larger condition is close to a singular position
   Scene scene;                               ///< of which deviations and arrows are computed
   std::shared_ptr<DeviationRecord> deviations;  ///< what they are recorded in; null: no deviations
-  double marker_rate = 10;                      ///< largest rate of ~markers, Hz
+  double marker_rate = 20;                      ///< largest rate of ~markers, Hz
 };
 
 /// All outputs of the node for a mechanism and a scene.

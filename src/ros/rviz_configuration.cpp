@@ -84,6 +84,9 @@ YAML::Node arrowsOf(const YAML::Node& sample, const RvizScene& scene) {
     YAML::Node display = YAML::Clone(sample);
     display["Name"] = scene.reactions[i];
     display["Topic"] = scene.reaction_topics[i];
+    // Those of ~markers move with the robot. These show the sample before, where the joint was
+    // then: RViz draws a message one picture after its tf.
+    display["Enabled"] = display["Value"] = false;
     set(display, "Arrow Width", kWidth * view.size);
     set(display, "Force Arrow Scale", view.force_scale / (1 + kHead));
     set(display, "Torque Arrow Scale", view.torque_scale / (1 + kHead));

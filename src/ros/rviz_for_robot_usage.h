@@ -6,9 +6,10 @@ namespace virtual_work_dynamics {
 constexpr char kRvizForRobotUsage[] =
     R"(usage: rviz_for_robot [options] [ROBOT.urdf] [RVIZ_ARGUMENT ...] [name:=value ...]
 
-Shows a robot and its reactions, as inverse_dynamics_node publishes them, in RViz. There is an arrow
-display for each reaction that the scene asks for, closures included, and one for the numbers. Arrows
-are scaled by the largest reaction at rest at the start, and the camera shows the whole robot.
+Shows a robot and its reactions, as inverse_dynamics_node publishes them, in RViz: arrows and numbers at
+the joints, and a display of WrenchStamped, to be switched on, for each reaction that the scene asks for,
+closures included. Arrows are scaled by the largest reaction at rest at the start, and the camera shows
+the whole robot.
 
   ROBOT.urdf             robot description; without it, robot, scene and frame prefix are those of the
                          node's parameters

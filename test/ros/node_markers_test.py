@@ -58,12 +58,45 @@ class Markers(NodeTest):
                 self.assertEqual(vector(marker.pose.position), [0, 0, 0])
                 self.assertEqual(marker.pose.orientation.w, 1)
                 self.assertGreater(marker.scale.z, 0)
+                self.assertTrue(marker.frame_locked)
                 said, force, moment = TEXT.fullmatch(marker.text).groups()
                 self.assertEqual(said, name)
                 for text, exact in ((force, wrench.wrench.force), (moment, wrench.wrench.torque)):
                     exact = np.linalg.norm(vector(exact))
                     self.assertGreater(exact, 0.1)
                     self.assertLessEqual(abs(float(text) - exact), THREE_DIGITS * exact, text)
+
+    def test_arrows_at_the_origins(self):
+        markers, *wrenches = self.start('markers', *['reaction/' + name for name in REACTIONS])
+        self.feed.publish(trajectory(1))
+        message = markers.wait(1)[0]
+        legend = [marker for marker in message.markers
+                  if marker.ns == 'legend' and marker.type == Marker.ARROW]
+        for name, recorder in zip(REACTIONS, wrenches):
+            wrench, = recorder.wait(1)
+            arrows = {marker.id: marker for marker in message.markers if marker.ns == name}
+            self.assertEqual(set(arrows), {0, 1, 2})
+            for arrow, exact, scale in ((arrows[1], wrench.wrench.force, legend[0]),
+                                        (arrows[2], wrench.wrench.torque, legend[1])):
+                with self.subTest(reaction=name, arrow=arrow.id):
+                    self.assertEqual(arrow.type, Marker.ARROW)
+                    self.assertEqual((arrow.header.frame_id, arrow.header.stamp),
+                                     (wrench.header.frame_id, wrench.header.stamp))
+                    self.assertTrue(arrow.frame_locked)
+                    self.assertEqual(arrow.color, scale.color)
+                    self.assertEqual(vector(arrow.points[0]), [0, 0, 0])
+                    value = float(next(marker.text for marker in message.markers
+                                       if marker.ns == 'legend' and marker.id == scale.id + 1)
+                                  .split()[0])
+                    length = np.linalg.norm(np.array(vector(scale.points[1])) -
+                                            vector(scale.points[0]))
+                    expected = np.array(vector(exact)) * length / value
+                    if arrow.action == Marker.DELETE:
+                        self.assertLessEqual(np.linalg.norm(expected), arrow.scale.x)
+                    else:
+                        self.assertClose(vector(arrow.points[1]), expected, LENGTHS, 'its end')
+        self.assertEqual(sum(marker.action == Marker.ADD for marker in message.markers
+                             if marker.type == Marker.ARROW and marker.ns in REACTIONS), 8)
 
     def test_a_legend_of_the_lengths_of_arrows(self):
         markers, = self.start('markers')
