@@ -21,7 +21,7 @@ using visualization_msgs::Marker;
 // Of the model's size: diameters of an arrow's shaft and head.
 constexpr double kShaft = 0.0045, kHead = 0.009;
 // Where the legend begins in the picture, from its centre, of the model's size.
-constexpr double kLeft = 0.68, kBelow = 0.42, kStep = 0.06;
+constexpr double kLeft = 0.58, kBelow = 0.42, kStep = 0.06;
 // What is smaller than this part of the largest value at the start is shown as 0.
 constexpr double kNothing = 1e-4;
 
