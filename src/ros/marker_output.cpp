@@ -161,7 +161,7 @@ class MarkerMessage : public MessageOf<visualization_msgs::MarkerArray> {
   const std::vector<std::string> names_;
   const Clock::duration period_;
   std::vector<std::size_t> places_;
-  int legend_ = 0;
+  int legend_ = 3;  // those of a reaction of that name are less
   Clock::time_point due_;
 };
 

@@ -95,7 +95,7 @@ YAML::Node arrowsOf(const YAML::Node& sample, const RvizScene& scene) {
   return group("Reactions", displays);
 }
 
-YAML::Node numbersOf(const RvizScene& scene) {
+YAML::Node markersOf(const RvizScene& scene) {
   // RViz counts the markers of arrays one by one while they wait for tf.
   constexpr std::size_t kArrays = 20, kMarkersOfReaction = 3, kMarkersOfLegend = 4;
 
@@ -103,7 +103,7 @@ YAML::Node numbersOf(const RvizScene& scene) {
   display["Class"] = "rviz/MarkerArray";
   display["Enabled"] = true;
   display["Marker Topic"] = scene.marker_topic;
-  display["Name"] = "Numbers";
+  display["Name"] = "Arrows and numbers";
   display["Namespaces"] = YAML::Node(YAML::NodeType::Map);
   display["Queue Size"] =
       kArrays * (kMarkersOfReaction * scene.reactions.size() + kMarkersOfLegend);
@@ -142,7 +142,7 @@ std::string rvizConfiguration(const std::string& rviz_template, const std::strin
     }
     if (!sampled) throw FileError(source + ": has no display of the class " + kWrench);
     displays.push_back(arrowsOf(sample, scene));
-    displays.push_back(numbersOf(scene));
+    displays.push_back(markersOf(scene));
     manager["Displays"] = displays;
     manager["Global Options"]["Fixed Frame"] = scene.fixed_frame;
     manager["Views"]["Current"] = cameraOf(scene);

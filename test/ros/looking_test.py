@@ -322,6 +322,38 @@ class Looking(NodeTest):
         self.assertGreater(len(shown), 10)
         self.assertLessEqual(shown, stamps)
 
+    def test_a_fast_turn_is_played_slowly_before_the_next_begins(self):
+        motion = yaml.safe_load(read('..', '..', 'config', 'andrews_squeezer_trajectory.yaml'))
+        launch = ElementTree.fromstring(read('..', '..', 'launch', 'andrews_squeezer.launch'))
+        rate, = [float(argument.get('value')) for argument in launch.iter('arg')
+                 if argument.get('name') == 'trajectory_rate']
+        duration = motion['via_points'][-1]['time']
+        played = (duration * motion['rate'] + 1) / rate
+        self.assertTrue(motion['loop'])
+        self.assertGreater(played, 3)
+        self.assertLess(played, duration + motion['loop_pause'])
+
+    def test_the_legs_of_the_platform_stay_together(self):
+        motion = yaml.safe_load(read('..', '..', 'config', 'stewart_gough_trajectory.yaml'))
+        robot = ElementTree.fromstring(read('..', '..', 'urdf', 'stewart_gough.urdf'))
+
+        def drawn(link):
+            """From where to where along the leg its cylinder goes."""
+            visual = robot.find("link[@name='%s']/visual" % link)
+            middle = float(visual.find('origin').get('xyz').split()[2])
+            half = float(visual.find('geometry/cylinder').get('length')) / 2
+            return middle - half, middle + half
+
+        between = 0.02  # how far a minimum-jerk motion goes beyond its points
+        for leg, name in enumerate(motion['joints']):
+            lengths = [point['positions'][leg] for point in motion['via_points']]
+            carrier = robot.find("joint[@name='%s']" % name)
+            tube, rod = (drawn(carrier.find(side).get('link')) for side in ('parent', 'child'))
+            self.assertEqual(tube[0], 0)
+            self.assertEqual(rod[1], 0)
+            self.assertGreater(tube[1], max(lengths) * (1 + between) + rod[0])
+            self.assertGreater(min(lengths) * (1 - between) + rod[0], 0)
+
     def test_layouts_name_what_is_published(self):
         node = Node(self, read('..', '..', 'urdf', 'six_axis_arm.urdf'))
         master = rosgraph.Master('/test')

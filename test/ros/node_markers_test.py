@@ -109,7 +109,7 @@ class Markers(NodeTest):
         arrows = next(d for d in displays if d['Name'] == 'Reactions')['Displays'][0]
         self.assertEqual([marker.type for marker in legend],
                          [Marker.ARROW, Marker.TEXT_VIEW_FACING] * 2)
-        self.assertEqual(sorted(marker.id for marker in legend), [0, 1, 2, 3])
+        self.assertEqual(sorted(marker.id for marker in legend), [3, 4, 5, 6])
         for arrow, text, unit, scale in zip(legend[::2], legend[1::2], ('N', 'N m'),
                                             ('Force Arrow Scale', 'Torque Arrow Scale')):
             self.assertEqual(arrow.header.frame_id, 'left/stand')
