@@ -22,6 +22,7 @@ using visualization_msgs::Marker;
 constexpr double kShaft = 0.0045, kHead = 0.009;
 // Where the legend begins in the picture, from its centre, of the model's size.
 constexpr double kLeft = 0.58, kBelow = 0.42, kStep = 0.06;
+constexpr std::size_t kRoomForNumbers = 80;  // and lines, so that samples do not allocate
 // What is smaller than this part of the largest value at the start is shown as 0.
 constexpr double kNothing = 1e-4;
 
@@ -93,6 +94,7 @@ class MarkerMessage : public MessageOf<visualization_msgs::MarkerArray> {
       const auto found = std::find(all.begin(), all.end(), names_[i]);
       places_.push_back(static_cast<std::size_t>(found - all.begin()));
       message_.markers.push_back(textMarker(names_[i], 0, frames[i], view_.text_height));
+      message_.markers.back().text.reserve(names_[i].size() + kRoomForNumbers);
       message_.markers.push_back(arrowMarker(names_[i], 1, frames[i], kForceColor, view_.size));
       message_.markers.push_back(arrowMarker(names_[i], 2, frames[i], kTorqueColor, view_.size));
     }
