@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/printable.h"
 #include "offline/arguments.h"
 #include "offline/offline.h"
 
@@ -23,10 +24,11 @@ int main(int argc, char** argv) {
     if (!std::cout.flush()) throw FileError("standard output: cannot be written");
     return 0;
   } catch (const UsageError& error) {
-    std::cerr << program << ": error: " << error.what() << "\nTry '" << program << " --help'.\n";
+    std::cerr << program << ": error: " << printable(error.what()) << "\nTry '" << program
+              << " --help'.\n";
     return 2;
   } catch (const std::exception& error) {
-    std::cerr << program << ": error: " << error.what() << "\n";
+    std::cerr << program << ": error: " << printable(error.what()) << "\n";
     return 1;
   }
 }

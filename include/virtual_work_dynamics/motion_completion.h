@@ -32,6 +32,10 @@ struct CompletionReport {
   std::size_t one_sided = 0;             ///< rows near a gap or an end, with rows on one side only
   std::vector<StreamQuality> qualities;  ///< of each joint of the table
   std::vector<bool> still;               ///< whether the joint does not move at all
+  /// Rows of each joint at which its position jumps, as no motion does: nothing is assumed across.
+  std::vector<std::vector<std::size_t>> jumps;
+  /// Rows of each joint whose position stands alone, far from those before and after: left out.
+  std::vector<std::vector<std::size_t>> left_out;
 };
 
 /// Estimates the velocities or accelerations that a recorded motion lacks by a smoother for each

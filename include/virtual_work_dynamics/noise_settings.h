@@ -22,6 +22,8 @@ struct StreamQuality {
   /// Velocities over slopes of the positions where they contradict each other, so that they are
   /// not used: 0 for velocities that are always zero, 57.3 for degrees. 1: no contradiction.
   double velocity_ratio = 1;
+  int jumps = 0;     ///< steps that no motion makes: behind each another motion begins
+  int left_out = 0;  ///< positions that stand alone, far from those before and after
 };
 
 }  // namespace virtual_work_dynamics

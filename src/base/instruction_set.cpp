@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "base/printable.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -55,8 +56,8 @@ InstructionSet chosenInstructionSet() {
                   wanted);
     }
   }
-  throw Error(std::string(kInstructionSetVariable) + ": '" + wanted +
-              "' is not one of baseline, avx2, avx512");
+  throw Error(std::string(kInstructionSetVariable) + ": " + inQuotes(wanted) +
+              " is not one of baseline, avx2, avx512");
 }
 
 }  // namespace virtual_work_dynamics

@@ -1,6 +1,8 @@
 vwd_core(
   instruction_set.cpp
+  nearest_name.cpp
   number_text.cpp
+  printable.cpp
   run_time_histogram.cpp
   text_file.cpp
   worker_threads.cpp)

@@ -39,7 +39,7 @@ double shiftOf(MotionLevel level, double value, double deviation) {
 void requireSound(const Tolerances& tolerances) {
   const auto require = [](const char* name, double value) {
     if (value >= 0 && value < 1) return;
-    throw SceneError(std::string("scene: tolerances/") + name + ": " + numberText(value) +
+    throw SceneError(std::string("tolerances.") + name + ": " + numberText(value) +
                      " is not from 0 to below 1");
   };
   require("mass", tolerances.mass);

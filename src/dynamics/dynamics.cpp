@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "dynamics/compiled_dynamics.h"
 #include "loops/cut_tree.h"
 #include "scene/input_checks.h"
@@ -137,8 +138,8 @@ std::string Dynamics::whyOpen(const Motion& motion, Workspace& workspace) const 
            "give the motion of all joints";
   }
   const auto closure = static_cast<std::size_t>(worst - found.relative_residuals.begin());
-  return "the loops cannot be closed: closure '" + impl_->closure_names[closure] +
-         "' stays open by " + numberText(found.residuals[closure].position) + " m or rad";
+  return "the loops cannot be closed: closure " + inQuotes(impl_->closure_names[closure]) +
+         " stays open by " + numberText(found.residuals[closure].position) + " m or rad";
 }
 
 void Dynamics::compute(const Motion& motion, Workspace& workspace) const {

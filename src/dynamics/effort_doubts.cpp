@@ -4,12 +4,14 @@
 #include <sstream>
 #include <utility>
 
+#include "base/printable.h"
+
 namespace virtual_work_dynamics {
 
 std::string toString(const EffortDoubt& doubt) {
   std::ostringstream text;
   text.precision(2);
-  text << "effort of '" << doubt.name << "': deviation " << doubt.deviation << ", ";
+  text << "effort of " << inQuotes(doubt.name) << ": deviation " << doubt.deviation << ", ";
   if (std::isfinite(doubt.relative)) {
     text << 100 * doubt.relative << " % of its rms";
   } else {
@@ -78,8 +80,8 @@ std::string EffortDoubts::causeOf(Eigen::Index effort) const {
   const std::string level = kLevels[largest % kMotionLevels];
   // An actuated closure's effort stands after those of the coordinates.
   if (coordinate == effort) return "the noise of its own " + level;
-  return "the noise of the " + level + " of '" +
-         coordinates_[static_cast<std::size_t>(coordinate)] + "'";
+  return "the noise of the " + level + " of " +
+         inQuotes(coordinates_[static_cast<std::size_t>(coordinate)]);
 }
 
 }  // namespace virtual_work_dynamics

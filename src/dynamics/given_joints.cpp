@@ -1,5 +1,7 @@
 #include "dynamics/given_joints.h"
 
+#include "base/printable.h"
+
 namespace virtual_work_dynamics {
 
 namespace {
@@ -9,7 +11,7 @@ std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t kMost = 8;
   std::string text;
   for (std::size_t i = 0; i < names.size() && i < kMost; ++i) {
-    text += (i == 0 ? "'" : ", '") + names[i] + "'";
+    text += (i == 0 ? "" : ", ") + inQuotes(names[i]);
   }
   if (names.size() > kMost) text += " and " + std::to_string(names.size() - kMost) + " more";
   return text;

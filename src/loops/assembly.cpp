@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "scene/closure_types.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -21,7 +22,7 @@ constexpr double kMatters = 1e-3;
 std::string names(const Mechanism& mechanism, const std::vector<std::size_t>& coordinates) {
   std::string text;
   for (const std::size_t i : coordinates) {
-    text += (text.empty() ? "'" : ", '") + mechanism.coordinateNames()[i] + "'";
+    text += (text.empty() ? "" : ", ") + inQuotes(mechanism.coordinateNames()[i]);
   }
   return text;
 }
@@ -77,14 +78,14 @@ Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopComplet
   if (!completion.close(kinematics, q, given)) refuseOpen(kinematics, completion.length());
   for (std::size_t c = 0; c < scene.closures.size(); ++c) {
     if (kinematics.reversed(c)) {
-      throw SceneError("closures: '" + scene.closures[c].name +
-                       "' is assembled the wrong way round: its frames are half a turn apart");
+      throw SceneError("closures: " + inQuotes(scene.closures[c].name) +
+                       " is assembled the wrong way round: its frames are half a turn apart");
     }
     if (traitsOf(scene.closures[c].type).hasLength() &&
         (kinematics.parentOrigin(c) - kinematics.childOrigin(c)).norm() <=
             kCoincide * completion.length()) {
-      throw SceneError("closures: '" + scene.closures[c].name +
-                       "': its ends coincide in the assembly");
+      throw SceneError("closures: " + inQuotes(scene.closures[c].name) +
+                       ": its ends coincide in the assembly");
     }
   }
   kinematics.adoptConstants();

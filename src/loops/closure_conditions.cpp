@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "base/printable.h"
+#include "scene/lookup.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -16,7 +18,7 @@ using Kind = ClosureDemand::Kind;
 using Frame = LinkKinematics::Frame;
 
 std::string placeOf(const Closure& closure) {
-  return "closures: '" + closure.name + "'";
+  return "closures: " + inQuotes(closure.name);
 }
 
 Eigen::Matrix3d rotationOf(const Eigen::Vector3d& rpy) {
@@ -26,12 +28,9 @@ Eigen::Matrix3d rotationOf(const Eigen::Vector3d& rpy) {
       .toRotationMatrix();
 }
 
-Frame frameOf(const Mechanism& mechanism, const Closure& closure, const LinkFrame& from) {
+Frame frameOf(const Mechanism& mechanism, const LinkFrame& from, const std::string& place) {
   Frame frame;
-  frame.link = mechanism.linkIndex(from.link);
-  if (frame.link < 0) {
-    throw SceneError(placeOf(closure) + ": the robot has no link '" + from.link + "'");
-  }
+  frame.link = linkNamed(mechanism, from.link, place + ".link");
   frame.R_LF = rotationOf(from.rpy);
   frame.p_LoFo_L = from.xyz;
   return frame;
@@ -74,16 +73,17 @@ std::vector<int> coordinatesOn(const Mechanism& mechanism, const std::vector<Pat
 }
 
 std::shared_ptr<const ConditionSet> makeSet(const Mechanism& mechanism, const Closure& closure) {
-  const Frame parent = frameOf(mechanism, closure, closure.parent);
-  const Frame child = frameOf(mechanism, closure, closure.child);
+  const Frame parent = frameOf(mechanism, closure.parent, placeOf(closure) + ": parent");
+  const Frame child = frameOf(mechanism, closure.child, placeOf(closure) + ": child");
   if (parent.link == child.link) {
-    throw SceneError(placeOf(closure) + ": both frames are on link '" + closure.parent.link + "'");
+    throw SceneError(placeOf(closure) + ": both frames are on link " +
+                     inQuotes(closure.parent.link));
   }
   const std::vector<PathStep> path = pathBetween(mechanism, parent.link, child.link);
   const std::vector<int> coordinates = coordinatesOn(mechanism, path);
   if (coordinates.empty()) {
-    throw SceneError(placeOf(closure) + ": no joint moves '" + closure.child.link +
-                     "' relative to '" + closure.parent.link + "'");
+    throw SceneError(placeOf(closure) + ": no joint moves " + inQuotes(closure.child.link) +
+                     " relative to " + inQuotes(closure.parent.link));
   }
   return std::make_shared<ClosureConditions>(closure, parent, child, path, coordinates);
 }

@@ -5,6 +5,8 @@
 #include <string>
 
 #include "base/number_text.h"
+#include "base/printable.h"
+#include "scene/lookup.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -12,7 +14,7 @@ namespace virtual_work_dynamics {
 namespace {
 
 void check(const PointSpring& spring) {
-  const std::string what = "springs: '" + spring.name + "'";
+  const std::string what = "springs: " + inQuotes(spring.name);
   if (!(spring.stiffness > 0) || !std::isfinite(spring.stiffness)) {
     throw SceneError(what + ": stiffness = " + numberText(spring.stiffness) +
                      " is not a positive number");
@@ -25,14 +27,8 @@ void check(const PointSpring& spring) {
     throw SceneError(what + ": an end is not finite");
   }
   if (spring.link_a == spring.link_b) {
-    throw SceneError(what + ": both ends are on link '" + spring.link_a + "'");
+    throw SceneError(what + ": both ends are on link " + inQuotes(spring.link_a));
   }
-}
-
-int linkOf(const Mechanism& mechanism, const PointSpring& spring, const std::string& name) {
-  const int link = mechanism.linkIndex(name);
-  if (link >= 0) return link;
-  throw SceneError("springs: '" + spring.name + "': the robot has no link '" + name + "'");
 }
 
 }  // namespace
@@ -41,11 +37,12 @@ PointSprings::PointSprings(const Mechanism& mechanism, const Scene& scene) {
   std::set<std::string> seen;
   for (const PointSpring& spring : scene.springs) {
     if (!seen.insert(spring.name).second) {
-      throw SceneError("springs: '" + spring.name + "' is given twice");
+      throw SceneError("springs: " + inQuotes(spring.name) + " is given twice");
     }
     check(spring);
-    springs_.push_back({spring, linkOf(mechanism, spring, spring.link_a),
-                        linkOf(mechanism, spring, spring.link_b)});
+    const std::string place = "springs: " + inQuotes(spring.name) + ": ";
+    springs_.push_back({spring, linkNamed(mechanism, spring.link_a, place + "link_a"),
+                        linkNamed(mechanism, spring.link_b, place + "link_b")});
   }
 }
 

@@ -3,7 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "base/printable.h"
 #include "scene/closure_types.h"
+#include "scene/lookup.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -32,10 +34,11 @@ LoopReactions::LoopReactions(const Mechanism& mechanism, const Scene& scene, con
                              const std::vector<std::string>& names, Axes axes)
     : child_axes_(axes == Axes::kLink) {
   for (auto name = names.begin(); name != names.end(); ++name) {
+    const std::string place = entryOf("reactions", static_cast<std::size_t>(name - names.begin()));
     if (std::find(names.begin(), name, *name) != name) {
-      throw SceneError("reactions: '" + *name + "' is requested twice");
+      throw SceneError(place + ": " + inQuotes(*name) + " is named twice");
     }
-    addItem(mechanism, scene, loops, *name);
+    addItem(mechanism, scene, loops, *name, place);
   }
   addChanges(groups);
   freedoms_.resize(names.size());
@@ -43,7 +46,7 @@ LoopReactions::LoopReactions(const Mechanism& mechanism, const Scene& scene, con
 }
 
 void LoopReactions::addItem(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
-                            const std::string& name) {
+                            const std::string& name, const std::string& place) {
   Item item;
   for (std::size_t c = 0; c < scene.closures.size(); ++c) {
     if (scene.closures[c].name != name) continue;
@@ -56,7 +59,7 @@ void LoopReactions::addItem(const Mechanism& mechanism, const Scene& scene, cons
   if (item.closure < 0) {
     item.joint = mechanism.jointIndex(name);
     if (item.joint < 0 && name != kGround) {
-      throw SceneError("reactions: there is no joint or closure '" + name + "'");
+      failAtUnknown(mechanism, scene, name, place);
     }
     if (item.joint >= 0) {
       const Joint& joint = mechanism.joint(item.joint);

@@ -70,7 +70,7 @@ class LoopReactions {
   void visitChanged(const LoopKinematics& kinematics, std::size_t group, const LoopForces& forces,
                     const LoopForces::State& change, Visit visit);
   void addItem(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
-               const std::string& name);
+               const std::string& name, const std::string& place);
   void addChanges(const std::vector<LoopGroup>& groups);
   ClosureWrench reported(const LoopKinematics& kinematics, const Item& item,
                          ClosureWrench wrench) const;

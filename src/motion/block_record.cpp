@@ -7,7 +7,10 @@
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr double kBlockTime = 0.004;  // s
+constexpr double kBlockTime = 0.002;  // s
+/// Time that the blocks of slow streams go back, s, but so many blocks of any.
+constexpr double kLongest = 6;
+constexpr std::size_t kFewestKept = 768;
 /// Samples before the time between them is known well enough to size the blocks.
 constexpr int kIntervalSamples = 12;
 /// Factor between intervals that are of one rate.
@@ -40,7 +43,8 @@ void BlockRecord::add(std::int64_t stamp, double position, double velocity, int 
   blocks_[next_] = {secondsBetween(start_, first_stamp_) + sum_.time / samples_,
                     first_position_ + sum_.position / samples_, sum_.velocity / samples_};
   next_ = (next_ + 1) % blocks_.size();
-  count_ = std::min(count_ + 1, blocks_.size());
+  const auto within = static_cast<std::size_t>(kLongest / this->interval());
+  count_ = std::min({count_ + 1, blocks_.size(), std::max(within, kFewestKept)});
   ++fresh_;
   filled_ = 0;
 }

@@ -12,8 +12,9 @@ namespace virtual_work_dynamics {
 /// is found. Does not allocate once reserve() has been called.
 class BlockRecord {
  public:
-  /// Blocks that are kept; a newer one replaces the oldest.
-  static constexpr std::size_t kMost = 768;
+  /// Blocks that are kept at most; a newer one replaces the oldest. Of slow streams fewer are kept,
+  /// as one model is to hold for all of them.
+  static constexpr std::size_t kMost = 1536;
 
   void reserve() { blocks_.resize(kMost); }
 

@@ -35,8 +35,8 @@ constexpr double kTwoPi = 6.283185307179586;
 /// before the last one differs.
 constexpr double kLongJump = 0.01;
 constexpr double kReturn = 0.2;
-/// Speed that no joint has, rad/s or m/s: a step that would take it is not one of the motion.
-constexpr double kAbsurdSpeed = 1e4;
+/// Steps in which the digits of positions are lost, rad or m.
+constexpr double kAbsurdStep = 1e9;
 
 }  // namespace
 
@@ -52,6 +52,7 @@ void CoordinateTrack::clear() {
   size_ = 0;
   stretch_ = 0;
   jumps_ = 0;
+  far_ = 0;
   learner_.forgetRecord();
 }
 
@@ -72,9 +73,7 @@ CoordinateTrack::Verdict CoordinateTrack::push(std::int64_t stamp, double q, dou
   now.qd = qd;
   if (capacity() == 1) return gap ? Verdict::kAfterGap : Verdict::kTaken;
   if (size_ > 1 && !gap) noteJump();
-  const bool absurd =
-      size_ > 1 && !gap &&
-      !(std::abs(moved(entry(1), now)) < kAbsurdSpeed * secondsBetween(entry(1).stamp, stamp));
+  const bool absurd = size_ > 1 && !gap && !(std::abs(moved(entry(1), now)) < kAbsurdStep);
   if (absurd) learner_.forgetRecord();
   if (size_ == 1 || gap || absurd) {
     startStretch(stamp);
@@ -82,22 +81,100 @@ CoordinateTrack::Verdict CoordinateTrack::push(std::int64_t stamp, double q, dou
   } else {
     stretch_ = std::min(stretch_ + 1, capacity());
     noteInterval();
-    noteNoise();
-    if (startIsStale()) {
-      restart(std::min(stretch_, kMostStarting));
+    if (far_ > 0 || newestIsFar()) {
+      takeInDoubt();
     } else {
-      follow(entry(1), now);
-      if (stretch_ > kFewest) adapt(now);
+      take(now);
     }
-    if (learner_.identify(noise_.least(), interval_)) useLearnt();
   }
   recordSettled();
   return gap ? Verdict::kAfterGap : Verdict::kTaken;
 }
 
+/// Takes the newest sample, which belongs to the motion.
+void CoordinateTrack::take(Entry& now) {
+  noteNoise(0);
+  if (startIsStale()) {
+    restart(std::min(stretch_, kMostStarting));
+  } else {
+    follow(entry(1), now);
+    if (stretch_ > kFewest) adapt(now);
+  }
+  if (learner_.identify(noise_.least(), interval_)) useLearnt();
+}
+
+bool CoordinateTrack::newestIsFar() const {
+  const Entry& now = entry(0);
+  const Entry& before = entry(1);
+  const double time = secondsBetween(before.stamp, now.stamp);
+  double step = moved(before, now);
+  // What a steady motion would make of it is not far.
+  if (stretch_ > 2)
+    step -= moved(entry(2), before) * time / secondsBetween(entry(2).stamp, before.stamp);
+  return isFar(step, time, interval_, noise_.least(), std::sqrt(model().position_variance));
+}
+
+/// Takes the newest sample while it is open whether it belongs to the motion.
+void CoordinateTrack::takeInDoubt() {
+  ++far_;
+  Entry& now = entry(0);
+  now.counts = false;
+  const FarFinding finding = judgeNewest();
+  switch (finding.verdict) {
+    case FarVerdict::kOpen:
+      follow(entry(1), now);
+      return;
+    case FarVerdict::kJump:
+      ++begun_;
+      beginAnew(far_);
+      return;
+    case FarVerdict::kMotion:
+    case FarVerdict::kAlone:
+      for (int age = 0; age < far_; ++age) entry(age).counts = true;
+      leaveOut(finding.alone);
+      for (int age = far_ - 1; age > 0; --age) {
+        noteNoise(age);
+        follow(entry(age + 1), entry(age));
+      }
+      far_ = 0;
+      take(now);
+  }
+}
+
+FarFinding CoordinateTrack::judgeNewest() const {
+  std::array<double, kBeforeFar + kMostFar> times;
+  std::array<double, kBeforeFar + kMostFar> positions;
+  const int far = std::min(far_, kMostFar);
+  const int before = std::min(stretch_ - far_, kBeforeFar);
+  const Entry& reference = entry(far_);
+  for (int i = 0; i < before + far; ++i) {
+    const Entry& other = entry(far_ + before - 1 - i);
+    times[static_cast<std::size_t>(i)] = secondsBetween(reference.stamp, other.stamp);
+    positions[static_cast<std::size_t>(i)] = moved(reference, other);
+  }
+  return judgeFar(times.data(), positions.data(), before, before + far, interval_);
+}
+
+/// Leaves out the first samples of those in doubt, which stand alone.
+void CoordinateTrack::leaveOut(int samples) {
+  if (samples == 0) return;
+  left_out_ += samples;
+  const Entry& before = entry(far_);
+  const Entry& after = entry(far_ - samples - 1);
+  const double time = secondsBetween(before.stamp, after.stamp);
+  for (int i = 1; i <= samples; ++i) {
+    Entry& alone = entry(far_ - i);
+    alone.counts = false;
+    // States count from it, and would lose their digits far away.
+    alone.q = before.q + secondsBetween(before.stamp, alone.stamp) / time * moved(before, after);
+    alone.turns = before.turns;
+  }
+}
+
 void CoordinateTrack::startStretch(std::int64_t stamp) {
   stretch_ = 1;
   stretch_start_ = stamp;
+  far_ = 0;
   learner_.beginStretch();
   noise_.restart();
 }
@@ -123,6 +200,8 @@ CoordinateTrack::Verdict CoordinateTrack::insert(std::int64_t stamp, double q, d
   place.turns = after.turns;
   if (forward < std::abs(moved(before, place))) place.turns = before.turns;
   place.qd = qd;
+  place.counts = age >= far_;
+  far_ += place.counts ? 0 : 1;
   noteInterval();
   for (int i = age; i >= 0; --i) follow(entry(i + 1), entry(i));
   if (age <= kSettled) recordSettled();
@@ -133,19 +212,22 @@ double CoordinateTrack::usualInterval() const {
   return std::isfinite(interval_) ? interval_ : kUsualInterval;
 }
 
-/// Takes the two newest samples for the first ones of another motion, with nothing learnt.
-void CoordinateTrack::beginAnew() {
+/// Takes the newest samples for the first ones of another motion, with nothing learnt.
+void CoordinateTrack::beginAnew(int samples) {
+  for (int age = 0; age < samples; ++age) entry(age).counts = true;
+  Entry& first = entry(samples - 1);
   learner_.unlearn();
-  startStretch(entry(1).stamp);
-  begin(entry(1));
-  stretch_ = 2;
-  restart(2);
+  startStretch(first.stamp);
+  begin(first);
+  stretch_ = samples;
+  for (int age = samples - 2; age >= 0; --age) noteNoise(age);
+  restart(samples);
 }
 
 void CoordinateTrack::begin(Entry& entry) {
   if (!learner_.learnt()) learner_.assume(noise_, usualInterval());
   entry.first = true;
-  entry.has_velocity = false;
+  entry.has_position = entry.has_velocity = false;
   entry.filtered = startAlone();
   surprise_.restart();
 }
@@ -172,7 +254,8 @@ bool CoordinateTrack::startIsStale() const {
 /// Starts the filter again so many samples ago, or with the stretch.
 void CoordinateTrack::restart(int samples) {
   started_variance_ = model().position_variance;
-  const int oldest = std::min(std::max(samples, startingCount()), stretch_) - 1;
+  int oldest = std::min(std::max(samples, startingCount()), stretch_) - 1;
+  while (oldest > 0 && !entry(oldest).counts) --oldest;
   Entry& first = entry(oldest);
   const int count = std::min(startingCount(), oldest + 1);
   first.filtered = firstState<kOrder>(model(), interval_, count, [&](int i) {
@@ -189,8 +272,10 @@ void CoordinateTrack::follow(const Entry& before, Entry& entry) {
   StreamState<kOrder>& state = entry.filtered;
   predict<kOrder>(secondsBetween(before.stamp, entry.stamp), model().density, state);
   state.x[0] -= moved(before, entry);
-  entry.position = update<kOrder>(0, -state.x[0], model().variance(state.x[1]), state);
-  entry.has_velocity = model().usesVelocities() && std::isfinite(entry.qd);
+  entry.has_position = entry.counts;
+  if (entry.has_position)
+    entry.position = update<kOrder>(0, -state.x[0], model().variance(state.x[1]), state);
+  entry.has_velocity = entry.counts && model().usesVelocities() && std::isfinite(entry.qd);
   if (entry.has_velocity)
     entry.velocity = update<kOrder>(1, entry.qd - state.x[1], model().velocity_variance, state);
 }
@@ -209,7 +294,8 @@ void CoordinateTrack::adapt(Entry& now) {
     case StreamSurprise::Verdict::kNothing:
       return;
     case StreamSurprise::Verdict::kJump:
-      beginAnew();
+      ++begun_;
+      beginAnew(2);
       return;
     case StreamSurprise::Verdict::kNoisier:
       if (learner_.worsen(finding.factor)) P *= finding.factor;
@@ -231,22 +317,25 @@ void CoordinateTrack::noteInterval() {
   interval_ = secondsBetween(entry(intervals).stamp, newest()) / intervals;
 }
 
-/// Learns from the latest positions how finely they are resolved and, before a model is learnt, how
-/// large their noise is.
-void CoordinateTrack::noteNoise() {
-  if (stretch_ < 3 || entry(2).turns != entry(0).turns) return;
-  noise_.takeStep(entry(2).q, entry(1).q, entry(0).q);
+/// Learns from the positions up to that of this age how finely they are resolved and, before a
+/// model is learnt, how large their noise is.
+void CoordinateTrack::noteNoise(int age) {
+  const int stretch = stretch_ - age;
+  if (stretch < 3 || entry(age + 2).turns != entry(age).turns) return;
+  for (int i = 0; i < std::min(stretch, static_cast<int>(kDifferenced)); ++i)
+    if (!entry(age + i).counts) return;
+  noise_.takeStep(entry(age + 2).q, entry(age + 1).q, entry(age).q);
   if (learner_.learnt()) {
     learner_.raise(noise_.least());
     return;
   }
-  if (stretch_ >= static_cast<int>(kDifferenced)) {
+  if (stretch >= static_cast<int>(kDifferenced)) {
     std::array<double, kDifferenced> times{};
     std::array<double, kDifferenced> positions{};
     for (std::size_t i = 0; i < kDifferenced; ++i) {
-      const Entry& other = entry(static_cast<int>(i));
-      times[i] = secondsBetween(entry(0).stamp, other.stamp);
-      positions[i] = moved(entry(0), other);
+      const Entry& other = entry(age + static_cast<int>(i));
+      times[i] = secondsBetween(entry(age).stamp, other.stamp);
+      positions[i] = moved(entry(age), other);
     }
     noise_.takeDifference(times, positions);
   }
@@ -320,7 +409,7 @@ Eigen::Vector3d CoordinateTrack::evaluate(std::int64_t instant, Eigen::Matrix3d*
       adjoint = StreamAdjoint<kOrder>();
     } else {
       if (later.has_velocity) adjoint.backOver(1, later.velocity, with_covariance);
-      adjoint.backOver(0, later.position, with_covariance);
+      if (later.has_position) adjoint.backOver(0, later.position, with_covariance);
       adjoint.backBy(secondsBetween(std::max(before.stamp, instant), later.stamp), with_covariance);
     }
     ++age;
@@ -347,6 +436,8 @@ StreamQuality CoordinateTrack::quality() const {
   if (quality.interval > 0)
     quality.bandwidth = 1 / (kTwoPi * timeConstant(model(), kOrder, quality.interval));
   quality.velocity_ratio = learner_.velocityRatio();
+  quality.jumps = begun_;
+  quality.left_out = left_out_;
   return quality;
 }
 
@@ -354,6 +445,7 @@ StreamQuality CoordinateTrack::quality() const {
 void CoordinateTrack::recordSettled() {
   if (stretch_ <= kSettled) return;
   const Entry& settled = entry(kSettled);
+  if (!settled.counts) return;
   learner_.record(settled.stamp, settled.q + kTwoPi * settled.turns, settled.qd, stretch_,
                   interval_);
 }

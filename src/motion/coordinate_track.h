@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "motion/far_positions.h"
 #include "motion/shown_noise.h"
 #include "motion/stream_filter.h"
 #include "motion/stream_learner.h"
@@ -46,6 +47,12 @@ class CoordinateTrack {
   double interval() const { return interval_; }
   /// Samples since the latest gap, at most the number that are kept.
   int stretch() const { return stretch_; }
+  /// From which stamp on there is nothing to evaluate yet, as it is open what the newest samples
+  /// are; the largest number: there is none.
+  std::int64_t doubtStart() const {
+    if (far_ == 0) return std::numeric_limits<std::int64_t>::max();
+    return stretch_ - far_ < kFewest ? stretch_start_ : entry(far_ - 1).stamp;
+  }
   /// First stamp of the latest stretch.
   std::int64_t stretchStart() const { return stretch_start_; }
 
@@ -78,6 +85,8 @@ class CoordinateTrack {
     double turns = 0;        // 2 pi turns + q is the unwrapped position
     double qd = 0;           // NaN: not given
     bool first = false;      // of a stretch
+    bool counts = true;      // false: what it is is open, or it stands alone and is left out
+    bool has_position = false;
     bool has_velocity = false;
     StreamUpdate<kOrder> position;
     StreamUpdate<kOrder> velocity;
@@ -94,14 +103,19 @@ class CoordinateTrack {
   int ageAt(std::int64_t instant) const;
   static double moved(const Entry& from, const Entry& to);
   void begin(Entry& entry);
-  void beginAnew();
+  void beginAnew(int samples);
+  void take(Entry& now);
+  bool newestIsFar() const;
+  void takeInDoubt();
+  FarFinding judgeNewest() const;
+  void leaveOut(int samples);
   StreamState<kOrder> startAlone() const;
   int startingCount() const;
   bool startIsStale() const;
   void restart(int samples);
   void follow(const Entry& before, Entry& entry);
   Verdict insert(std::int64_t stamp, double q, double qd);
-  void noteNoise();
+  void noteNoise(int age);
   void noteJump();
   void noteInterval();
   void adapt(Entry& now);
@@ -120,7 +134,10 @@ class CoordinateTrack {
   int stretch_ = 0;
   std::int64_t stretch_start_ = 0;
   double interval_ = std::numeric_limits<double>::infinity();
-  int jumps_ = 0;
+  int jumps_ = 0;  // to and fro
+  int far_ = 0;    // newest samples of which it is open what they are
+  int begun_ = 0;  // motions that began with a jump
+  int left_out_ = 0;
 
   ShownNoise noise_;
   StreamSurprise surprise_;

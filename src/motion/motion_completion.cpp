@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "base/nearest_name.h"
+#include "base/printable.h"
 #include "motion/recording.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/unwrap.h"
@@ -16,7 +18,9 @@ void checkShapes(const Mechanism& mechanism, const MotionTable& motion) {
   for (const std::string& name : motion.joints) {
     const auto& known = mechanism.coordinateNames();
     if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw MotionError("motion: '" + name + "' is not a generalized coordinate of the robot");
+      throw MotionError("motion: " + inQuotes(name) +
+                        " is not a generalized coordinate of the robot" +
+                        nameHelp(name, mechanism.coordinateNames()));
     }
   }
   const auto rows = static_cast<Eigen::Index>(motion.times.size());
@@ -63,8 +67,18 @@ std::vector<RecordedStream> streamsOf(const MotionTable& motion) {
   return streams;
 }
 
-/// Counts gaps, and the rows that are so near to a gap or an end that what they are estimated from
-/// lies on one side.
+bool leftOut(const RecordedStream& stream, std::size_t row) {
+  return std::binary_search(stream.left_out.begin(), stream.left_out.end(), row);
+}
+
+bool jumps(const CompletionReport& report, std::size_t row) {
+  return std::any_of(report.jumps.begin(), report.jumps.end(), [row](const auto& rows) {
+    return std::binary_search(rows.begin(), rows.end(), row);
+  });
+}
+
+/// Counts gaps, and the rows that are so near to a gap, a jump or an end that what they are
+/// estimated from lies on one side.
 void countOneSided(const Recording& recording, CompletionReport& report) {
   // Most of the weight of a smoother lies within three time constants.
   constexpr double kReach = 3 / 6.283185307179586;
@@ -75,7 +89,7 @@ void countOneSided(const Recording& recording, CompletionReport& report) {
   std::size_t first = 0;
   for (std::size_t row = 1; row <= times.size(); ++row) {
     const bool gap = row < times.size() && times[row] - times[row - 1] > recording.longestGap();
-    if (row < times.size() && !gap) continue;
+    if (row < times.size() && !gap && !jumps(report, row)) continue;
     report.gaps += gap ? 1 : 0;
     for (std::size_t i = first; i < row; ++i)
       if (times[i] < times[first] + reach || times[i] > times[row - 1] - reach) ++report.one_sided;
@@ -115,7 +129,8 @@ MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion,
       motion.velocities(at, column) = sample.motion[1];
       if (settings.covariances) motion.covariances[row * joints + joint] = sample.covariance;
       if (given) return;
-      if (!settings.keep_positions) motion.positions(at, column) = sample.motion[0];
+      if (!settings.keep_positions || leftOut(recording.stream(joint), row))
+        motion.positions(at, column) = sample.motion[0];
       motion.accelerations(at, column) = sample.motion[2];
     };
     recording.smooth(joint, settings.covariances, take);
@@ -126,7 +141,10 @@ MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion,
     report->even_clock = recording.evenClock();
     for (std::size_t joint = 0; joint < joints; ++joint) {
       report->qualities.push_back(recording.quality(joint));
-      report->still.push_back(recording.still(joint));
+      const RecordedStream& stream = recording.stream(joint);
+      report->still.push_back(stream.still);
+      report->jumps.push_back(stream.jumps);
+      report->left_out.push_back(stream.left_out);
     }
     countOneSided(recording, *report);
   }

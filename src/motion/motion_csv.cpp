@@ -7,7 +7,9 @@
 #include <string_view>
 #include <utility>
 
+#include "base/nearest_name.h"
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "base/text_file.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -16,7 +18,10 @@ namespace {
 
 constexpr char kTime[] = "time";
 constexpr std::array<const char*, 3> kKinds{"position", "velocity", "acceleration"};
-constexpr std::size_t kLongestQuote = 40;
+// Columns that recordings and results have besides, and that no motion is read from.
+constexpr std::array<const char*, 7> kIgnored{"effort",    "reaction", "determined", "deviation",
+                                              "tolerance", "residual", "certificate"};
+constexpr char kKnownColumns[] = "time, position.<joint>, velocity.<joint>, acceleration.<joint>";
 
 bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == '\r';
@@ -28,13 +33,37 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-// Quotes text from the file in a message of one line: cut short, without control characters.
-std::string quoted(std::string_view text) {
-  std::string result = "'";
-  for (const char c : text.substr(0, kLongestQuote)) {
-    result += static_cast<unsigned char>(c) < ' ' || c == '\x7f' ? '?' : c;
+template <std::size_t size>
+bool isOneOf(const std::array<const char*, size>& words, std::string_view word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+// Whether a column is named after one of these kinds and a joint: "position.hinge".
+template <std::size_t size>
+bool isOf(const std::array<const char*, size>& kinds, std::string_view column) {
+  const std::size_t point = column.find('.');
+  return point != std::string_view::npos && point + 1 < column.size() &&
+         isOneOf(kinds, column.substr(0, point));
+}
+
+// What could be meant by a column of an unknown kind.
+std::string columnHelp(std::string_view column) {
+  if (column.find(';') != std::string_view::npos) {
+    return "; cells are separated by commas, not semicolons, and numbers have a decimal point";
   }
-  return result + (text.size() > kLongestQuote ? "...'" : "'");
+  if (column.find('\t') != std::string_view::npos) return "; cells are separated by commas";
+  if (column == "%time" || column.substr(0, 6) == "field." || column == "__time" ||
+      column.substr(0, 1) == "/") {
+    return "; columns of rostopic and PlotJuggler are not read: play the bag to "
+           "inverse_dynamics_node, or rename them";
+  }
+  const std::size_t point = std::min(column.find('.'), column.size());
+  const std::vector<std::string> kinds(kKinds.begin(), kKinds.end());
+  const std::string time = nearestName(std::string(column), {kTime});
+  const std::string kind = nearestName(std::string(column.substr(0, point)), kinds);
+  if (!time.empty()) return "; did you mean 'time'?";
+  if (kind.empty() || point + 1 >= column.size()) return "";
+  return "; did you mean " + inQuotes(kind + std::string(column.substr(point))) + "?";
 }
 
 // The lines of a text that are neither blank nor comments.
@@ -77,15 +106,43 @@ class Lines {
   std::size_t number_ = 0;
 };
 
-// Calls `use(column index, cell)` for every cell of a line and returns their number.
+// Calls `use(column index, cell)` for every cell of a line without quotes.
 template <typename Use>
-std::size_t forEachCell(std::string_view line, Use use) {
+void forEachPlainCell(std::string_view line, Use use) {
   std::size_t count = 0;
   while (true) {
     const std::size_t comma = line.find(',');
     use(count++, trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return count;
+    if (comma == std::string_view::npos) return;
     line.remove_prefix(comma + 1);
+  }
+}
+
+// The cells of a line in which some stand in quotes (RFC 4180): a comma inside them is part of the
+// cell, and two quotes are one. Returns false when the quotes do not match.
+bool splitQuoted(std::string_view line, std::vector<std::string>& cells) {
+  cells.clear();
+  while (true) {
+    line = trimmed(line);
+    std::string cell;
+    if (line.substr(0, 1) == "\"") {
+      std::size_t at = 1;
+      for (; at < line.size() && (line[at] != '"' || line.substr(at + 1, 1) == "\""); ++at) {
+        if (line[at] == '"') ++at;
+        cell += line[at];
+      }
+      if (at >= line.size()) return false;
+      line = trimmed(line.substr(at + 1));
+      if (!line.empty() && line.front() != ',') return false;
+    } else {
+      const std::string_view plain = trimmed(line.substr(0, line.find(',')));
+      if (plain.find('"') != std::string_view::npos) return false;
+      cell = std::string(plain);
+      line.remove_prefix(std::min(line.find(','), line.size()));
+    }
+    cells.push_back(std::move(cell));
+    if (line.empty()) return true;
+    line.remove_prefix(1);
   }
 }
 
@@ -115,7 +172,9 @@ class CsvReader {
     if (unused != nullptr) {
       unused->clear();
       for (std::size_t column = 0; column < header_.size(); ++column) {
-        if (target_of_column_[column] < 0) unused->push_back(header_[column]);
+        if (target_of_column_[column] < 0 && !header_[column].empty()) {
+          unused->push_back(header_[column]);
+        }
       }
     }
     std::vector<std::size_t> numbers;
@@ -138,12 +197,16 @@ class CsvReader {
                                                     : ": no header, only comments or blank lines"));
     }
     header_line_ = lines_.number();
-    forEachCell(lines_.text(), [this](std::size_t column, std::string_view cell) {
+    ends_with_comma_ = lines_.text().size() > 1 && lines_.text().back() == ',';
+    const std::string_view line =
+        lines_.text().substr(0, lines_.text().size() - (ends_with_comma_ ? 1 : 0));
+    forEachCell(line, [this](std::size_t column, std::string_view cell) {
       std::string column_name(cell);
-      checkKind(column, column_name);
+      // The numbers of rows that other programs write have no name.
+      if (column > 0 || !column_name.empty()) checkKind(column, column_name);
       const auto inserted = column_of_name_.emplace(column_name, column);
       if (!inserted.second) {
-        throw FileError(atCell(header_line_, column) + ": " + quoted(cell) +
+        throw FileError(atCell(header_line_, column) + ": " + inQuotes(cell) +
                         " already stands in column " + std::to_string(inserted.first->second + 1));
       }
       header_.push_back(std::move(column_name));
@@ -151,14 +214,9 @@ class CsvReader {
   }
 
   void checkKind(std::size_t column, const std::string& column_name) const {
-    if (column_name == kTime) return;
-    const std::size_t point = column_name.find('.');
-    const std::string kind = column_name.substr(0, point);
-    const bool known = std::find(kKinds.begin(), kKinds.end(), kind) != kKinds.end();
-    if (known && point != std::string::npos && point + 1 < column_name.size()) return;
-    throw FileError(
-        atCell(header_line_, column) + ": " + quoted(column_name) +
-        " is not one of time, position.<joint>, velocity.<joint>, acceleration.<joint>");
+    if (column_name == kTime || isOf(kKinds, column_name) || isOf(kIgnored, column_name)) return;
+    throw FileError(atCell(header_line_, column) + ": " + inQuotes(column_name) +
+                    " is not one of " + kKnownColumns + columnHelp(column_name));
   }
 
   std::vector<std::string> jointsWithPositions() const {
@@ -196,9 +254,52 @@ class CsvReader {
   void assign(const std::string& column_name, int target, const char* why = "") {
     const auto found = column_of_name_.find(column_name);
     if (found == column_of_name_.end()) {
-      throw FileError(atHeader() + ": column '" + column_name + "' is missing" + why);
+      throw FileError(atHeader() + ": column " + inQuotes(column_name) + " is missing" +
+                      (*why ? why : missingHelp(column_name)));
     }
     target_of_column_[found->second] = target;
+  }
+
+  // What may stand in the place of a missing column: one of the same kind that is not wanted.
+  std::string missingHelp(const std::string& column_name) const {
+    const std::string kind = column_name.substr(0, column_name.find('.') + 1);
+    std::vector<std::string> columns, names;
+    for (const std::string& other : header_) {
+      if (other.empty() || other == kTime || other.compare(0, kind.size(), kind) != 0) continue;
+      const std::string name = other.substr(kind.size());
+      const auto& wanted = table_.joints;
+      if (std::find(wanted.begin(), wanted.end(), name) != wanted.end()) continue;
+      columns.push_back(other);
+      names.push_back(name);
+    }
+    const std::string nearest = nearestName(column_name.substr(kind.size()), names);
+    if (!nearest.empty()) return "; is it " + inQuotes(kind + nearest) + "?";
+    return columns.empty() || kind.empty() ? "" : "; there are " + namesInQuotes(columns);
+  }
+
+  // Calls `use(column index, cell)` for every cell of a line.
+  template <typename Use>
+  void forEachCell(std::string_view line, Use use) {
+    if (line.find('"') == std::string_view::npos) return forEachPlainCell(line, use);
+    if (!splitQuoted(line, cells_)) {
+      throw FileError(atLine(lines_.number()) + ": its quotes do not match");
+    }
+    for (std::size_t column = 0; column < cells_.size(); ++column) use(column, cells_[column]);
+  }
+
+  // Counts the cells of a row first: behind a missing cell, its numbers are in wrong columns.
+  void checkCount(std::string_view line) {
+    std::size_t cells = static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
+    if (line.find('"') != std::string_view::npos) {
+      cells = 0;
+      forEachCell(line, [&](std::size_t, std::string_view) { ++cells; });
+    }
+    if (cells == header_.size()) return;
+    throw FileError(atLine(lines_.number()) + ": " + std::to_string(header_.size()) +
+                    " cells expected as in the header, " + std::to_string(cells) + " found" +
+                    (line.find(';') != std::string_view::npos
+                         ? "; cells are separated by commas, not semicolons"
+                         : ""));
   }
 
   std::vector<double> readRows(std::vector<std::size_t>& line_numbers) {
@@ -213,14 +314,10 @@ class CsvReader {
         double& value = values[row_start + static_cast<std::size_t>(target_of_column_[column])];
         if (!parseNumber(number, value)) throwNoNumber(column, cell);
       };
-      // Cells are counted first: behind a missing cell, the numbers of a row are in wrong columns.
-      const auto commas = std::count(lines_.text().begin(), lines_.text().end(), ',');
-      const std::size_t cells = static_cast<std::size_t>(commas) + 1;
-      if (cells != header_.size()) {
-        throw FileError(atLine(lines_.number()) + ": " + std::to_string(header_.size()) +
-                        " cells expected as in the header, " + std::to_string(cells) + " found");
-      }
-      forEachCell(lines_.text(), readCell);
+      std::string_view line = lines_.text();
+      if (ends_with_comma_ && line.back() == ',') line.remove_suffix(1);
+      checkCount(line);
+      forEachCell(line, readCell);
       line_numbers.push_back(lines_.number());
     }
     if (values.empty()) throw FileError(name_ + ": no rows after the header");
@@ -230,7 +327,7 @@ class CsvReader {
   [[noreturn]] void throwNoNumber(std::size_t column, std::string_view cell) const {
     throw FileError(
         atCell(lines_.number(), column) + " (" + header_[column] +
-        "): " + (cell.empty() ? "the cell is empty" : quoted(cell) + " is not a finite number"));
+        "): " + (cell.empty() ? "the cell is empty" : inQuotes(cell) + " is not a finite number"));
   }
 
   void fillTable(const std::vector<double>& values) {
@@ -256,6 +353,8 @@ class CsvReader {
   Lines lines_;
   const std::string& name_;
   std::size_t header_line_ = 0;
+  bool ends_with_comma_ = false;    // the header, and so its rows may
+  std::vector<std::string> cells_;  // of a line with quotes
   std::vector<std::string> header_;
   std::map<std::string, std::size_t> column_of_name_;
   std::vector<int> target_of_column_;

@@ -77,6 +77,7 @@ struct MotionEstimator::Impl {
   void chooseLead(int index);
   bool settled(const Coordinate& coordinate) const;
   bool nextInstant(std::int64_t& instant) const;
+  bool inDoubt(std::int64_t instant) const;
   void checkSizes(const Motion& motion, const MotionCovariance* covariance) const;
   Eigen::Vector3d motionOf(Coordinate& coordinate, std::int64_t instant,
                            Eigen::Matrix3d* covariance);
@@ -160,7 +161,16 @@ bool MotionEstimator::Impl::nextInstant(std::int64_t& instant) const {
   }
   const CoordinateTrack& track = coordinates[static_cast<std::size_t>(lead)].track;
   if (settings.estimate && track.stretch() < CoordinateTrack::kFewest) return false;
-  return track.nextInstant(after, lag, instant);
+  return track.nextInstant(after, lag, instant) && !inDoubt(instant);
+}
+
+/// Whether samples that are about to come will tell what a joint does at an instant.
+bool MotionEstimator::Impl::inDoubt(std::int64_t instant) const {
+  return std::any_of(coordinates.begin(), coordinates.end(), [&](const Coordinate& coordinate) {
+    const CoordinateTrack& track = coordinate.track;
+    return coordinate.needed && track.doubtStart() <= instant &&
+           newest - track.newest() <= hold_after;
+  });
 }
 
 Eigen::Vector3d MotionEstimator::Impl::motionOf(Coordinate& coordinate, std::int64_t instant,

@@ -1,7 +1,9 @@
 #include "motion/recording.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -37,6 +39,25 @@ std::vector<StreamBlock> spread(std::vector<StreamBlock> blocks) {
   return chosen;
 }
 
+/// Standard deviation of most positions, rad or m: what a few of them do has no effect.
+double usualDeviation(const std::vector<double>& times, const std::vector<double>& positions) {
+  constexpr double kMedianOfNormal = 0.6745;  // of its absolute values, in deviations
+  std::vector<double> differences;
+  for (std::size_t first = 0; first + kDifferenced <= times.size(); ++first) {
+    std::array<double, kDifferenced> t{};
+    std::array<double, kDifferenced> q{};
+    for (std::size_t i = 0; i < kDifferenced; ++i) {
+      t[i] = times[first + i] - times[first];
+      q[i] = positions[first + i] - positions[first];
+    }
+    differences.push_back(std::abs(noiseDifference(t, q)));
+  }
+  if (differences.empty()) return 0;
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  return *middle / kMedianOfNormal;
+}
+
 }  // namespace
 
 Recording::Recording(std::vector<double> times, std::vector<RecordedStream> streams,
@@ -57,6 +78,7 @@ std::vector<StreamBlock> Recording::samples(const RecordedStream& stream,
     samples[row] = {times[row], stream.positions[row],
                     stream.velocities.empty() ? std::numeric_limits<double>::quiet_NaN()
                                               : stream.velocities[row]};
+  for (const std::size_t row : stream.jumps) samples[row].begins = true;
   return samples;
 }
 
@@ -73,6 +95,7 @@ void Recording::prepare(RecordedStream& stream) const {
   if (settings_.noise.bandwidth > 0)
     knowledge.time_constant = 1 / (kTwoPi * settings_.noise.bandwidth);
   knowledge.longest_gap = longest_gap_;
+  findFarPositions(stream);
   knowledge.use_velocities = settings_.noise.use_velocity && !stream.velocities.empty();
   if (!knowledge.use_velocities) return;
   const VelocityJudgement judgement =
@@ -80,6 +103,70 @@ void Recording::prepare(RecordedStream& stream) const {
   if (judgement.agree) return;
   stream.velocity_ratio = judgement.ratio;
   knowledge.use_velocities = false;
+}
+
+/// Finds jumps, and positions that stand alone. The latter are replaced by what their neighbours
+/// say.
+void Recording::findFarPositions(RecordedStream& stream) const {
+  const std::vector<double>& q = stream.positions;
+  const double noise = usualDeviation(times_, q);
+  std::size_t begin = 0;  // of the motion
+  for (std::size_t row = 1; row < q.size(); ++row) {
+    const double time = times_[row] - times_[row - 1];
+    if (time > longest_gap_) begin = row;
+    if (begin == row) continue;
+    double step = q[row] - q[row - 1];
+    if (row > begin + 1)
+      step -= (q[row - 1] - q[row - 2]) * time / (times_[row - 1] - times_[row - 2]);
+    if (!isFar(step, time, interval_, stream.knowledge.least_position, noise)) continue;
+    const FarFinding finding = judge(stream, begin, row);
+    if (finding.verdict == FarVerdict::kJump) {
+      stream.jumps.push_back(row);
+      begin = row;
+    } else if (finding.verdict == FarVerdict::kAlone) {
+      leaveOut(stream, begin, row, finding.alone);
+      row += static_cast<std::size_t>(finding.alone);
+    }
+  }
+}
+
+/// Judges a far position by as few rows after it as it takes, as MotionEstimator does.
+FarFinding Recording::judge(const RecordedStream& stream, std::size_t begin,
+                            std::size_t row) const {
+  const std::size_t oldest = std::max(begin, row - std::min<std::size_t>(row, kBeforeFar));
+  const int before = static_cast<int>(row - oldest);
+  FarFinding finding;
+  for (int far = 1; far <= kMostFar && finding.verdict == FarVerdict::kOpen; ++far) {
+    const std::size_t newest = row + static_cast<std::size_t>(far) - 1;
+    if (newest >= times_.size() ||
+        (newest > row && times_[newest] - times_[newest - 1] > longest_gap_))
+      break;
+    finding = judgeFar(&times_[oldest], &stream.positions[oldest], before, before + far, interval_);
+  }
+  return finding;
+}
+
+/// Replaces `count` positions from a row on by the cubic through those beside them.
+void Recording::leaveOut(RecordedStream& stream, std::size_t begin, std::size_t row,
+                         int count) const {
+  const std::size_t after = row + static_cast<std::size_t>(count);
+  std::vector<std::size_t> beside{row - 1, after};
+  if (row >= begin + 2) beside.push_back(row - 2);
+  if (after + 1 < times_.size() && times_[after + 1] - times_[after] <= longest_gap_)
+    beside.push_back(after + 1);
+  for (std::size_t alone = row; alone < after; ++alone) {
+    double position = 0;
+    for (const std::size_t i : beside) {
+      double weight = 1;
+      for (const std::size_t k : beside)
+        if (k != i) weight *= (times_[alone] - times_[k]) / (times_[i] - times_[k]);
+      position += weight * (stream.positions[i] - stream.positions[row - 1]);
+    }
+    stream.left_out.push_back(alone);
+    stream.positions[alone] = stream.positions[row - 1] + position;
+    if (!stream.velocities.empty())
+      stream.velocities[alone] = std::numeric_limits<double>::quiet_NaN();
+  }
 }
 
 void Recording::identify() {
@@ -166,6 +253,8 @@ StreamQuality Recording::quality(std::size_t stream) const {
   quality.stamp_noise = std::sqrt(model.stamp_variance);
   quality.bandwidth = 1 / (kTwoPi * timeConstant(model, chosen.knowledge.order, interval_));
   quality.velocity_ratio = chosen.velocity_ratio;
+  quality.jumps = static_cast<int>(chosen.jumps.size());
+  quality.left_out = static_cast<int>(chosen.left_out.size());
   return quality;
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "motion/far_positions.h"
 #include "motion/stream_identification.h"
 #include "motion/stream_smoother.h"
 #include "virtual_work_dynamics/motion_completion.h"
@@ -12,10 +13,12 @@ namespace virtual_work_dynamics {
 
 /// One coordinate of a recording: its samples, and the model that was found for them.
 struct RecordedStream {
-  std::vector<double> positions;   ///< unwrapped, rad or m
-  std::vector<double> velocities;  ///< rad/s or m/s; empty: not given
-  bool still = false;              ///< whether all positions are the same
-  double velocity_ratio = 1;       ///< not 1: velocities contradict the positions
+  std::vector<double> positions;      ///< unwrapped, rad or m
+  std::vector<double> velocities;     ///< rad/s or m/s; empty: not given
+  bool still = false;                 ///< whether all positions are the same
+  double velocity_ratio = 1;          ///< not 1: velocities contradict the positions
+  std::vector<std::size_t> jumps;     ///< rows at which another motion begins
+  std::vector<std::size_t> left_out;  ///< rows whose positions stand alone, far from the others
   StreamKnowledge knowledge;
   StreamModel model;
 };
@@ -37,12 +40,15 @@ class Recording {
   double longestGap() const { return longest_gap_; }
   const std::vector<double>& times() const { return times_; }
   StreamQuality quality(std::size_t stream) const;
-  bool still(std::size_t stream) const { return streams_[stream].still; }
+  const RecordedStream& stream(std::size_t stream) const { return streams_[stream]; }
 
  private:
   std::vector<StreamBlock> samples(const RecordedStream& stream,
                                    const std::vector<double>& times) const;
   void prepare(RecordedStream& stream) const;
+  void findFarPositions(RecordedStream& stream) const;
+  FarFinding judge(const RecordedStream& stream, std::size_t begin, std::size_t row) const;
+  void leaveOut(RecordedStream& stream, std::size_t begin, std::size_t row, int count) const;
   double identify(RecordedStream& stream, const std::vector<double>& times, bool even) const;
   void chooseClock();
   void chooseOrder(RecordedStream& stream) const;

@@ -36,16 +36,27 @@ std::vector<StreamBlock> averaged(const std::vector<StreamBlock>& samples, int s
   const auto count = static_cast<std::size_t>(size);
   std::vector<StreamBlock> blocks;
   blocks.reserve(samples.size() / count);
-  for (std::size_t first = 0; first + count <= samples.size(); first += count) {
+  bool begins = false;
+  std::size_t first = 0;
+  while (first + count <= samples.size()) {
+    begins = begins || samples[first].begins;
+    std::size_t next = first + 1;
+    while (next < first + count && !samples[next].begins) ++next;
+    if (next < first + count) {
+      first = next;  // no block goes across the beginning of another motion
+      continue;
+    }
     // Means of differences from the first sample keep the digits of far positions.
     StreamBlock sum{0, 0, 0};
-    for (std::size_t i = first; i < first + count; ++i) {
+    for (std::size_t i = first; i < next; ++i) {
       sum.time += samples[i].time - samples[first].time;
       sum.position += samples[i].position - samples[first].position;
       sum.velocity += samples[i].velocity;
     }
     blocks.push_back({samples[first].time + sum.time / size,
-                      samples[first].position + sum.position / size, sum.velocity / size});
+                      samples[first].position + sum.position / size, sum.velocity / size, begins});
+    begins = false;
+    first = next;
   }
   return blocks;
 }

@@ -17,7 +17,8 @@ inline double secondsBetween(std::int64_t from, std::int64_t to) {
 /// Number of samples in blocks that are about `block_time` long, s; at least one.
 int blockSize(double block_time, double interval);
 
-/// Means of `size` samples after the other; what is left at the end is left out.
+/// Means of `size` samples after the other; what is left at the end, and before a sample that
+/// begins a motion, is left out.
 std::vector<StreamBlock> averaged(const std::vector<StreamBlock>& samples, int size);
 
 /// Finds the step that positions are rounded to, if they are: the greatest common divisor of their

@@ -2,6 +2,7 @@ vwd_core(
   block_record.cpp
   coordinate_track.cpp
   end_slopes.cpp
+  far_positions.cpp
   motion_completion.cpp
   motion_csv.cpp
   motion_estimator.cpp

@@ -185,8 +185,7 @@ void StreamIdentification::beginCandidate() {
 template <int N>
 double StreamIdentification::stepOf(StreamState<N>& state) {
   const StreamBlock& block = blocks_[next_];
-  const double dt = next_ > 0 ? block.time - blocks_[next_ - 1].time : 0;
-  if (next_ == 0 || dt > knowledge_.longest_gap) {
+  if (begins(next_)) {
     state = firstState<N>(candidate_model_, interval_, startingBlocks(), [this](int i) {
       const StreamBlock& first = blocks_[next_];
       const StreamBlock& other = blocks_[next_ + static_cast<std::size_t>(i)];
@@ -195,7 +194,7 @@ double StreamIdentification::stepOf(StreamState<N>& state) {
     since_start_ = 0;
     return 0;
   }
-  predict<N>(dt, candidate_model_.density, state);
+  predict<N>(block.time - blocks_[next_ - 1].time, candidate_model_.density, state);
   // Positions count from the latest block, so that far turns cost no digits.
   const double moved = block.position - blocks_[next_ - 1].position;
   state.x[0] -= moved;
@@ -208,13 +207,18 @@ double StreamIdentification::stepOf(StreamState<N>& state) {
   return ++since_start_ < kUnjudged ? 0 : value;
 }
 
+/// Whether a block is the first one, or the first after a gap or a jump.
+bool StreamIdentification::begins(std::size_t block) const {
+  return block == 0 || blocks_[block].begins ||
+         blocks_[block].time - blocks_[block - 1].time > knowledge_.longest_gap;
+}
+
 /// Blocks from the next one on, without a gap, that the filter is started from.
 int StreamIdentification::startingBlocks() const {
   const int most = startingSamples(candidate_model_, knowledge_.order, interval_);
   int count = 1;
   std::size_t at = next_ + 1;
-  while (count < most && at < blocks_.size() &&
-         blocks_[at].time - blocks_[at - 1].time <= knowledge_.longest_gap) {
+  while (count < most && at < blocks_.size() && !begins(at)) {
     ++count;
     ++at;
   }

@@ -15,6 +15,8 @@ struct StreamBlock {
   double time;      ///< s
   double position;  ///< rad or m
   double velocity;  ///< rad/s or m/s; NaN: none
+  /// Whether nothing is assumed of the motion from the block before to this one.
+  bool begins = false;
 };
 
 /// What of a model is known beforehand. Negative: to be found.
@@ -70,6 +72,7 @@ class StreamIdentification {
   double longestTime() const;
   void beginCandidate();
   int startingBlocks() const;
+  bool begins(std::size_t block) const;
   double step();
   template <int N>
   double stepOf(StreamState<N>& state);

@@ -31,7 +31,7 @@ constexpr double kBoost = 10;
 
 /// Steps of the identification for each second that samples are apart: a part of the time that
 /// depends neither on the rate nor on what is found.
-constexpr double kStepsPerSecond = 40000;
+constexpr double kStepsPerSecond = 80000;
 constexpr double kMostSteps = 800;
 /// A joint moves when it moves by so many deviations of its positions.
 constexpr double kMovingSteps = 30;

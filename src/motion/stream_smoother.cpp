@@ -148,7 +148,9 @@ void smoothOfOrder(const std::vector<StreamBlock>& samples, const StreamModel& m
   };
   std::size_t first = 0;
   for (std::size_t row = 1; row <= samples.size(); ++row) {
-    if (row < samples.size() && samples[row].time - samples[row - 1].time <= longest_gap) continue;
+    if (row < samples.size() && !samples[row].begins &&
+        samples[row].time - samples[row - 1].time <= longest_gap)
+      continue;
     if (std::isinf(lag)) {
       smoother.smooth(first, row, takeWhole);
     } else {

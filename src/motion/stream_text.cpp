@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/printable.h"
+
 namespace virtual_work_dynamics {
 namespace {
 
@@ -28,11 +30,14 @@ std::string streamText(const StreamQuality& quality, const std::string& unit) {
     text += ", velocity noise " + brief(quality.velocity_noise) + " " + unit + "/s";
   if (quality.stamp_noise > 0.01 * quality.interval)
     text += ", stamp noise " + brief(quality.stamp_noise) + " s";
-  return text + ", bandwidth " + frequency(quality.bandwidth);
+  text += ", bandwidth " + frequency(quality.bandwidth);
+  if (quality.jumps > 0) text += ", jumps " + std::to_string(quality.jumps);
+  if (quality.left_out > 0) text += ", left out " + std::to_string(quality.left_out);
+  return text;
 }
 
 std::string velocityProblem(const std::string& joint, double ratio) {
-  const std::string begin = "velocities of '" + joint + "' are not used: they ";
+  const std::string begin = "velocities of " + inQuotes(joint) + " are not used: they ";
   if (std::abs(ratio) < 0.02) return begin + "stay at zero while its position moves";
   if (std::abs(ratio - 57.29578) < 3)
     return begin + "are 57 times the slope of its positions: degrees per second?";

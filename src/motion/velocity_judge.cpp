@@ -31,7 +31,7 @@ VelocityJudgement judgeVelocities(const std::vector<StreamBlock>& blocks, double
     double integral = 0;
     for (std::size_t i = first + 1; i <= first + span; ++i) {
       const double dt = blocks[i].time - blocks[i - 1].time;
-      const bool gap = dt > kLongestStep * interval;
+      const bool gap = dt > kLongestStep * interval || blocks[i].begins;
       integral += gap ? std::nan("") : 0.5 * dt * (blocks[i].velocity + blocks[i - 1].velocity);
     }
     if (std::isnan(integral)) continue;

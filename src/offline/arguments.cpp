@@ -7,7 +7,9 @@
 #include <set>
 #include <sstream>
 
+#include "base/nearest_name.h"
 #include "base/number_text.h"
+#include "base/printable.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -111,21 +113,21 @@ Eigen::Vector3d parseGravity(const std::string& text) {
   while (stream >> number) {
     double value = 0;
     if (!parseNumber(number, value)) {
-      throw UsageError("--gravity: '" + number + "' is not a finite number");
+      throw UsageError("--gravity: " + inQuotes(number) + " is not a finite number");
     }
     if (count < 3) gravity[count] = value;
     ++count;
   }
   if (count != 3) {
-    throw UsageError("--gravity: '" + text +
-                     "' is not three numbers, as in --gravity \"0 0 -9.81\"");
+    throw UsageError("--gravity: " + inQuotes(text) +
+                     " is not three numbers, as in --gravity \"0 0 -9.81\"");
   }
   return gravity;
 }
 
 bool parseChildAxes(const std::string& text) {
   if (text != "root" && text != "child") {
-    throw UsageError("--axes: '" + text + "' is neither root nor child");
+    throw UsageError("--axes: " + inQuotes(text) + " is neither root nor child");
   }
   return text == "child";
 }
@@ -140,14 +142,14 @@ void parseReactions(const std::string& text, Arguments& arguments) {
     arguments.reaction_names = split(text, ',');
     const auto& names = arguments.reaction_names;
     if (std::find(names.begin(), names.end(), "") != names.end()) {
-      throw UsageError("--reactions: there is an empty name in '" + text + "'");
+      throw UsageError("--reactions: there is an empty name in " + inQuotes(text));
     }
   }
 }
 
 Method parseMethod(const std::string& text) {
   if (text != "virtual_work" && text != "lagrange") {
-    throw UsageError("--method: '" + text + "' is neither virtual_work nor lagrange");
+    throw UsageError("--method: " + inQuotes(text) + " is neither virtual_work nor lagrange");
   }
   return text == "lagrange" ? Method::kLagrange : Method::kVirtualWork;
 }
@@ -156,7 +158,7 @@ int parseThreads(const std::string& text) {
   constexpr double kMost = 1024;
   double value = 0;
   if (!parseNumber(text, value) || value != std::floor(value) || value < 1 || value > kMost) {
-    throw UsageError("--threads: '" + text + "' is not a whole number from 1 to 1024");
+    throw UsageError("--threads: " + inQuotes(text) + " is not a whole number from 1 to 1024");
   }
   return static_cast<int>(value);
 }
@@ -164,7 +166,7 @@ int parseThreads(const std::string& text) {
 double parsePositive(const std::string& option, const std::string& text) {
   double value = 0;
   if (!parseNumber(text, value) || value <= 0) {
-    throw UsageError(option + ": '" + text + "' is not a positive number");
+    throw UsageError(option + ": " + inQuotes(text) + " is not a positive number");
   }
   return value;
 }
@@ -172,7 +174,7 @@ double parsePositive(const std::string& option, const std::string& text) {
 double parseNotNegative(const std::string& option, const std::string& text) {
   double value = 0;
   if (!parseNumber(text, value) || value < 0) {
-    throw UsageError(option + ": '" + text + "' is not a number from 0 on");
+    throw UsageError(option + ": " + inQuotes(text) + " is not a number from 0 on");
   }
   return value;
 }
@@ -183,7 +185,7 @@ void parseRest(const std::string& text, Arguments& arguments) {
     double position = 0;
     if (equals == std::string::npos || equals == 0 ||
         !parseNumber(piece.substr(equals + 1), position)) {
-      throw UsageError("--rest: '" + piece + "' is not JOINT=POSITION");
+      throw UsageError("--rest: " + inQuotes(piece) + " is not JOINT=POSITION");
     }
     arguments.recording.rest.emplace_back(piece.substr(0, equals), position);
   }
@@ -260,6 +262,14 @@ const std::map<std::string, bool Arguments::*>& switches() {
   return options;
 }
 
+std::string optionHelp(const std::string& option) {
+  std::vector<std::string> known;
+  for (const auto& entry : optionsWithValue()) known.push_back(entry.first);
+  for (const auto& entry : switches()) known.push_back(entry.first);
+  const std::string nearest = nearestName(option, known);
+  return nearest.empty() ? "" : "; did you mean " + nearest + "?";
+}
+
 // Goes through the words of a command line.
 class Parser {
  public:
@@ -279,8 +289,8 @@ class Parser {
     const auto with_value = optionsWithValue().find(option);
     const auto without_value = switches().find(option);
     if (with_value == optionsWithValue().end() && without_value == switches().end()) {
-      throw UsageError(word.compare(0, 1, "-") == 0 ? "unknown option '" + option + "'"
-                                                    : "unexpected argument '" + word + "'");
+      if (word.compare(0, 1, "-") != 0) throw UsageError("unexpected argument " + inQuotes(word));
+      throw UsageError("unknown option " + inQuotes(option) + optionHelp(option));
     }
     if (!seen_.insert(option).second) throw UsageError(option + " is given twice");
     if (without_value != switches().end()) {

@@ -6,6 +6,8 @@
 #include <iomanip>
 #include <sstream>
 
+#include "base/printable.h"
+
 namespace virtual_work_dynamics {
 namespace {
 
@@ -47,7 +49,7 @@ void printMimicJoints(std::ostream& out, const Mechanism& mechanism) {
     if (!joint.mimics) continue;
     const std::string& master = mechanism.jointOf(joint.coordinate).name;
     std::ostringstream rule;
-    rule << joint.name << " = " << joint.multiplier << " " << master;
+    rule << shortened(joint.name) << " = " << joint.multiplier << " " << shortened(master);
     if (joint.offset != 0) rule << (joint.offset < 0 ? " - " : " + ") << std::abs(joint.offset);
     rules.push_back(rule.str());
   }
@@ -58,11 +60,11 @@ void printCoordinates(std::ostream& out, const Mechanism& mechanism) {
   label(out, "coordinates") << mechanism.coordinates().size() << "\n";
   std::size_t longest = 0;
   for (const std::string& name : mechanism.coordinateNames()) {
-    longest = std::max(longest, name.size());
+    longest = std::max(longest, shortened(name).size());
   }
   for (const int index : mechanism.coordinates()) {
     const Joint& joint = mechanism.joint(index);
-    out << "  " << std::left << std::setw(static_cast<int>(longest) + 2) << joint.name
+    out << "  " << std::left << std::setw(static_cast<int>(longest) + 2) << shortened(joint.name)
         << std::setw(12) << nameOf(joint.type) << symbolOf(unitOf(joint)) << "\n";
   }
 }
@@ -71,15 +73,16 @@ void printCoordinates(std::ostream& out, const Mechanism& mechanism) {
 
 void printNames(std::ostream& out, const std::string& name, const std::vector<std::string>& names) {
   label(out, name);
-  for (std::size_t i = 0; i < names.size(); ++i) out << (i > 0 ? ", " : "") << names[i];
+  for (std::size_t i = 0; i < names.size(); ++i) out << (i > 0 ? ", " : "") << printable(names[i]);
   out << (names.empty() ? "none" : "") << "\n";
 }
 
 void printMechanism(std::ostream& out, const Mechanism& mechanism) {
   long double mass = 0;
   for (const Link& link : mechanism.links()) mass += link.mass;
-  label(out, "robot") << mechanism.name() << "\n";
-  label(out, "links") << mechanism.links().size() << ", root " << mechanism.link(0).name << "\n";
+  label(out, "robot") << shortened(mechanism.name()) << "\n";
+  label(out, "links") << mechanism.links().size() << ", root " << shortened(mechanism.link(0).name)
+                      << "\n";
   label(out, "joints") << jointCounts(mechanism) << "\n";
   label(out, "total mass") << mass << " kg\n";
   printMimicJoints(out, mechanism);
@@ -87,7 +90,7 @@ void printMechanism(std::ostream& out, const Mechanism& mechanism) {
 }
 
 void printDoubts(std::ostream& out, const Mechanism& mechanism) {
-  for (const Doubt& doubt : mechanism.doubts()) out << "warning: " << doubt.text << "\n";
+  for (const Doubt& doubt : mechanism.doubts()) out << "warning: " << printable(doubt.text) << "\n";
 }
 
 }  // namespace virtual_work_dynamics

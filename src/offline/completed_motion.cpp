@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/nearest_name.h"
+#include "base/printable.h"
 #include "dynamics/given_joints.h"
 #include "dynamics/sample_rows.h"
 #include "offline/arguments.h"
@@ -35,8 +37,9 @@ bool rests(const RecordingOptions& options, const std::string& name) {
 void checkRest(const Mechanism& mechanism, const RecordingOptions& options) {
   for (const auto& [name, position] : options.rest) {
     if (contains(mechanism.coordinateNames(), name)) continue;
-    throw UsageError("--rest: robot '" + mechanism.name() + "' has no joint '" + name +
-                     "' that moves by itself");
+    throw UsageError("--rest: robot " + inQuotes(mechanism.name()) + " has no joint " +
+                     inQuotes(name) + " that moves by itself" +
+                     nameHelp(name, mechanism.coordinateNames()));
   }
 }
 
@@ -114,7 +117,7 @@ CompletedMotion::CompletedMotion(const std::string& path, const Mechanism& mecha
       passive_(mechanism, dynamics) {
   const Names wrapped = unwrapPositions(mechanism, file_.table);
   if (!wrapped.empty()) {
-    std::cerr << "note: " << path
+    std::cerr << "note: " << printable(path)
               << ": whole turns that a driver left out are added to the positions of "
               << joined(wrapped) << "\n";
   }
@@ -142,7 +145,7 @@ CompletedMotion::CompletedMotion(const std::string& path, const Mechanism& mecha
   if (velocities_follow_) follow.push_back("velocities");
   if (accelerations_follow_) follow.push_back("accelerations");
   if (!follow.empty()) {
-    std::cerr << "note: " << path
+    std::cerr << "note: " << printable(path)
               << ": of passive joints, computed from the closures: " << joined(follow) << "\n";
   }
 }
@@ -167,9 +170,9 @@ void CompletedMotion::check(std::size_t row, const Results& computed) const {
       const double relative = computed.loops.relative_residuals[i].*level.residual;
       if (relative <= tolerance_) continue;
       std::ostringstream text;
-      text << file_.at(row) << ": the " << level.name << " violate closure '" << closures_[i]
-           << "' by " << computed.loops.residuals[i].*level.residual << " " << level.unit << ", "
-           << relative << " relative; the tolerance is " << tolerance_;
+      text << file_.at(row) << ": the " << level.name << " violate closure "
+           << inQuotes(closures_[i]) << " by " << computed.loops.residuals[i].*level.residual << " "
+           << level.unit << ", " << relative << " relative; the tolerance is " << tolerance_;
       throw FileError(text.str());
     }
   }

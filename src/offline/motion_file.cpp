@@ -4,10 +4,12 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "motion/stream_text.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -22,17 +24,55 @@ constexpr double kFineTimes = 1e-6;
 constexpr double kLatestTime = 1e11;
 constexpr double kLongestSpacing = 1e4;
 
-// Lists the joints of columns, each once: "position.j", "velocity.j", "position.k" become "j, k".
-std::string jointsOfColumns(const std::vector<std::string>& columns) {
-  std::vector<std::string> joints;
-  std::string text;
+using Names = std::vector<std::string>;
+
+// Columns that are read from a file, but not used.
+struct Unused {
+  Names joints;  // that are not coordinates, each once
+  Names others;  // columns that hold no motion
+};
+
+bool isMotion(const std::string& column) {
+  const std::string kind = column.substr(0, column.find('.'));
+  return kind == "position" || kind == "velocity" || kind == "acceleration";
+}
+
+// Sorts unused columns. @throws FileError for one of a coordinate that has no position.
+Unused sorted(const std::string& path, const Names& columns, const Names& coordinates) {
+  Unused unused;
+  const std::set<std::string> known(coordinates.begin(), coordinates.end());
+  std::set<std::string> seen;
   for (const std::string& column : columns) {
     const std::string joint = column.substr(column.find('.') + 1);
-    if (std::find(joints.begin(), joints.end(), joint) != joints.end()) continue;
-    text += (joints.empty() ? "" : ", ") + joint;
-    joints.push_back(joint);
+    if (!isMotion(column)) {
+      unused.others.push_back(column);
+    } else if (known.count(joint) > 0) {
+      throw FileError(path + ": column " + inQuotes(column) + " without " +
+                      inQuotes("position." + joint));
+    } else if (seen.insert(joint).second) {
+      unused.joints.push_back(joint);
+    }
   }
-  return text;
+  return unused;
+}
+
+void noteUnused(const std::string& path, const Unused& unused, const Names& coordinates) {
+  if (!unused.joints.empty()) {
+    std::cerr << "note: " << printable(path)
+              << ": ignored, not coordinates of the robot: " << namesInQuotes(unused.joints)
+              << "; they are " << namesInQuotes(coordinates) << "\n";
+  }
+  if (!unused.others.empty()) {
+    std::cerr << "note: " << printable(path)
+              << ": ignored, no motion: " << namesInQuotes(unused.others) << "\n";
+  }
+}
+
+bool cannotBeSeconds(const std::vector<double>& times) {
+  if (times.size() < 2) return false;
+  const double latest = std::max(std::abs(times.front()), std::abs(times.back()));
+  const double spacing = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+  return latest > kLatestTime || spacing > kLongestSpacing;
 }
 
 void checkTimes(const MotionFile& motion) {
@@ -45,9 +85,9 @@ void checkTimes(const MotionFile& motion) {
   }
   const double latest = std::max(std::abs(times.front()), std::abs(times.back()));
   const double spacing = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
-  if (times.size() > 1 && (latest > kLatestTime || spacing > kLongestSpacing)) {
+  if (cannotBeSeconds(times)) {
     std::ostringstream text;
-    text << motion.path << ": times up to " << latest << " with " << spacing
+    text << printable(motion.path) << ": times up to " << latest << " with " << spacing
          << " from row to row cannot be seconds, and derivatives have to be estimated: are they "
             "nanoseconds? Give seconds";
     throw FileError(text.str());
@@ -55,7 +95,7 @@ void checkTimes(const MotionFile& motion) {
   const double resolution = latest * std::numeric_limits<double>::epsilon();
   if (times.size() > 1 && resolution > kFineTimes * spacing) {
     std::ostringstream text;
-    text << "warning: " << motion.path << ": times near " << latest << " s are known to "
+    text << "warning: " << printable(motion.path) << ": times near " << latest << " s are known to "
          << resolution << " s only, which spoils estimated derivatives; let them start near zero\n";
     std::cerr << text.str();
   }
@@ -71,9 +111,28 @@ void warnOfDegrees(const Mechanism& mechanism, const MotionFile& motion) {
     const double limit = std::max(std::abs(joint.lower), std::abs(joint.upper));
     const double most = table.positions.col(static_cast<Eigen::Index>(i)).cwiseAbs().maxCoeff();
     if (most <= kFar * limit) continue;
-    std::cerr << "warning: " << motion.path << ": positions of '" << table.joints[i] << "' reach "
-              << numberText(most) << ", its limit is " << numberText(limit)
-              << " rad: are they degrees?\n";
+    std::cerr << "warning: " << printable(motion.path) << ": positions of "
+              << inQuotes(table.joints[i]) << " reach " << numberText(most) << ", its limit is "
+              << numberText(limit) << " rad: are they degrees?\n";
+  }
+}
+
+// Says which positions no motion leads to.
+void warnOfFarPositions(const MotionFile& motion, const std::string& joint,
+                        const std::vector<std::size_t>& jumps,
+                        const std::vector<std::size_t>& left_out) {
+  const auto others = [](std::size_t count) {
+    return count > 1 ? " and in " + std::to_string(count - 1) + " more rows" : std::string();
+  };
+  if (!jumps.empty()) {
+    std::cerr << "warning: " << printable(motion.at(jumps[0])) << others(jumps.size())
+              << ": position of " << inQuotes(joint)
+              << " jumps as no motion does; nothing is assumed of the motion across it\n";
+  }
+  if (!left_out.empty()) {
+    std::cerr << "warning: " << printable(motion.at(left_out[0])) << others(left_out.size())
+              << ": position of " << inQuotes(joint)
+              << " is far from those before and after, and is left out\n";
   }
 }
 
@@ -84,16 +143,17 @@ void describe(const Mechanism& mechanism, const MotionFile& motion,
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const StreamQuality& quality = report.qualities[i];
     if (quality.velocity_ratio != 1) {
-      std::cerr << "warning: " << motion.path << ": "
+      std::cerr << "warning: " << printable(motion.path) << ": "
                 << velocityProblem(joints[i], quality.velocity_ratio) << "\n";
     }
     const Joint& joint = mechanism.joint(mechanism.jointIndex(joints[i]));
-    std::cerr << "note: " << motion.path << ": " << joints[i] << ": "
+    warnOfFarPositions(motion, joints[i], report.jumps[i], report.left_out[i]);
+    std::cerr << "note: " << printable(motion.path) << ": " << shortened(joints[i]) << ": "
               << (report.still[i] ? std::string("does not move")
                                   : streamText(quality, symbolOf(unitOf(joint))))
               << "\n";
   }
-  std::cerr << "note: " << motion.path << ": " << report.one_sided << " of "
+  std::cerr << "note: " << printable(motion.path) << ": " << report.one_sided << " of "
             << motion.table.times.size()
             << " rows are estimated from rows of one side, near the ends";
   if (report.gaps > 0) {
@@ -116,17 +176,8 @@ MotionFile readMotion(const std::string& path, const Mechanism& mechanism,
   motion.path = path;
   std::vector<std::string> unused;
   motion.table = readMotionCsv(path, choose, &unused, &motion.lines);
-  for (const std::string& column : unused) {
-    const std::string joint = column.substr(column.find('.') + 1);
-    const auto& known = mechanism.coordinateNames();
-    if (std::find(known.begin(), known.end(), joint) != known.end()) {
-      throw FileError(path + ": column '" + column + "' without 'position." + joint + "'");
-    }
-  }
-  if (!unused.empty()) {
-    std::cerr << "note: " << path
-              << ": ignored, not coordinates of the robot: " << jointsOfColumns(unused) << "\n";
-  }
+  const Names& coordinates = mechanism.coordinateNames();
+  noteUnused(path, sorted(path, unused, coordinates), coordinates);
   return motion;
 }
 
@@ -140,16 +191,22 @@ void completeDerivatives(const Mechanism& mechanism, const Scene& scene,
   std::string missing;
   if (!table.hasVelocities()) missing = "velocities";
   if (!table.hasAccelerations()) missing += missing.empty() ? "accelerations" : ", accelerations";
-  if (missing.empty() || table.joints.empty()) return;
-  checkTimes(motion);
   warnOfDegrees(mechanism, motion);
+  if (missing.empty() || table.joints.empty()) {
+    if (cannotBeSeconds(table.times)) {
+      std::cerr << "warning: " << printable(motion.path) << ": times up to "
+                << numberText(table.times.back()) << " cannot be seconds: are they nanoseconds?\n";
+    }
+    return;
+  }
+  checkTimes(motion);
   CompletionReport report;
   try {
     table = completeMotion(mechanism, std::move(table), settings, &report);
   } catch (const MotionError& error) {
     throw FileError(motion.path + ": " + error.what());
   }
-  std::cerr << "note: " << motion.path << ": estimated: " << missing
+  std::cerr << "note: " << printable(motion.path) << ": estimated: " << missing
             << (report.even_clock ? "; the rows are those of an even clock, its times jitter" : "")
             << "\n";
   describe(mechanism, motion, report);

@@ -36,13 +36,33 @@ Scene loadScene(const Arguments& arguments) {
   return scene;
 }
 
+// Puts before what is wrong with a scene where that stands.
+template <typename Make>
+auto naming(const std::string& where, Make make) {
+  try {
+    return make();
+  } catch (const SceneError& error) {
+    throw SceneError(where + error.what());
+  }
+}
+
+std::string prefixOf(const Arguments& arguments) {
+  return arguments.scene.empty() ? "" : arguments.scene + ": ";
+}
+
 // The request of what is written.
 Request requestOf(const Mechanism& mechanism, const Scene& scene, const Arguments& arguments) {
   Request request;
   request.efforts = !arguments.no_efforts;
   (arguments.child_axes ? request.child_axes : request.root_axes) =
-      requestedReactions(mechanism, scene);
+      naming(arguments.reactions ? "--" : prefixOf(arguments),
+             [&] { return requestedReactions(mechanism, scene); });
   return request;
+}
+
+Dynamics dynamicsOf(const Mechanism& mechanism, const Scene& scene, const Request& request,
+                    const Arguments& arguments) {
+  return naming(prefixOf(arguments), [&] { return Dynamics(mechanism, scene, request); });
 }
 
 // The request of what is computed: certificates need results of their own, after the others.
@@ -125,7 +145,8 @@ void check(const Arguments& arguments, const Mechanism& mechanism) {
   std::cout << std::flush;
   const Scene scene = loadScene(arguments);
   refuseByLoops(arguments, needsClosedLoops(scene));
-  const Dynamics dynamics(mechanism, scene, requestOf(mechanism, scene, arguments));
+  const Dynamics dynamics =
+      dynamicsOf(mechanism, scene, requestOf(mechanism, scene, arguments), arguments);
   if (dynamics.closed()) printLoops(std::cout, mechanism, scene, dynamics);
   printReactions(dynamics.request());
   if (!arguments.motion.empty()) checkMotion(arguments, mechanism, scene, dynamics);
@@ -136,13 +157,15 @@ void explain(const Arguments& arguments, const Mechanism& mechanism) {
   const Scene scene = loadScene(arguments);
   refuseByLoops(arguments, needsClosedLoops(scene));
   const Request written = requestOf(mechanism, scene, arguments);
-  printCost(std::cout, scene, Dynamics(mechanism, scene, computedFor(written, arguments)));
+  printCost(std::cout, scene,
+            dynamicsOf(mechanism, scene, computedFor(written, arguments), arguments));
   std::cout << std::flush;
 }
 
 void compute(const Arguments& arguments, const Mechanism& mechanism, const Scene& scene) {
   const Request written = requestOf(mechanism, scene, arguments);
-  const Dynamics dynamics(mechanism, scene, computedFor(written, arguments));
+  const Dynamics dynamics =
+      dynamicsOf(mechanism, scene, computedFor(written, arguments), arguments);
   std::optional<CertifiedRows> certified;
   if (arguments.certificates) certified.emplace(mechanism, dynamics);
   std::optional<LagrangeRows> lagrange;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -12,8 +13,8 @@ constexpr std::size_t kBytesAtOnce = 1 << 18;
 
 const std::string& checkedName(const char* what, const std::string& name) {
   if (name.find_first_of(",\"\r\n") != std::string::npos) {
-    throw FileError(std::string(what) + " '" + name +
-                    "': a comma, quote or line end cannot stand in a CSV header");
+    throw FileError(std::string(what) + " " + inQuotes(name) +
+                    ": a comma, quote or line end cannot stand in a CSV header");
   }
   return name;
 }

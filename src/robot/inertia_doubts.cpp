@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <cstdio>
 
+#include "base/printable.h"
+
 namespace virtual_work_dynamics {
 
 namespace {
@@ -25,12 +27,12 @@ void judgeTensor(const Link& link, std::vector<Doubt>& doubts) {
   const Vector3l moments = solver.eigenvalues();  // ascending
   const long double slack = kTolerance * moments.cwiseAbs().sum();
   if (moments[0] < -slack) {
-    doubts.push_back({"link '" + link.name + "': negative principal moment of inertia (" +
+    doubts.push_back({"link " + inQuotes(link.name) + ": negative principal moment of inertia (" +
                           momentsText(moments) + ")",
                       true});
   } else if (moments[2] > moments[0] + moments[1] + slack) {
-    doubts.push_back({"link '" + link.name +
-                          "': principal moments of inertia break the triangle inequality (" +
+    doubts.push_back({"link " + inQuotes(link.name) +
+                          ": principal moments of inertia break the triangle inequality (" +
                           momentsText(moments) + ")",
                       true});
   }
@@ -52,8 +54,8 @@ void judgeMovingLeaves(const std::vector<Link>& links, const std::vector<Joint>&
   }
   for (std::size_t k = 0; k < joints.size(); ++k) {
     if (joints[k].coordinate >= 0 && leaf[k] && mass[k] == 0) {
-      doubts.push_back({"link '" + links[k + 1].name + "': moved by joint '" + joints[k].name +
-                            "' but has no mass (0 kg)",
+      doubts.push_back({"link " + inQuotes(links[k + 1].name) + ": moved by joint " +
+                            inQuotes(joints[k].name) + " but has no mass (0 kg)",
                         true});
     }
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/printable.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -33,17 +34,17 @@ Mechanism::Mechanism(std::string name, std::vector<Link> links, std::vector<Join
       joints_(std::move(joints)),
       doubts_(std::move(doubts)) {
   if (links_.size() != joints_.size() + 1) {
-    throw UrdfError("mechanism '" + name_ + "': a tree has one link more than joints");
+    throw UrdfError("mechanism " + inQuotes(name_) + ": a tree has one link more than joints");
   }
   for (int k = 0; k < static_cast<int>(joints_.size()); ++k) {
     const Joint& joint = joints_[k];
     if (joint.child_link != k + 1 || joint.parent_link < 0 || joint.parent_link > k ||
         links_[k + 1].parent_joint != k) {
-      throw UrdfError("joint '" + joint.name + "': not in depth-first order");
+      throw UrdfError("joint " + inQuotes(joint.name) + ": not in depth-first order");
     }
     if (joint.coordinate >= 0 && !joint.mimics) {
       if (joint.coordinate != static_cast<int>(coordinates_.size())) {
-        throw UrdfError("joint '" + joint.name + "': coordinates are not in joint order");
+        throw UrdfError("joint " + inQuotes(joint.name) + ": coordinates are not in joint order");
       }
       coordinates_.push_back(k);
       coordinate_names_.push_back(joint.name);
@@ -51,7 +52,7 @@ Mechanism::Mechanism(std::string name, std::vector<Link> links, std::vector<Join
   }
   for (const Joint& joint : joints_) {
     if (joint.coordinate >= static_cast<int>(coordinates_.size())) {
-      throw UrdfError("joint '" + joint.name + "': mimics no generalized coordinate");
+      throw UrdfError("joint " + inQuotes(joint.name) + ": mimics no generalized coordinate");
     }
   }
 }

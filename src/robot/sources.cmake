@@ -1,5 +1,10 @@
 vwd_core(
   inertia_doubts.cpp
   mechanism.cpp
+  unit_doubts.cpp
+  unread_elements.cpp
   urdf_angles.cpp
-  urdf_reader.cpp)
+  urdf_checks.cpp
+  urdf_reader.cpp
+  urdf_tree.cpp
+  urdf_xml.cpp)

@@ -1,11 +1,10 @@
 #include "robot/urdf_angles.h"
 
-#include <tinyxml2.h>
-
 #include <array>
 #include <cmath>
 #include <sstream>
 
+#include "base/printable.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -37,7 +36,8 @@ void readOrigin(const tinyxml2::XMLElement* holder, const std::string& who,
   for (long double& angle : rpy) {
     double value = 0;
     if (!(stream >> value) || !std::isfinite(value)) {
-      throw UrdfError(who + " '" + name + "': rpy \"" + text + "\" is not three finite numbers");
+      throw UrdfError(who + " " + inQuotes(name) + ": origin rpy " + inQuotes(text) +
+                      " is not three finite numbers");
     }
     angle = value;
   }
@@ -51,20 +51,13 @@ std::string nameOf(const tinyxml2::XMLElement& element) {
 
 }  // namespace
 
-UrdfAngles readUrdfAngles(const std::string& urdf) {
-  tinyxml2::XMLDocument document;
-  if (document.Parse(urdf.c_str(), urdf.size()) != tinyxml2::XML_SUCCESS) {
-    throw UrdfError(std::string("robot description is broken: not well-formed XML: ") +
-                    document.ErrorStr());
-  }
+UrdfAngles readUrdfAngles(const tinyxml2::XMLElement& robot) {
   UrdfAngles angles;
-  const tinyxml2::XMLElement* robot = document.FirstChildElement("robot");
-  if (!robot) throw UrdfError("robot description is broken: no <robot> element");
-  for (auto* link = robot->FirstChildElement("link"); link;
+  for (auto* link = robot.FirstChildElement("link"); link;
        link = link->NextSiblingElement("link")) {
     readOrigin(link->FirstChildElement("inertial"), "link", angles.inertial_origins, nameOf(*link));
   }
-  for (auto* joint = robot->FirstChildElement("joint"); joint;
+  for (auto* joint = robot.FirstChildElement("joint"); joint;
        joint = joint->NextSiblingElement("joint")) {
     readOrigin(joint, "joint", angles.joint_origins, nameOf(*joint));
   }

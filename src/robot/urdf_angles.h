@@ -1,5 +1,7 @@
 #pragma once
 
+#include <tinyxml2.h>
+
 #include <map>
 #include <string>
 
@@ -17,8 +19,8 @@ struct UrdfAngles {
   std::map<std::string, Matrix3l> inertial_origins;  ///< inertial frame -> link, by link name
 };
 
-/// Reads the orientations from XML that urdfdom has accepted.
+/// Reads the orientations of a <robot>.
 /// @throws UrdfError naming the link or joint when an `rpy` is not three finite numbers.
-UrdfAngles readUrdfAngles(const std::string& urdf);
+UrdfAngles readUrdfAngles(const tinyxml2::XMLElement& robot);
 
 }  // namespace virtual_work_dynamics

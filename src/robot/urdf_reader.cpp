@@ -12,10 +12,16 @@
 #include <utility>
 #include <vector>
 
+#include "base/nearest_name.h"
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "base/text_file.h"
 #include "robot/inertia_doubts.h"
+#include "robot/unit_doubts.h"
+#include "robot/unread_elements.h"
 #include "robot/urdf_angles.h"
+#include "robot/urdf_checks.h"
+#include "robot/urdf_xml.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -25,7 +31,7 @@ namespace {
 // Largest deviation of an axis from unit length of which the user is not told.
 constexpr long double kUnitTolerance = 1e-6L;
 
-// Keeps the complaints of urdfdom for the error message: it makes them through console_bridge only.
+// Keeps the complaints of urdfdom off the console, through which alone it makes them.
 class CapturedConsole : public console_bridge::OutputHandler {
  public:
   CapturedConsole() { console_bridge::useOutputHandler(this); }
@@ -35,9 +41,7 @@ class CapturedConsole : public console_bridge::OutputHandler {
 
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
     if (level < console_bridge::CONSOLE_BRIDGE_LOG_ERROR) return;
-    std::string line = text;
-    std::replace(line.begin(), line.end(), '\n', ' ');
-    lines_.push_back(line);
+    lines_.push_back(text);
   }
   const std::vector<std::string>& lines() const { return lines_; }
 
@@ -45,38 +49,23 @@ class CapturedConsole : public console_bridge::OutputHandler {
   std::vector<std::string> lines_;
 };
 
-std::string joined(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += (text.empty() ? "" : "; ") + line;
-  return text;
-}
-
-struct Parsed {
-  urdf::ModelInterfaceSharedPtr model;
-  std::vector<std::string> complaints;  // messages of urdfdom about what it dropped
-};
-
-Parsed parse(const std::string& text) {
+// Lets urdfdom parse a description that was checked.
+urdf::ModelInterfaceSharedPtr parse(const std::string& checked) {
   static std::mutex console_mutex;  // console_bridge has one handler for the whole process
   const std::lock_guard<std::mutex> lock(console_mutex);
   CapturedConsole console;
-  Parsed parsed;
+  urdf::ModelInterfaceSharedPtr model;
   try {
-    parsed.model = urdf::parseURDF(text);
+    model = urdf::parseURDF(checked);
   } catch (const std::exception& error) {
-    throw UrdfError(std::string("robot description is broken: ") + error.what());
+    throw UrdfError("robot description is broken: " + printable(error.what()));
   }
-  parsed.complaints = console.lines();
-  // urdfdom drops a mass or inertia that it cannot read, and reports success.
-  const bool inertial_lost =
-      std::any_of(parsed.complaints.begin(), parsed.complaints.end(), [](const std::string& line) {
-        return line.rfind("Could not parse inertial element", 0) == 0;
-      });
-  if (!parsed.model || !parsed.model->getRoot() || inertial_lost) {
-    throw UrdfError("robot description is broken: " +
-                    (parsed.complaints.empty() ? "no root link" : joined(parsed.complaints)));
+  if (!model || !model->getRoot() || !console.lines().empty()) {
+    throw UrdfError("robot description is broken: " + (console.lines().empty()
+                                                           ? "no root link"
+                                                           : printable(console.lines().front())));
   }
-  return parsed;
+  return model;
 }
 
 Vector3l toEigen(const urdf::Vector3& v) {
@@ -97,10 +86,13 @@ Matrix3l rotationIn(const std::map<std::string, Matrix3l>& rotations, const std:
 // Walks urdfdom's model depth first and collects links and joints in the Mechanism's order.
 class Reader {
  public:
-  explicit Reader(const std::string& text) : angles_(readUrdfAngles(text)) {
-    Parsed parsed = parse(text);
-    model_ = std::move(parsed.model);
-    for (const std::string& line : parsed.complaints) doubts_.push_back({line});
+  explicit Reader(const std::string& text) {
+    tinyxml2::XMLDocument document;
+    const tinyxml2::XMLElement& robot = parseUrdfXml(text, document);
+    doubts_ = unreadElements(robot);
+    const std::string checked = checkedUrdf(robot, doubts_);
+    angles_ = readUrdfAngles(robot);
+    model_ = parse(checked);
   }
 
   // Breaks loops of links, which would never be freed, as urdfdom's links own their children.
@@ -111,27 +103,15 @@ class Reader {
   Reader& operator=(const Reader&) = delete;
 
   Mechanism read() {
-    checkParents();
     walk();
     checkReached();
     resolveMimics();
     for (Doubt& doubt : inertiaDoubts(links_, joints_)) doubts_.push_back(std::move(doubt));
+    for (Doubt& doubt : unitDoubts(links_, joints_)) doubts_.push_back(std::move(doubt));
     return Mechanism(model_->getName(), std::move(links_), std::move(joints_), std::move(doubts_));
   }
 
  private:
-  // Refuses a link with two parents; urdfdom accepts it and uses neither.
-  void checkParents() const {
-    std::map<std::string, std::string> joint_of;  // by child link
-    for (const auto& [name, joint] : model_->joints_) {
-      const auto [known, is_new] = joint_of.emplace(joint->child_link_name, name);
-      if (!is_new) {
-        throw UrdfError("link '" + known->first + "': is the child of two joints, '" +
-                        known->second + "' and '" + name + "'");
-      }
-    }
-  }
-
   // Refuses links that are one another's parents and so hang on no root; urdfdom accepts them.
   void checkReached() const {
     if (links_.size() == model_->links_.size()) return;
@@ -139,9 +119,9 @@ class Reader {
       const std::string& name = entry.first;
       if (std::none_of(links_.begin(), links_.end(),
                        [&](const Link& link) { return link.name == name; })) {
-        throw UrdfError("link '" + name +
-                        "': its parents form a loop that never reaches the root '" +
-                        links_.front().name + "'");
+        throw UrdfError("link " + inQuotes(name) +
+                        ": its parents form a loop that never reaches the root " +
+                        inQuotes(links_.front().name));
       }
     }
   }
@@ -174,7 +154,7 @@ class Reader {
     if (!source.inertial) return link;
     const urdf::Inertial& inertial = *source.inertial;
     if (!std::isfinite(inertial.mass) || inertial.mass < 0) {
-      throw UrdfError("link '" + source.name + "': mass " + numberText(inertial.mass) +
+      throw UrdfError("link " + inQuotes(source.name) + ": mass " + numberText(inertial.mass) +
                       " kg is negative or not finite");
     }
     Matrix3l inertia;
@@ -184,7 +164,8 @@ class Reader {
     link.mass = inertial.mass;
     link.p_KoCm_K = toEigen(inertial.origin.position);
     if (!inertia.allFinite() || !link.p_KoCm_K.allFinite()) {
-      throw UrdfError("link '" + source.name + "': inertia or centre of mass is not finite");
+      throw UrdfError("link " + inQuotes(source.name) +
+                      ": inertia or centre of mass is not finite");
     }
     const Matrix3l R = rotationIn(angles_.inertial_origins, source.name);
     link.inertia_Cm_K = R * inertia * R.transpose();
@@ -196,7 +177,7 @@ class Reader {
       throw UrdfError("joint 'ground': the name is reserved for the wrench of ground on the root");
     }
     if (source.name.empty()) {
-      throw UrdfError("joint of link '" + source.child_link_name + "': its name is empty");
+      throw UrdfError("joint of link " + inQuotes(source.child_link_name) + ": its name is empty");
     }
     Joint joint;
     joint.name = source.name;
@@ -206,7 +187,7 @@ class Reader {
     joint.p_PoKo_P = toEigen(source.parent_to_joint_origin_transform.position);
     joint.R_PK = rotationIn(angles_.joint_origins, source.name);
     if (!joint.p_PoKo_P.allFinite()) {
-      throw UrdfError("joint '" + source.name + "': origin is not finite");
+      throw UrdfError("joint " + inQuotes(source.name) + ": origin is not finite");
     }
     if (joint.type != JointType::kFixed) {
       joint.axis_K = axisOf(source);
@@ -214,7 +195,8 @@ class Reader {
       readLimits(source, joint);
       if (!source.mimic) joint.coordinate = coordinates_++;
     } else if (source.mimic) {
-      doubts_.push_back({"joint '" + source.name + "': is fixed, its <mimic> has no meaning"});
+      doubts_.push_back(
+          {"joint " + inQuotes(source.name) + ": is fixed, its <mimic> has no meaning"});
     }
     joints_.push_back(joint);
   }
@@ -224,7 +206,7 @@ class Reader {
     joint.damping = source.dynamics->damping;
     joint.friction = source.dynamics->friction;
     if (!std::isfinite(joint.damping) || !std::isfinite(joint.friction)) {
-      throw UrdfError("joint '" + source.name + "': damping or friction is not finite");
+      throw UrdfError("joint " + inQuotes(source.name) + ": damping or friction is not finite");
     }
   }
 
@@ -247,11 +229,12 @@ class Reader {
       case urdf::Joint::FIXED:
         return JointType::kFixed;
       case urdf::Joint::FLOATING:
-        throw UrdfError("joint '" + source.name + "': floating joints are not supported yet");
+        throw UrdfError("joint " + inQuotes(source.name) +
+                        ": floating joints are not supported yet");
       case urdf::Joint::PLANAR:
-        throw UrdfError("joint '" + source.name + "': planar joints are not supported yet");
+        throw UrdfError("joint " + inQuotes(source.name) + ": planar joints are not supported yet");
       default:
-        throw UrdfError("joint '" + source.name + "': unknown joint type");
+        throw UrdfError("joint " + inQuotes(source.name) + ": unknown joint type");
     }
   }
 
@@ -259,11 +242,11 @@ class Reader {
     const Vector3l axis = toEigen(source.axis);
     const long double length = axis.norm();
     if (!std::isfinite(length) || length == 0) {
-      throw UrdfError("joint '" + source.name + "': axis " + numbersText(source.axis) +
+      throw UrdfError("joint " + inQuotes(source.name) + ": axis " + numbersText(source.axis) +
                       " has no direction");
     }
     if (std::abs(length - 1) > kUnitTolerance) {
-      doubts_.push_back({"joint '" + source.name + "': axis " + numbersText(source.axis) +
+      doubts_.push_back({"joint " + inQuotes(source.name) + ": axis " + numbersText(source.axis) +
                          " is not of unit length, its direction is used"});
     }
     return axis / length;
@@ -275,7 +258,7 @@ class Reader {
       std::size_t steps = 0;
       for (const urdf::JointMimic* mimic = mimicOf(joint); mimic;) {
         if (++steps > joints_.size()) {
-          throw UrdfError("joint '" + joint.name + "': its <mimic> leads in a cycle");
+          throw UrdfError("joint " + inQuotes(joint.name) + ": its <mimic> leads in a cycle");
         }
         const Joint& master = masterOf(joint, mimic->joint_name);
         joint.mimics = true;
@@ -285,7 +268,8 @@ class Reader {
         mimic = mimicOf(master);
       }
       if (!std::isfinite(joint.multiplier) || !std::isfinite(joint.offset)) {
-        throw UrdfError("joint '" + joint.name + "': mimic multiplier or offset is not finite");
+        throw UrdfError("joint " + inQuotes(joint.name) +
+                        ": mimic multiplier or offset is not finite");
       }
     }
   }
@@ -299,12 +283,19 @@ class Reader {
     const auto found = std::find_if(joints_.begin(), joints_.end(),
                                     [&](const Joint& other) { return other.name == name; });
     if (found == joints_.end()) {
-      throw UrdfError("joint '" + joint.name + "': mimics unknown joint '" + name + "'");
+      throw UrdfError("joint " + inQuotes(joint.name) + ": mimics unknown joint " + inQuotes(name) +
+                      nameHelp(name, jointNames()));
     }
     if (found->type == JointType::kFixed) {
-      throw UrdfError("joint '" + joint.name + "': mimics fixed joint '" + name + "'");
+      throw UrdfError("joint " + inQuotes(joint.name) + ": mimics fixed joint " + inQuotes(name));
     }
     return *found;
+  }
+
+  std::vector<std::string> jointNames() const {
+    std::vector<std::string> names;
+    for (const Joint& joint : joints_) names.push_back(joint.name);
+    return names;
   }
 
   urdf::ModelInterfaceSharedPtr model_;
@@ -318,9 +309,6 @@ class Reader {
 }  // namespace
 
 Mechanism readUrdf(const std::string& urdf) {
-  if (urdf.find_first_not_of(" \t\r\n") == std::string::npos) {
-    throw UrdfError("robot description is empty");
-  }
   return Reader(urdf).read();
 }
 

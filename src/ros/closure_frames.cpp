@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "base/printable.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -34,8 +35,8 @@ tf2_msgs::TFMessage closureFrames(const Mechanism& mechanism, const Scene& scene
     if (std::find(reactions.begin(), reactions.end(), closure.name) == reactions.end()) continue;
     if (std::any_of(links.begin(), links.end(),
                     [&](const Link& link) { return link.name == closure.name; })) {
-      throw SceneError("closures: '" + closure.name +
-                       "' is also the name of a link; a closure's frame in tf needs another name");
+      throw SceneError("closures: " + inQuotes(closure.name) +
+                       " is also the name of a link; a closure's frame in tf needs another name");
     }
     message.transforms.emplace_back();
     message.transforms.back().header.frame_id = frame_prefix + closure.child.link;

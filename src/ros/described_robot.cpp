@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "base/printable.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
@@ -17,7 +18,7 @@ std::optional<Mechanism> describedRobot(const ros::NodeHandle& private_node) {
   try {
     return readUrdf(description);
   } catch (const UrdfError& error) {
-    ROS_WARN("parameter %s is not used: %s", key.c_str(), error.what());
+    ROS_WARN("parameter %s is not used: %s", key.c_str(), printable(error.what()).c_str());
     return std::nullopt;
   }
 }

@@ -2,7 +2,9 @@
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
+#include "base/printable.h"
 #include "ros/message_text.h"
+#include "ros/private_name.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -40,7 +42,7 @@ Diagnostics::Diagnostics(const Counters& counters_read, RunTimeHistogram& run_ti
           std::chrono::duration<double>(period))),
       next_(JointWatch::Clock::now() + period_) {
   before_.time = JointWatch::Clock::now();
-  updater_.setHardwareID(robot);
+  updater_.setHardwareID(shortened(robot));
   updater_.add("inverse dynamics", this, &Diagnostics::report);
 }
 
@@ -120,10 +122,9 @@ void Diagnostics::summarize(DiagnosticStatusWrapper& status, const Before& now,
   const std::uint64_t restarts = now.restarts - before_.restarts;
   const std::uint64_t gaps = now.gaps - before_.gaps;
   if (gaps > 0 && now.motions == before_.motions) {
-    status.mergeSummaryf(DiagnosticStatus::WARN,
-                         "no result from joint states: they had %llu gaps longer than "
-                         "~estimator/max_gap",
-                         static_cast<unsigned long long>(gaps));
+    status.mergeSummaryf(
+        DiagnosticStatus::WARN, "no result from joint states: they had %llu gaps longer than %s",
+        static_cast<unsigned long long>(gaps), privateName("estimator/max_gap").c_str());
   }
   if (restarts >= kManyRestarts) {
     status.mergeSummaryf(DiagnosticStatus::WARN,

@@ -11,7 +11,9 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "ros/message_text.h"
+#include "ros/private_name.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -93,7 +95,7 @@ void InverseDynamicsNode::guard(const ros::Subscriber& source, Work work) {
   try {
     work();
   } catch (const std::exception& error) {
-    drop(source.getTopic(), DropReason::kInternal, error.what());
+    drop(source.getTopic(), DropReason::kInternal, printable(error.what()));
   }
 }
 
@@ -173,11 +175,11 @@ void InverseDynamicsNode::reportGap() {
   counters_.gaps.add();
   const auto joint = static_cast<std::size_t>(estimator_.latestGapCoordinate());
   if (!gap_throttles_[joint].open()) return;
-  ROS_INFO(
-      "%s: '%s' had a gap of %s s, longer than ~estimator/max_gap = %s s: it is estimated anew",
-      joint_state_subscriber_.getTopic().c_str(), task_.mechanism.coordinateNames()[joint].c_str(),
-      numberText(static_cast<double>(estimator_.latestGap()) / 1e9).c_str(),
-      numberText(task_.estimator.max_gap).c_str());
+  ROS_INFO("%s: %s had a gap of %s s, longer than %s = %s s: it is estimated anew",
+           joint_state_subscriber_.getTopic().c_str(),
+           inQuotes(task_.mechanism.coordinateNames()[joint]).c_str(),
+           numberText(static_cast<double>(estimator_.latestGap()) / 1e9).c_str(),
+           privateName("estimator/max_gap").c_str(), numberText(task_.estimator.max_gap).c_str());
 }
 
 void InverseDynamicsNode::evaluate(ros::Time receipt) {
@@ -231,7 +233,8 @@ void InverseDynamicsNode::take(const trajectory_msgs::JointTrajectory& message, 
   if (!rejection && played_.waiting() > static_cast<std::size_t>(output_queue_)) {
     rejection = Rejection{DropReason::kBacklog,
                           std::to_string(played_.waiting()) + " points still wait to be played, " +
-                              "more than ~queue_size/output = " + std::to_string(output_queue_)};
+                              "more than " + privateName("queue_size/output") + " = " +
+                              std::to_string(output_queue_)};
   }
   if (!rejection) rejection = trajectories_.complete(message, trajectory_);
   if (rejection) {
@@ -247,8 +250,8 @@ void InverseDynamicsNode::take(const trajectory_msgs::JointTrajectory& message, 
              trajectory_.completion.c_str());
   }
   if (at_once_ && results > static_cast<std::size_t>(output_queue_) && queue_throttle_.open()) {
-    ROS_WARN("%s: %zu %s are more than ~queue_size/output = %d; subscribers may lose some",
-             topic.c_str(), results, what, output_queue_);
+    ROS_WARN("%s: %zu %s are more than %s = %d; subscribers may lose some", topic.c_str(), results,
+             what, privateName("queue_size/output").c_str(), output_queue_);
   }
   respond(plan, message);
 }
@@ -356,7 +359,7 @@ void InverseDynamicsNode::adaptPlan() {
     audience_ = audience;
   } catch (const std::exception& error) {
     ROS_ERROR("the change of subscribers failed, and what is computed stays as it is: %s",
-              error.what());
+              printable(error.what()).c_str());
   }
 }
 

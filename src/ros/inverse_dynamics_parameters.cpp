@@ -4,9 +4,11 @@
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include "base/number_text.h"
+#include "base/printable.h"
+#include "ros/private_name.h"
 #include "ros/private_parameters.h"
+#include "ros/scene_parameter.h"
 #include "ros/trajectory_queue.h"
-#include "ros/xmlrpc_to_yaml.h"
 #include "virtual_work_dynamics/scene_reader.h"
 
 namespace virtual_work_dynamics {
@@ -18,7 +20,9 @@ void readRobotDescription(const ros::NodeHandle& node, InverseDynamicsParameters
   std::string& key = parameters.robot_description_key;
   if (!node.searchParam(kRobotDescription, key)) {
     throw ParameterError(std::string("parameter ") + kRobotDescription + ": not set, neither in " +
-                         node.getNamespace() + " nor in any namespace above it");
+                         node.getNamespace() +
+                         " nor in any namespace above it; robot:=FILE of inverse_dynamics.launch "
+                         "sets it");
   }
   if (!node.getParam(key, parameters.robot_description)) {
     throw ParameterError("parameter " + key + ": expected the text of a URDF");
@@ -34,7 +38,7 @@ double readOrAuto(PrivateParameters& parameters, const std::string& name, bool m
   if (copy.getType() == XmlRpc::XmlRpcValue::TypeString && std::string(copy) == "auto") {
     return kAuto;
   }
-  const double number = numberOf(value, "~" + name);
+  const double number = numberOf(value, name);
   if (!(may_be_zero ? number >= 0 : number > 0)) {
     throw parameterError(name, numberText(number) + " is neither auto nor " +
                                    (may_be_zero ? "zero or positive" : "positive"));
@@ -48,18 +52,25 @@ void refuseOldEstimator(const PrivateParameters& parameters) {
     if (!parameters.has(name)) continue;
     throw parameterError(
         name,
-        "no longer exists: the estimator finds noise and bandwidth itself; they can be given as "
-        "~estimator/position_noise, velocity_noise, stamp_noise and bandwidth, and "
-        "~estimator/lag is in seconds");
+        "no longer exists: the estimator finds noise and bandwidth itself; they can be given as " +
+            privateName("estimator/position_noise") +
+            ", velocity_noise, stamp_noise and bandwidth, and " + privateName("estimator/lag") +
+            " is in seconds");
   }
+}
+
+double readPeriod(PrivateParameters& parameters, const std::string& name, double fallback) {
+  const double period = parameters.number(name, fallback);
+  if (!(period > 0)) throw parameterError(name, numberText(period) + " s is not positive");
+  return period;
 }
 
 EstimatorSettings readEstimator(PrivateParameters& parameters) {
   refuseOldEstimator(parameters);
   EstimatorSettings settings;
   settings.lag = parameters.number("estimator/lag", settings.lag);
-  settings.max_gap = parameters.number("estimator/max_gap", settings.max_gap);
-  settings.hold_after = parameters.number("hold_after", settings.hold_after);
+  settings.max_gap = readPeriod(parameters, "estimator/max_gap", settings.max_gap);
+  settings.hold_after = readPeriod(parameters, "hold_after", settings.hold_after);
   NoiseSettings& noise = settings.noise;
   noise.use_velocity = parameters.boolean("estimator/use_velocity", noise.use_velocity);
   noise.position_noise = readOrAuto(parameters, "estimator/position_noise", false);
@@ -69,7 +80,7 @@ EstimatorSettings readEstimator(PrivateParameters& parameters) {
   const std::string acceleration = parameters.text("estimator/acceleration", "estimate");
   if (acceleration != "estimate" && acceleration != "zero") {
     throw parameterError("estimator/acceleration",
-                         "'" + acceleration + "' is neither estimate nor zero");
+                         inQuotes(acceleration) + " is neither estimate nor zero");
   }
   settings.estimate = acceleration == "estimate";
   return settings;
@@ -88,7 +99,7 @@ std::vector<RestingJoint> readRest(PrivateParameters& parameters) {
                       entry["name"].getType() == XmlRpc::XmlRpcValue::TypeString;
     if (!form) throw parameterError("rest", kForm);
     const std::string name = entry["name"];
-    rest.push_back({name, numberOf(entry["position"], "~rest of '" + name + "'")});
+    rest.push_back({name, numberOf(entry["position"], "rest of " + inQuotes(name))});
   }
   return rest;
 }
@@ -97,12 +108,6 @@ int readQueueSize(PrivateParameters& parameters, const std::string& name, int fa
   const int size = parameters.integer(name, fallback);
   if (size < 1) throw parameterError(name, std::to_string(size) + " is less than 1 message");
   return size;
-}
-
-double readPeriod(PrivateParameters& parameters, const std::string& name, double fallback) {
-  const double period = parameters.number(name, fallback);
-  if (!(period > 0)) throw parameterError(name, numberText(period) + " s is not positive");
-  return period;
 }
 
 // A rate, or 0 for none.
@@ -128,8 +133,8 @@ SelfCheckSettings readSelfCheck(PrivateParameters& parameters) {
     throw parameterError("residual_warn", numberText(settings.residual_warn) + " is not positive");
   }
   if (!(settings.residual_error >= settings.residual_warn)) {
-    throw parameterError("residual_error", numberText(settings.residual_error) +
-                                               " is less than ~residual_warn = " +
+    throw parameterError("residual_error", numberText(settings.residual_error) + " is less than " +
+                                               privateName("residual_warn") + " = " +
                                                numberText(settings.residual_warn));
   }
   return settings;
@@ -188,7 +193,7 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   result.deviation_warn = readDeviationWarn(parameters, result.deviation_warn);
   result.marker_rate = readMarkerRate(parameters, result.marker_rate);
   result.scene_given = parameters.has("scene");
-  const YAML::Node scene = xmlRpcToYaml(parameters.raw("scene"), "scene");
+  const YAML::Node scene = sceneDocument(parameters.raw("scene"));
   parameters.refuseUnknown();
   result.scene = readScene(scene);
   readRobotDescription(private_node, result);

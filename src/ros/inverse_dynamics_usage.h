@@ -27,7 +27,8 @@ loops /tf_static has a frame for each closure, that of ~reaction/<closure>.
 
 parameters
   robot_description          URDF text; searched from the private namespace upwards
-  ~scene                     gravity, reactions, applied wrenches...; see doc/scene_file.md
+  ~scene                     gravity, reactions, applied wrenches...; see doc/scene_file.md; a map, or
+                             its text: _scene/gravity:="[0, 0, -1.62]"
   ~estimator/lag             s the outputs are behind the newest joint state, 0 to 1 (0.05)
   ~estimator/use_velocity    use the velocities of joint states, too (true)
   ~estimator/max_gap         longest gap of a joint that is estimated across, s (0.25)
@@ -38,7 +39,7 @@ parameters
   ~estimator/acceleration    estimate | zero (estimate)
   ~hold_after                s without a sample after which a joint is held (0.25)
   ~rest                      [{name, position}] of joints that may never come ([])
-  ~frame_prefix              prefix of every frame_id ("")
+  ~frame_prefix              put before every frame_id, such as left/ ("")
   ~twist                     fill in the twists of ~reactions (false)
   ~marker_rate               largest rate of ~markers, Hz, 0.001 to 1000 (20)
   ~queue_size/input          messages (1000)

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "ros/joint_lookup.h"
 #include "ros/message_text.h"
 
@@ -82,7 +83,8 @@ void JointStateConversion::resolve(const std::vector<std::string>& names, Layout
     if (coordinate == coordinate_of_.end()) continue;
     char& is_found = found[static_cast<std::size_t>(coordinate->second)];
     if (is_found) {
-      layout.rejection = Rejection{DropReason::kJointTwice, "it names '" + names[i] + "' twice"};
+      layout.rejection =
+          Rejection{DropReason::kJointTwice, "it names " + inQuotes(names[i]) + " twice"};
       return;
     }
     is_found = 1;
@@ -90,10 +92,12 @@ void JointStateConversion::resolve(const std::vector<std::string>& names, Layout
     layout.coordinates.push_back(coordinate->second);
   }
   if (layout.columns.empty()) {
-    layout.rejection =
-        Rejection{DropReason::kNoKnownJoint, "it names no joint of robot '" + mechanism_.name() +
-                                                 "' that moves by itself" +
-                                                 (names.empty() ? "" : ": " + shortList(names))};
+    layout.rejection = Rejection{DropReason::kNoKnownJoint,
+                                 "it names no joint of robot " + inQuotes(mechanism_.name()) +
+                                     " that moves by itself" +
+                                     (names.empty() ? ""
+                                                    : ": " + shortList(names) + "; they are " +
+                                                          shortList(mechanism_.coordinateNames()))};
     return;
   }
   resolveMimics(layout);
@@ -117,8 +121,8 @@ std::optional<Rejection> JointStateConversion::gatherPositions(
     const auto column = static_cast<std::size_t>(layout.columns[i]);
     q_[i] = positions[column];
     if (!std::isfinite(q_[i])) {
-      return Rejection{DropReason::kNotFinite,
-                       "the position of '" + layout.names[column] + "' is " + numberText(q_[i])};
+      return Rejection{DropReason::kNotFinite, "the position of " + inQuotes(layout.names[column]) +
+                                                   " is " + numberText(q_[i])};
     }
   }
   return std::nullopt;
@@ -135,8 +139,9 @@ void JointStateConversion::gatherVelocities(const Layout& layout,
     char& reported = velocity_reported_[static_cast<std::size_t>(layout.coordinates[i])];
     if (!reported) {
       sample.velocity_problem +=
-          (sample.velocity_problem.empty() ? "the velocity of '" : ", that of '") +
-          layout.names[static_cast<std::size_t>(layout.columns[i])] + "' is " + numberText(qd_[i]);
+          (sample.velocity_problem.empty() ? "the velocity of " : ", that of ") +
+          inQuotes(layout.names[static_cast<std::size_t>(layout.columns[i])]) + " is " +
+          numberText(qd_[i]);
     }
     reported = 1;
     qd_[i] = std::numeric_limits<double>::quiet_NaN();
@@ -156,9 +161,9 @@ void JointStateConversion::checkMimics(Layout& layout, const std::vector<double>
     // NaN disagrees, too, as it is not below the tolerance.
     if (reported || std::abs(difference) <= kMimicTolerance) continue;
     reported = 1;
-    disagreement += (disagreement.empty() ? "" : "; ") + ("mimic joint '" + joint.name) +
-                    "' is given at " + numberText(given) + " but follows '" +
-                    layout.names[static_cast<std::size_t>(mimic.master_column)] + "' to " +
+    disagreement += (disagreement.empty() ? "" : "; ") + ("mimic joint " + inQuotes(joint.name)) +
+                    " is given at " + numberText(given) + " but follows " +
+                    inQuotes(layout.names[static_cast<std::size_t>(mimic.master_column)]) + " to " +
                     numberText(expected);
   }
 }

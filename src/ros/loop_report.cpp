@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "ros/determinacy_message.h"
 #include "ros/message_text.h"
+#include "ros/private_name.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -110,7 +112,7 @@ void LoopReport::addResiduals(DiagnosticStatusWrapper& status,
   for (std::size_t c = 0; c < closures_.size(); ++c) {
     for (std::size_t i = 0; i < LoopRecord::kLevels; ++i) {
       largest = std::max(largest, report.relative[c][i]);
-      status.add(std::string("residual.") + kLevels[i].name + "." + closures_[c],
+      status.add(std::string("residual.") + kLevels[i].name + "." + shortened(closures_[c]),
                  shortNumber(report.residuals[c][i]));
     }
   }
@@ -122,11 +124,12 @@ void LoopReport::addViolations(DiagnosticStatusWrapper& status,
   for (std::size_t c = 0; c < closures_.size(); ++c) {
     for (std::size_t i = 0; i < LoopRecord::kLevels; ++i) {
       if (report.relative[c][i] <= limits_.tolerance) continue;
-      status.mergeSummary(DiagnosticStatus::WARN,
-                          std::string(kLevels[i].many) + " violate closure '" + closures_[c] +
-                              "' by " + shortNumber(report.residuals[c][i]) + " " +
-                              kLevels[i].unit + ", " + shortNumber(report.relative[c][i]) +
-                              " relative; ~loop_tolerance is " + numberText(limits_.tolerance));
+      status.mergeSummary(
+          DiagnosticStatus::WARN,
+          std::string(kLevels[i].many) + " violate closure " + inQuotes(closures_[c]) + " by " +
+              shortNumber(report.residuals[c][i]) + " " + kLevels[i].unit + ", " +
+              shortNumber(report.relative[c][i]) + " relative; " + privateName("loop_tolerance") +
+              " is " + numberText(limits_.tolerance));
     }
   }
 }
@@ -141,8 +144,8 @@ void LoopReport::addConditions(DiagnosticStatusWrapper& status,
   status.mergeSummary(DiagnosticStatus::WARN,
                       "close to a singular position of the loops through " + shortList(loops) +
                           ", condition " + shortNumber(largestOf(conditions)) +
-                          ": forces may exceed the load by this factor; ~condition_warn is " +
-                          numberText(limits_.condition));
+                          ": forces may exceed the load by this factor; " +
+                          privateName("condition_warn") + " is " + numberText(limits_.condition));
 }
 
 void LoopReport::addSingular(DiagnosticStatusWrapper& status,

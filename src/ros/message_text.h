@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "base/printable.h"
+
 namespace virtual_work_dynamics {
 
 /// Lists names for a message to the user, cut short after a few.
@@ -14,7 +16,7 @@ std::string shortList(const Names& names) {
   std::size_t count = 0;
   for (const std::string& name : names) {
     if (count == kMost) return text + ", ... (" + std::to_string(names.size()) + " in all)";
-    text += (count++ == 0 ? "" : ", ") + name;
+    text += (count++ == 0 ? "" : ", ") + shortened(name);
   }
   return text;
 }

@@ -8,7 +8,10 @@
 #include <limits>
 #include <utility>
 
+#include "base/nearest_name.h"
 #include "base/number_text.h"
+#include "base/printable.h"
+#include "ros/private_name.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -30,7 +33,7 @@ std::string describe(const XmlRpcValue& value) {
       return text;
     }
     case XmlRpcValue::TypeString:
-      return "the text '" + static_cast<const std::string&>(value) + "'";
+      return "the text " + inQuotes(static_cast<const std::string&>(value));
     case XmlRpcValue::TypeArray:
       return "a list of " + std::to_string(value.size());
     case XmlRpcValue::TypeStruct:
@@ -74,7 +77,7 @@ void collectUnknown(const XmlRpcValue& tree, const std::string& prefix,
 }  // namespace
 
 ParameterError parameterError(const std::string& name, const std::string& problem) {
-  return ParameterError("parameter ~" + name + ": " + problem);
+  return ParameterError("parameter " + privateName(name) + ": " + problem);
 }
 
 double numberOf(const XmlRpcValue& value, const std::string& name) {
@@ -199,7 +202,12 @@ void PrivateParameters::refuseUnknown() const {
   collectUnknown(tree_, "", known_, unknown);
   if (unknown.empty()) return;
   std::string message = unknown.size() == 1 ? "unknown parameter" : "unknown parameters";
-  for (const std::string& name : unknown) message += (&name == &unknown[0] ? " ~" : ", ~") + name;
+  const std::vector<std::string> known(known_.begin(), known_.end());
+  for (const std::string& name : unknown) {
+    const std::string nearest = nearestName(name, known);
+    message += (&name == &unknown[0] ? " " : ", ") + privateName(shortened(name)) +
+               (nearest.empty() ? "" : " (did you mean " + privateName(nearest) + "?)");
+  }
   message += "; known are";
   for (const std::string& name : known_) message += (name == *known_.begin() ? " " : ", ") + name;
   throw ParameterError(message);

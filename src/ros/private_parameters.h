@@ -68,7 +68,7 @@ double numberOf(const XmlRpc::XmlRpcValue& value, const std::string& name);
 /// message. @throws ParameterError when it is not a list of finite numbers.
 std::vector<double> numbersOf(const XmlRpc::XmlRpcValue& value, const std::string& name);
 
-/// Makes the error "parameter ~name: problem".
+/// Makes the error "parameter <full name>: problem".
 ParameterError parameterError(const std::string& name, const std::string& problem);
 
 }  // namespace virtual_work_dynamics

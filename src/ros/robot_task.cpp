@@ -4,10 +4,13 @@
 
 #include <algorithm>
 
+#include "base/nearest_name.h"
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "ros/closure_frames.h"
 #include "ros/loop_report.h"
 #include "ros/message_text.h"
+#include "ros/private_name.h"
 #include "ros/private_parameters.h"
 #include "ros/topic_names.h"
 #include "virtual_work_dynamics/urdf_reader.h"
@@ -29,7 +32,7 @@ EstimatorSettings checkedSettings(const Mechanism& mechanism, EstimatorSettings 
   try {
     const MotionEstimator check(mechanism, settings);
   } catch (const MotionError& error) {
-    throw ParameterError(std::string("parameters ~estimator: ") + error.what());
+    throw parameterError("estimator", error.what());
   }
   settings.estimate = settings.estimate && !scene.static_motion;
   return settings;
@@ -42,19 +45,31 @@ std::vector<std::pair<int, double>> restOf(const Mechanism& mechanism,
   for (const RestingJoint& joint : joints) {
     const auto place = std::find(names.begin(), names.end(), joint.name);
     if (place == names.end()) {
-      throw parameterError("rest", "robot '" + mechanism.name() + "' has no joint '" + joint.name +
-                                       "' that moves by itself");
+      throw parameterError("rest", "robot " + inQuotes(mechanism.name()) + " has no joint " +
+                                       inQuotes(joint.name) + " that moves by itself" +
+                                       nameHelp(joint.name, names));
     }
     rest.emplace_back(static_cast<int>(place - names.begin()), joint.position);
   }
   return rest;
 }
 
+// Puts the parameter's name before what is wrong with the scene.
+template <typename Make>
+auto ofScene(const InverseDynamicsParameters& parameters, Make make) {
+  try {
+    return make();
+  } catch (const SceneError& error) {
+    throw SceneError((parameters.scene_given ? "parameter ~scene: " : "") +
+                     std::string(error.what()));
+  }
+}
+
 // Compiles all that the scene asks for.
 Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const std::string& key) {
   if (mechanism.coordinates().empty()) {
-    throw UrdfError("parameter " + key + ": robot '" + mechanism.name() +
-                    "' has no joint that moves");
+    throw UrdfError("parameter " + key + ": robot " + inQuotes(mechanism.name()) +
+                    " has no joint that moves");
   }
   return Dynamics(mechanism, scene);
 }
@@ -64,12 +79,16 @@ Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const s
 RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
     : mechanism(readRobot(parameters)),
       scene(parameters.scene),
-      reactions(requestedReactions(mechanism, scene)),
+      reactions(ofScene(parameters, [&] { return requestedReactions(mechanism, scene); })),
       reaction_topics(legalTopicNames(reactions)),
       estimator(checkedSettings(mechanism, parameters.estimator, scene)),
       rest(restOf(mechanism, parameters.rest)),
-      everything(movableDynamics(mechanism, scene, parameters.robot_description_key)) {
-  closure_frames = closureFrames(mechanism, scene, reactions, parameters.frame_prefix);
+      everything(ofScene(parameters, [&] {
+        return movableDynamics(mechanism, scene, parameters.robot_description_key);
+      })) {
+  closure_frames = ofScene(parameters, [&] {
+    return closureFrames(mechanism, scene, reactions, parameters.frame_prefix);
+  });
   deviations =
       std::make_shared<DeviationRecord>(everything.effortNames(), mechanism.coordinateNames());
   outputs =
@@ -103,7 +122,7 @@ std::vector<bool> RobotTask::passive() const {
 }
 
 void RobotTask::log(const InverseDynamicsParameters& parameters) const {
-  for (const Doubt& doubt : mechanism.doubts()) ROS_WARN("%s", doubt.text.c_str());
+  for (const Doubt& doubt : mechanism.doubts()) ROS_WARN("%s", printable(doubt.text).c_str());
   const auto& names = mechanism.coordinateNames();
   const Eigen::Vector3d& g = scene.gravity;
   const std::string accelerations =
@@ -114,11 +133,11 @@ void RobotTask::log(const InverseDynamicsParameters& parameters) const {
   ROS_INFO(
       "Robot '%s' from %s: %zu coordinates (%s), %zu reactions (%s); gravity [%s, %s, %s] m/s^2; "
       "%s; %s",
-      mechanism.name().c_str(), parameters.robot_description_key.c_str(), names.size(),
+      shortened(mechanism.name()).c_str(), parameters.robot_description_key.c_str(), names.size(),
       shortList(names).c_str(), reactions.size(),
       reactions.empty() ? "none" : shortList(reactions).c_str(), numberText(g.x()).c_str(),
       numberText(g.y()).c_str(), numberText(g.z()).c_str(), accelerations.c_str(),
-      parameters.scene_given ? "scene from ~scene" : "default scene");
+      parameters.scene_given ? ("scene from " + privateName("scene")).c_str() : "default scene");
   std::string plan;
   for (const std::string& line : plan_lines) plan += (plan.empty() ? "" : "\n  ") + line;
   ROS_INFO("With subscribers to everything (%s instructions): %s",

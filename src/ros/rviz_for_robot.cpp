@@ -20,8 +20,8 @@
 #include "ros/private_parameters.h"
 #include "ros/rviz_configuration.h"
 #include "ros/rviz_for_robot_usage.h"
+#include "ros/scene_parameter.h"
 #include "ros/topic_names.h"
-#include "ros/xmlrpc_to_yaml.h"
 #include "virtual_work_dynamics/scene_reader.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
@@ -129,7 +129,7 @@ Inputs parametersOf(const Options& options, const std::string& node) {
   std::string prefix = options["frame-prefix"];
   if (prefix.empty()) ros::param::get(node + "/frame_prefix", prefix);
   return {named("parameter " + key, urdf),
-          file.empty()     ? readScene(xmlRpcToYaml(parameters, "scene"))
+          file.empty()     ? readScene(sceneDocument(parameters))
           : file == "none" ? Scene()
                            : readSceneFile(file),
           key, prefix};

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/number_text.h"
+#include "base/printable.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -44,9 +45,9 @@ void SelfCheckReport::addCrossCheck(DiagnosticStatusWrapper& status) {
   if (!latest_finding_) return;
   const auto& [largest, where] = *latest_finding_;
   status.addf("cross-check, largest difference (relative)", "%.3g", largest);
-  status.add("cross-check, where", where);
+  status.add("cross-check, where", printable(where));
   judge(status, largest,
-        "cross-check: " + where + " differs by " + share(largest, "its magnitude") +
+        "cross-check: " + printable(where) + " differs by " + share(largest, "its magnitude") +
             " from Lagrange's equations");
 }
 

@@ -17,15 +17,18 @@ foreach(file
     loop_report.cpp
     marker_output.cpp
     motion_completer.cpp
+    node_program.cpp
     output_topics.cpp
     outputs.cpp
     plan_switch.cpp
+    private_name.cpp
     private_parameters.cpp
     robot_task.cpp
     rviz_configuration.cpp
     rviz_for_robot.cpp
     sample_computation.cpp
     sample_times.cpp
+    scene_parameter.cpp
     self_check_report.cpp
     stream_record.cpp
     stream_report.cpp

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/printable.h"
 #include "motion/stream_text.h"
 #include "ros/message_text.h"
 
@@ -18,15 +19,31 @@ StreamReport::StreamReport(const StreamRecord& record, std::vector<std::string> 
     : record_(record),
       joints_(std::move(joints)),
       units_(std::move(units)),
-      warned_(joints_.size(), false) {}
+      warned_(joints_.size(), false),
+      warned_of_far_positions_(joints_.size(), false) {}
 
 std::string StreamReport::problem(std::size_t joint) const {
   const JointStream& stream = streams_[joint];
   if (stream.contradictory) {
-    return "positions of '" + joints_[joint] + "' jump to and fro: are there two publishers?";
+    return "positions of " + inQuotes(joints_[joint]) +
+           " jump to and fro: are there two publishers?";
   }
   if (stream.quality.velocity_ratio == 1) return "";
   return velocityProblem(joints_[joint], stream.quality.velocity_ratio);
+}
+
+/// Says once of each joint that its positions do what no motion does.
+void StreamReport::warnOfFarPositions(std::size_t joint) {
+  const StreamQuality& quality = streams_[joint].quality;
+  if (warned_of_far_positions_[joint] || quality.jumps + quality.left_out == 0) return;
+  warned_of_far_positions_[joint] = true;
+  if (quality.jumps > 0) {
+    ROS_WARN("position of %s jumps as no motion does: nothing is assumed of the motion across it",
+             inQuotes(joints_[joint]).c_str());
+  } else {
+    ROS_WARN("a position of %s is far from those before and after, and is left out",
+             inQuotes(joints_[joint]).c_str());
+  }
 }
 
 void StreamReport::add(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -40,8 +57,9 @@ void StreamReport::add(diagnostic_updater::DiagnosticStatusWrapper& status) {
       held.push_back(joints_[i] + (std::isfinite(stream.age) ? std::string(" (") + age + ")" : ""));
     }
     if (stream.quality.interval > 0) {
-      status.add("samples of " + joints_[i], streamText(stream.quality, units_[i]));
+      status.add("samples of " + shortened(joints_[i]), streamText(stream.quality, units_[i]));
     }
+    warnOfFarPositions(i);
     const std::string text = problem(i);
     if (text.empty()) continue;
     status.mergeSummary(DiagnosticStatus::WARN, text);

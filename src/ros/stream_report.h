@@ -21,12 +21,14 @@ class StreamReport {
 
  private:
   std::string problem(std::size_t joint) const;
+  void warnOfFarPositions(std::size_t joint);
 
   const StreamRecord& record_;
   const std::vector<std::string> joints_;
   const std::vector<std::string> units_;
   std::vector<JointStream> streams_;
   std::vector<bool> warned_;  // of each joint, in the log
+  std::vector<bool> warned_of_far_positions_;
 };
 
 }  // namespace virtual_work_dynamics

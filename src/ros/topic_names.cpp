@@ -2,6 +2,8 @@
 
 #include <unordered_map>
 
+#include "base/printable.h"
+#include "ros/private_name.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -31,8 +33,9 @@ std::vector<std::string> legalTopicNames(const std::vector<std::string>& joints)
     topics.push_back(legalTopicName(joint));
     const auto inserted = joint_of_topic.emplace(topics.back(), joint);
     if (!inserted.second) {
-      throw SceneError("reactions: joints '" + inserted.first->second + "' and '" + joint +
-                       "' would share the topic ~reaction/" + topics.back());
+      throw SceneError("reactions: joints " + inQuotes(inserted.first->second) + " and " +
+                       inQuotes(joint) + " would share the topic " +
+                       privateName("reaction/" + topics.back()));
     }
   }
   return topics;

@@ -7,8 +7,10 @@
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "ros/joint_lookup.h"
 #include "ros/message_text.h"
+#include "ros/private_name.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/spline.h"
 #include "virtual_work_dynamics/unwrap.h"
@@ -97,9 +99,10 @@ std::optional<Rejection> gather(const JointTrajectory& message, Values values, c
     for (std::size_t j = 0; j < motion.columns.size(); ++j) {
       const auto column = static_cast<std::size_t>(motion.columns[j]);
       if (!std::isfinite(row[column])) {
-        return Rejection{DropReason::kNotFinite,
-                         std::string("the ") + what + " of '" + message.joint_names[column] +
-                             "' at " + pointText(i) + " is " + numberText(row[column])};
+        return Rejection{DropReason::kNotFinite, std::string("the ") + what + " of " +
+                                                     inQuotes(message.joint_names[column]) +
+                                                     " at " + pointText(i) + " is " +
+                                                     numberText(row[column])};
       }
       table(static_cast<Eigen::Index>(i), motion.coordinates[j]) = row[column];
     }
@@ -190,7 +193,7 @@ std::optional<Rejection> TrajectoryConversion::resolveNames(const JointTrajector
   for (std::size_t i = 0; i < message.joint_names.size(); ++i) {
     const std::string& name = message.joint_names[i];
     if (!names.insert(name).second) {
-      return Rejection{DropReason::kJointTwice, "it names '" + name + "' twice"};
+      return Rejection{DropReason::kJointTwice, "it names " + inQuotes(name) + " twice"};
     }
     const auto coordinate = coordinate_of_.find(name);
     if (coordinate == coordinate_of_.end()) continue;
@@ -200,8 +203,10 @@ std::optional<Rejection> TrajectoryConversion::resolveNames(const JointTrajector
   if (motion.columns.empty()) {
     return Rejection{
         DropReason::kNoKnownJoint,
-        "it names no joint of robot '" + mechanism_.name() + "' that moves by itself" +
-            (message.joint_names.empty() ? "" : ": " + shortList(message.joint_names))};
+        "it names no joint of robot " + inQuotes(mechanism_.name()) + " that moves by itself" +
+            (message.joint_names.empty() ? ""
+                                         : ": " + shortList(message.joint_names) + "; they are " +
+                                               shortList(mechanism_.coordinateNames()))};
   }
   return std::nullopt;
 }
@@ -214,8 +219,9 @@ std::optional<Rejection> TrajectoryConversion::holdOthers(const MotionEstimator&
     if (given[i] || (!passive_.empty() && passive_[i])) continue;
     double position = 0;
     if (!joint_states.latestPosition(static_cast<int>(i), position)) {
-      return Rejection{DropReason::kNeverSeen, "it leaves out '" + mechanism_.coordinateNames()[i] +
-                                                   "', which no joint state has shown yet"};
+      return Rejection{DropReason::kNeverSeen, "it leaves out " +
+                                                   inQuotes(mechanism_.coordinateNames()[i]) +
+                                                   ", which no joint state has shown yet"};
     }
     motion.table.positions.col(static_cast<Eigen::Index>(i)).setConstant(position);
   }
@@ -246,7 +252,7 @@ std::optional<Rejection> TrajectoryConversion::complete(const JointTrajectory& m
               .knots();
     }
   } catch (const MotionError& error) {
-    return Rejection{DropReason::kTimes, error.what()};
+    return Rejection{DropReason::kTimes, printable(error.what())};
   }
   motion.completion = !velocities      ? "velocities and accelerations are those of a cubic spline "
                                          "through its positions"
@@ -264,8 +270,8 @@ std::optional<Rejection> TrajectoryConversion::sample(const JointTrajectory& mes
   if (motion.samples->count() <= TrajectorySamples::kMost) return std::nullopt;
   return Rejection{DropReason::kTimes,
                    "it lasts " + numberText(motion.table.times.back()) + " s, more than the " +
-                       std::to_string(TrajectorySamples::kMost) +
-                       " samples of ~trajectory_sampling = " + numberText(sampling_) + " Hz"};
+                       std::to_string(TrajectorySamples::kMost) + " samples of " +
+                       privateName("trajectory_sampling") + " = " + numberText(sampling_) + " Hz"};
 }
 
 JointTrajectory withEfforts(const JointTrajectory& message, const TrajectoryMotion& motion,

@@ -23,7 +23,9 @@ parameters (in brackets: the defaults, which play the paper's pendulum)
   ~via_points            of minimum_jerk, list of {time: s, positions: [rad or m]} ([])
   ~file                  of the table: CSV, columns time, position.<joint>, velocity.<joint>,
                          acceleration.<joint> (""); robot_description, if there is one, says which
-                         joints are continuous: whole turns that their driver left out are added
+                         joints are continuous: whole turns that their driver left out are added. A
+                         path is relative to where the node, or with the launch files roslaunch, is
+                         started
   ~message               joint_state | joint_trajectory (joint_state)
   ~rate                  samples per second, Hz (1000)
   ~velocities            whether joint states carry velocities (true)

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <set>
 
+#include "base/nearest_name.h"
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "ros/message_text.h"
 #include "ros/sample_times.h"
 #include "virtual_work_dynamics/motion_csv.h"
@@ -55,12 +57,23 @@ void checkCount(std::size_t count, const std::vector<std::string>& joints,
                                  " joints, got " + std::to_string(count));
 }
 
+void checkPositive(double value, const std::string& name, const std::string& unit) {
+  if (value > 0) return;
+  throw parameterError(name, "expected more than 0 " + unit + ", got " + numberText(value));
+}
+
+void checkNotNegative(double value, const std::string& name, const std::string& unit) {
+  if (value >= 0) return;
+  throw parameterError(name, "expected 0 " + unit + " or more, got " + numberText(value));
+}
+
 void checkJoints(const std::vector<std::string>& joints) {
   std::set<std::string> seen;
   if (joints.empty()) throw parameterError("joints", "expected at least one name, got none");
   for (const std::string& joint : joints) {
     if (joint.empty()) throw parameterError("joints", "a name is empty");
-    if (!seen.insert(joint).second) throw parameterError("joints", joint + " is named twice");
+    if (!seen.insert(joint).second)
+      throw parameterError("joints", inQuotes(joint) + " is named twice");
   }
 }
 
@@ -108,10 +121,16 @@ std::shared_ptr<const MotionLaw> makeLaw(const LawParameters& parameters, const 
                                          std::vector<std::string>& joints) {
   if (parameters.law == "table") {
     if (parameters.file.empty()) throw parameterError("file", "the law `table` needs a file");
-    const MotionTable table = readTable(parameters.file, joints, robot);
-    joints = table.joints;
-    checkJoints(joints);
-    return tableLaw(table);
+    try {
+      const MotionTable table = readTable(parameters.file, joints, robot);
+      joints = table.joints;
+      checkJoints(joints);
+      return tableLaw(table);
+    } catch (const ParameterError&) {
+      throw;
+    } catch (const Error& error) {
+      throw parameterError("file", error.what());
+    }
   }
   checkJoints(joints);
   if (parameters.law == "minimum_jerk") {
@@ -123,15 +142,19 @@ std::shared_ptr<const MotionLaw> makeLaw(const LawParameters& parameters, const 
     }
   }
   if (parameters.law != "cosine" && parameters.law != "sine_sweep") {
-    throw parameterError(
-        "law", "expected cosine, sine_sweep, minimum_jerk or table, got '" + parameters.law + "'");
+    throw parameterError("law", "expected cosine, sine_sweep, minimum_jerk or table, got " +
+                                    inQuotes(parameters.law));
   }
   checkCount(parameters.amplitudes.size(), joints, "amplitudes");
   const Eigen::VectorXd amplitudes = Eigen::Map<const Eigen::VectorXd>(
       parameters.amplitudes.data(), static_cast<Index>(parameters.amplitudes.size()));
+  checkPositive(parameters.duration, "duration", "s");
   if (parameters.law == "cosine") {
+    checkPositive(parameters.period, "period", "s");
     return cosineLaw(amplitudes, parameters.period, parameters.duration);
   }
+  checkNotNegative(parameters.start_frequency, "start_frequency", "Hz");
+  checkNotNegative(parameters.end_frequency, "end_frequency", "Hz");
   return sineSweepLaw(amplitudes, parameters.start_frequency, parameters.end_frequency,
                       parameters.duration);
 }
@@ -142,7 +165,8 @@ bool choice(PrivateParameters& parameters, const std::string& name, const std::s
   const std::string text = parameters.text(name, no);
   if (text == yes) return true;
   if (text == no) return false;
-  throw parameterError(name, "expected " + no + " or " + yes + ", got '" + text + "'");
+  throw parameterError(name, "expected " + no + " or " + yes + ", got " + inQuotes(text) +
+                                 nameHelp(text, {no, yes}));
 }
 
 double atLeastZero(PrivateParameters& parameters, const std::string& name, double fallback) {
@@ -151,15 +175,22 @@ double atLeastZero(PrivateParameters& parameters, const std::string& name, doubl
   throw parameterError(name, "expected 0 to 1e9 s, got " + numberText(value));
 }
 
-void checkSampling(const TrajectorySettings& settings) {
+/// The parameter that says how long the motion of a law lasts.
+std::string parameterOfDuration(const std::string& law) {
+  if (law == "table") return "file";
+  return law == "minimum_jerk" ? "via_points" : "duration";
+}
+
+void checkSampling(const TrajectorySettings& settings, const std::string& law) {
   if (!(settings.rate > 0 && settings.rate <= kMaxRate)) {
     throw parameterError("rate",
                          "expected more than 0 and up to 1e6 Hz, got " + numberText(settings.rate));
   }
   const double duration = settings.law->duration();
   if (duration > kMaxDuration || (duration > 0 && duration < kMinDuration)) {
-    throw MotionError("the motion must last from 1e-6 to 1e9 s, its duration is " +
-                      numberText(duration) + " s");
+    throw parameterError(
+        parameterOfDuration(law),
+        "the motion must last from 1e-6 to 1e9 s, its duration is " + numberText(duration) + " s");
   }
   if (settings.loop && duration == 0) {
     throw parameterError("loop", "a motion of a single instant cannot be repeated");
@@ -202,7 +233,7 @@ TrajectorySettings readTrajectorySettings(PrivateParameters& parameters, const R
                                                      std::to_string(settings.wait_for_subscribers));
   }
   settings.law = makeLaw(law, robot, settings.joints);
-  checkSampling(settings);
+  checkSampling(settings, law.law);
   return settings;
 }
 

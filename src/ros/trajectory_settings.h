@@ -35,8 +35,9 @@ using RobotSource = std::function<std::optional<Mechanism>()>;
 /// @param robot asked, for the law `table` only, which joints are continuous (unwrapPositions());
 /// may
 ///   be empty.
-/// @throws ParameterError naming a parameter that is unknown or has a wrong type, length or value;
-///   MotionError as the motion laws and for durations out of range; FileError as readMotionCsv().
+/// @throws ParameterError naming a parameter that is unknown or has a wrong type, length or value,
+/// or
+///   a file that cannot be read.
 TrajectorySettings readTrajectorySettings(PrivateParameters& parameters,
                                           const RobotSource& robot = {});
 

@@ -3,6 +3,8 @@
 #include <set>
 #include <string>
 
+#include "base/printable.h"
+#include "scene/lookup.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -31,11 +33,12 @@ void requireLoad(const Load& load, std::size_t applied) {
 
 const Scene& openChain(const Scene& scene) {
   if (!scene.closures.empty()) {
-    throw SceneError("closures: '" + scene.closures[0].name + "': an open chain has no closures");
+    throw SceneError("closures: " + inQuotes(scene.closures[0].name) +
+                     ": an open chain has no closures");
   }
   if (!scene.springs.empty()) {
-    throw SceneError("springs: '" + scene.springs[0].name +
-                     "': an open chain has no springs between points");
+    throw SceneError("springs: " + inQuotes(scene.springs[0].name) +
+                     ": an open chain has no springs between points");
   }
   if (scene.actuated) {
     throw SceneError("actuated: every joint of an open chain carries effort");
@@ -53,23 +56,19 @@ void requireSoundInertias(const Mechanism& mechanism, const Scene& scene) {
 std::vector<int> linksOf(const Mechanism& mechanism, const std::vector<std::string>& reactions) {
   std::vector<int> links;
   std::set<std::string> seen;
-  for (const std::string& name : reactions) {
-    if (!seen.insert(name).second) {
-      throw SceneError("reactions: '" + name + "' is requested twice");
-    }
-    const int joint = name == kGround ? -1 : mechanism.jointIndex(name);
-    if (joint < 0 && name != kGround) {
-      throw SceneError("reactions: the robot has no joint '" + name + "'");
-    }
-    links.push_back(joint + 1);
+  for (std::size_t i = 0; i < reactions.size(); ++i) {
+    const std::string& name = reactions[i];
+    const std::string place = entryOf("reactions", i);
+    if (!seen.insert(name).second)
+      throw SceneError(place + ": " + inQuotes(name) + " is named twice");
+    links.push_back(name == kGround ? 0 : jointNamed(mechanism, name, place) + 1);
   }
   return links;
 }
 
-int linkOf(const Mechanism& mechanism, const AppliedWrench& wrench) {
-  const int link = mechanism.linkIndex(wrench.link);
-  if (link < 0) throw SceneError("applied_wrenches: the robot has no link '" + wrench.link + "'");
-  return link;
+int linkOf(const Mechanism& mechanism, const Scene& scene, std::size_t index) {
+  return linkNamed(mechanism, scene.applied_wrenches[index].link,
+                   entryOf("applied_wrenches", index) + ".link");
 }
 
 }  // namespace virtual_work_dynamics

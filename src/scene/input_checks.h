@@ -30,8 +30,8 @@ void requireSoundInertias(const Mechanism& mechanism, const Scene& scene);
 /// root link. @throws SceneError when a name is not a joint's, or is given twice.
 std::vector<int> linksOf(const Mechanism& mechanism, const std::vector<std::string>& reactions);
 
-/// Index of the link that an applied wrench acts on. @throws SceneError when the mechanism has no
-/// such link.
-int linkOf(const Mechanism& mechanism, const AppliedWrench& wrench);
+/// Index of the link that an applied wrench of the scene acts on. @throws SceneError when the
+/// mechanism has no such link.
+int linkOf(const Mechanism& mechanism, const Scene& scene, std::size_t index);
 
 }  // namespace virtual_work_dynamics

@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "base/number_text.h"
+#include "base/printable.h"
+#include "scene/lookup.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -16,7 +18,7 @@ void requireAtLeastZero(const std::string& where, const char* key, double value)
 }
 
 void check(const JointTerms& terms) {
-  const std::string where = "joints: '" + terms.joint + "'";
+  const std::string where = "joints: " + inQuotes(terms.joint);
   requireAtLeastZero(where, "stiffness", terms.stiffness);
   requireAtLeastZero(where, "damping", terms.damping.value_or(0));
   requireAtLeastZero(where, "coulomb", terms.coulomb.value_or(0));
@@ -33,12 +35,11 @@ std::vector<int> termsOfJoints(const Mechanism& mechanism, const Scene& scene) {
   std::vector<int> given(mechanism.joints().size(), -1);
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     const JointTerms& terms = scene.joints[i];
-    const int joint = mechanism.jointIndex(terms.joint);
-    if (joint < 0) throw SceneError("joints: the robot has no joint '" + terms.joint + "'");
+    const int joint = jointNamed(mechanism, terms.joint, entryOf("joints", i) + ".name");
     if (mechanism.joint(joint).type == JointType::kFixed) {
-      throw SceneError("joints: '" + terms.joint + "' is a fixed joint");
+      throw SceneError("joints: " + inQuotes(terms.joint) + " is a fixed joint");
     }
-    if (given[joint] >= 0) throw SceneError("joints: '" + terms.joint + "' is given twice");
+    if (given[joint] >= 0) throw SceneError("joints: " + inQuotes(terms.joint) + " is given twice");
     check(terms);
     given[joint] = static_cast<int>(i);
   }
@@ -57,7 +58,8 @@ std::vector<ResolvedJointTerms> resolveJointTerms(const Mechanism& mechanism, co
     terms.joint = joint.name;
     if (given[k] >= 0) terms = scene.joints[given[k]];
     if (scene.use_urdf_dynamics) {
-      const std::string where = "use_urdf_dynamics: joint '" + joint.name + "' of the description";
+      const std::string where =
+          "use_urdf_dynamics: joint " + inQuotes(joint.name) + " of the description";
       if (!terms.damping) requireAtLeastZero(where, "damping", joint.damping);
       if (!terms.coulomb) requireAtLeastZero(where, "friction", joint.friction);
       terms.damping = terms.damping.value_or(joint.damping);

@@ -3,8 +3,11 @@
 #include <cmath>
 #include <set>
 
+#include "base/nearest_name.h"
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "scene/closure_types.h"
+#include "scene/lookup.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -17,7 +20,7 @@ void requirePositive(const std::string& what, double value) {
 }
 
 void requireOnce(const std::string& list, std::set<std::string>& seen, const std::string& name) {
-  if (!seen.insert(name).second) throw SceneError(list + ": '" + name + "' is given twice");
+  if (!seen.insert(name).second) throw SceneError(list + ": " + inQuotes(name) + " is given twice");
 }
 
 class Resolver {
@@ -42,17 +45,10 @@ class Resolver {
   }
 
  private:
-  int closureIndex(const std::string& name) const {
-    for (std::size_t c = 0; c < scene_.closures.size(); ++c) {
-      if (scene_.closures[c].name == name) return static_cast<int>(c);
-    }
-    return -1;
-  }
-
   void checkClosures() const {
     std::set<std::string> seen;
     for (const Closure& closure : scene_.closures) {
-      const std::string what = "closures: '" + closure.name + "'";
+      const std::string what = "closures: " + inQuotes(closure.name);
       if (closure.name.empty()) throw SceneError("closures: a closure has no name");
       if (closure.name == kGround) throw SceneError(what + ": that name is reserved");
       if (mechanism_.jointIndex(closure.name) >= 0) {
@@ -61,7 +57,7 @@ class Resolver {
       requireOnce("closures", seen, closure.name);
       for (const LinkFrame* frame : {&closure.parent, &closure.child}) {
         if (!frame->xyz.allFinite() || !frame->rpy.allFinite()) {
-          throw SceneError(what + ": the frame on '" + frame->link + "' is not finite");
+          throw SceneError(what + ": the frame on " + inQuotes(frame->link) + " is not finite");
         }
       }
       if (closure.length && !traitsOf(closure.type).hasLength()) {
@@ -72,30 +68,38 @@ class Resolver {
   }
 
   // Finds the coordinate of a joint that neither is fixed nor mimics another one.
-  int coordinateOf(const std::string& list, const std::string& name) const {
-    const int k = mechanism_.jointIndex(name);
-    if (k < 0) throw SceneError(list + ": the robot has no joint '" + name + "'");
+  int coordinateOf(const std::string& list, const std::string& name, int k) const {
     const Joint& joint = mechanism_.joint(k);
     if (joint.type == JointType::kFixed) {
-      throw SceneError(list + ": '" + name + "' is a fixed joint");
+      throw SceneError(list + ": " + inQuotes(name) + " is a fixed joint");
     }
-    if (joint.mimics) throw SceneError(list + ": '" + name + "' mimics another joint");
+    if (joint.mimics) throw SceneError(list + ": " + inQuotes(name) + " mimics another joint");
     return joint.coordinate;
+  }
+
+  // The joint of a name that is not a closure's.
+  int jointOrClosure(const std::string& name, const std::string& place) const {
+    const int k = mechanism_.jointIndex(name);
+    if (k < 0) failAtUnknown(mechanism_, scene_, name, place);
+    return k;
   }
 
   void readActuated() {
     if (!scene_.actuated) return;
     std::set<std::string> seen;
     std::vector<bool> closures(scene_.closures.size(), false);
-    for (const std::string& name : *scene_.actuated) {
+    for (std::size_t i = 0; i < scene_.actuated->size(); ++i) {
+      const std::string& name = (*scene_.actuated)[i];
       requireOnce("actuated", seen, name);
-      const int c = closureIndex(name);
+      const int c = closureIndex(scene_, name);
       if (c < 0) {
-        loops_.actuated[static_cast<std::size_t>(coordinateOf("actuated", name))] = true;
+        const int k = jointOrClosure(name, entryOf("actuated", i));
+        loops_.actuated[static_cast<std::size_t>(coordinateOf("actuated", name, k))] = true;
         continue;
       }
       if (!traitsOf(scene_.closures[static_cast<std::size_t>(c)].type).free_axis) {
-        throw SceneError("actuated: closure '" + name + "' is neither revolute nor prismatic");
+        throw SceneError("actuated: closure " + inQuotes(name) +
+                         " is neither revolute nor prismatic");
       }
       closures[static_cast<std::size_t>(c)] = true;
     }
@@ -106,11 +110,13 @@ class Resolver {
 
   void readAssembly() {
     std::set<std::string> seen;
-    for (const NamedNumber& start : scene_.assembly) {
+    for (std::size_t i = 0; i < scene_.assembly.size(); ++i) {
+      const NamedNumber& start = scene_.assembly[i];
       requireOnce("assembly", seen, start.name);
-      const int coordinate = coordinateOf("assembly", start.name);
+      const int k = jointNamed(mechanism_, start.name, entryOf("assembly", i) + ".name");
+      const int coordinate = coordinateOf("assembly", start.name, k);
       if (!std::isfinite(start.value)) {
-        throw SceneError("assembly: '" + start.name + "': the position is not finite");
+        throw SceneError("assembly: " + inQuotes(start.name) + ": the position is not finite");
       }
       loops_.start[coordinate] = start.value;
     }
@@ -134,10 +140,16 @@ class Resolver {
 
   void readZeroAt() {
     std::set<std::string> seen;
-    for (const std::string& name : scene_.redundancy.zero_at) {
+    std::vector<std::string> known;
+    for (const Closure& closure : scene_.closures) known.push_back(closure.name);
+    for (std::size_t i = 0; i < scene_.redundancy.zero_at.size(); ++i) {
+      const std::string& name = scene_.redundancy.zero_at[i];
       requireOnce("redundancy: zero_at", seen, name);
-      const int c = closureIndex(name);
-      if (c < 0) throw SceneError("redundancy: zero_at: the scene has no closure '" + name + "'");
+      const int c = closureIndex(scene_, name);
+      if (c < 0) {
+        throw SceneError(entryOf("redundancy.zero_at", i) + ": no closure " + inQuotes(name) +
+                         nameHelp(name, known));
+      }
       loops_.zero_at[static_cast<std::size_t>(c)] = true;
     }
   }
@@ -145,15 +157,15 @@ class Resolver {
   void readStiffness() {
     const std::string list = "redundancy: stiffness";
     std::set<std::string> seen;
-    for (const NamedNumber& stiffness : scene_.redundancy.stiffness) {
+    for (std::size_t i = 0; i < scene_.redundancy.stiffness.size(); ++i) {
+      const NamedNumber& stiffness = scene_.redundancy.stiffness[i];
       requireOnce(list, seen, stiffness.name);
-      requirePositive(list + ": '" + stiffness.name + "'", stiffness.value);
-      const int c = closureIndex(stiffness.name), k = mechanism_.jointIndex(stiffness.name);
-      if (c < 0 && k < 0) {
-        throw SceneError(list + ": there is no joint or closure '" + stiffness.name + "'");
-      }
+      requirePositive(list + ": " + inQuotes(stiffness.name), stiffness.value);
+      const int c = closureIndex(scene_, stiffness.name);
+      const int k =
+          c < 0 ? jointOrClosure(stiffness.name, entryOf("redundancy.stiffness", i) + ".name") : -1;
       if (c < 0 && mechanism_.joint(k).type == JointType::kFixed) {
-        throw SceneError(list + ": '" + stiffness.name + "' is a fixed joint");
+        throw SceneError(list + ": " + inQuotes(stiffness.name) + " is a fixed joint");
       }
       (c < 0 ? loops_.joint_stiffness[static_cast<std::size_t>(k)]
              : loops_.closure_stiffness[static_cast<std::size_t>(c)]) = stiffness.value;
@@ -163,16 +175,19 @@ class Resolver {
   void readWeights() {
     const std::string list = "redundancy: effort_weights";
     std::set<std::string> seen;
-    for (const NamedNumber& weight : scene_.redundancy.effort_weights) {
+    for (std::size_t i = 0; i < scene_.redundancy.effort_weights.size(); ++i) {
+      const NamedNumber& weight = scene_.redundancy.effort_weights[i];
       requireOnce(list, seen, weight.name);
-      requirePositive(list + ": '" + weight.name + "'", weight.value);
-      const int c = closureIndex(weight.name);
-      const int coordinate = c < 0 ? coordinateOf(list, weight.name) : -1;
+      requirePositive(list + ": " + inQuotes(weight.name), weight.value);
+      const int c = closureIndex(scene_, weight.name);
+      const std::string place = entryOf("redundancy.effort_weights", i) + ".name";
+      const int coordinate =
+          c < 0 ? coordinateOf(list, weight.name, jointOrClosure(weight.name, place)) : -1;
       const auto& closures = loops_.actuated_closures;
       const bool actuated =
           c < 0 ? loops_.actuated[static_cast<std::size_t>(coordinate)]
                 : std::find(closures.begin(), closures.end(), std::size_t(c)) != closures.end();
-      if (!actuated) throw SceneError(list + ": '" + weight.name + "' is not actuated");
+      if (!actuated) throw SceneError(list + ": " + inQuotes(weight.name) + " is not actuated");
       (c < 0 ? loops_.coordinate_weights[static_cast<std::size_t>(coordinate)]
              : loops_.closure_weights[static_cast<std::size_t>(c)]) = weight.value;
     }

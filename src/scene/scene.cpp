@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/printable.h"
+#include "scene/lookup.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/mechanism.h"
 
@@ -9,19 +11,15 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-bool isClosure(const Scene& scene, const std::string& name) {
-  return std::any_of(scene.closures.begin(), scene.closures.end(),
-                     [&](const Closure& closure) { return closure.name == name; });
-}
-
 void checkNames(const Mechanism& mechanism, const Scene& scene) {
   const std::vector<std::string>& names = scene.reaction_names;
   for (auto name = names.begin(); name != names.end(); ++name) {
-    if (*name != kGround && mechanism.jointIndex(*name) < 0 && !isClosure(scene, *name)) {
-      throw SceneError("reactions: there is no joint or closure '" + *name + "'");
+    const std::string place = entryOf("reactions", static_cast<std::size_t>(name - names.begin()));
+    if (*name != kGround && mechanism.jointIndex(*name) < 0 && closureIndex(scene, *name) < 0) {
+      failAtUnknown(mechanism, scene, *name, place);
     }
     if (std::find(names.begin(), name, *name) != name) {
-      throw SceneError("reactions: '" + *name + "' is named twice");
+      throw SceneError(place + ": " + inQuotes(*name) + " is named twice");
     }
   }
 }

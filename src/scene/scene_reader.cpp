@@ -1,6 +1,7 @@
 #include "virtual_work_dynamics/scene_reader.h"
 
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "base/text_file.h"
 #include "scene/closure_reader.h"
 #include "scene/yaml_document.h"
@@ -27,7 +28,7 @@ void readReactions(const YAML::Node& node, Scene& scene) {
   }
   const std::string text = scalarText(node, "reactions", "all, none or a list of joint names");
   if (text != "all" && text != "none") {
-    failAt("reactions", "'" + text + "' is neither all, none nor a list of joint names");
+    failAt("reactions", inQuotes(text) + " is neither all, none nor a list of joint names");
   }
   scene.reactions = text == "all" ? ReactionSelection::kAll : ReactionSelection::kNone;
 }
@@ -81,7 +82,13 @@ Tolerances readTolerances(const YAML::Node& node, const std::string& where) {
 
 void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
   if (readLoopEntry(key, value, scene)) return;
-  if (!contains(kSceneKeys, key)) failAt(key, "unknown key");
+  if (!contains(kSceneKeys, key)) {
+    Names known = kSceneKeys;
+    for (const char* other : {"closures", "springs", "actuated", "assembly", "redundancy"}) {
+      known.emplace_back(other);
+    }
+    failAtUnknownKey("", key, known);
+  }
   if (key == "gravity") scene.gravity = readVector3(value, key);
   if (key == "motion") scene.static_motion = readWord(value, key, {"full", "static"}) == 1;
   if (key == "reactions") readReactions(value, scene);
@@ -98,7 +105,7 @@ void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
 Scene readScene(const YAML::Node& node) {
   Scene scene;
   if (!node || node.IsNull()) return scene;
-  if (!node.IsMap()) throw SceneError("scene: expected a map of keys");
+  if (!node.IsMap()) throw SceneError("expected a map of keys, such as gravity: [0, 0, -9.81]");
   forEachEntry(node, "", [&](const std::string& key, const YAML::Node& value) {
     readEntry(key, value, scene);
   });

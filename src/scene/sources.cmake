@@ -4,6 +4,7 @@ vwd_core(
   input_checks.cpp
   joint_terms.cpp
   load.cpp
+  lookup.cpp
   resolved_loops.cpp
   scene.cpp
   scene_reader.cpp

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "base/nearest_name.h"
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -26,7 +28,11 @@ bool contains(const Names& names, const std::string& name) {
 }
 
 void failAt(const std::string& key, const std::string& what) {
-  throw SceneError("scene: " + key + ": " + what);
+  throw SceneError(printable(key) + ": " + what);
+}
+
+void failAtUnknownKey(const std::string& where, const std::string& key, const Names& keys) {
+  failAt(where + (where.empty() ? "" : ".") + shortened(key), "unknown key" + nameHelp(key, keys));
 }
 
 std::string scalarText(const YAML::Node& node, const std::string& key,
@@ -38,7 +44,7 @@ std::string scalarText(const YAML::Node& node, const std::string& key,
 double readNumber(const YAML::Node& node, const std::string& key) {
   const std::string text = scalarText(node, key, "a number");
   double value = 0;
-  if (!parseNumber(text, value)) failAt(key, "'" + text + "' is not a finite number");
+  if (!parseNumber(text, value)) failAt(key, inQuotes(text) + " is not a finite number");
   return value;
 }
 
@@ -61,8 +67,11 @@ std::size_t readWord(const YAML::Node& node, const std::string& key, const Names
   const std::string text = scalarText(node, key, listed(words));
   const auto found = std::find(words.begin(), words.end(), text);
   if (found == words.end()) {
-    failAt(key, words.size() == 2 ? "'" + text + "' is neither " + listed(words, " nor ")
-                                  : "'" + text + "' is not one of " + listed(words, ", "));
+    const std::string nearest = nearestName(text, words);
+    failAt(key, inQuotes(text) +
+                    (words.size() == 2 ? " is neither " + listed(words, " nor ")
+                                       : " is not one of " + listed(words, ", ")) +
+                    (nearest.empty() ? "" : "; did you mean " + inQuotes(nearest) + "?"));
   }
   return static_cast<std::size_t>(found - words.begin());
 }
@@ -78,9 +87,9 @@ Names readNames(const YAML::Node& node, const std::string& key, const std::strin
 void forEachEntry(const YAML::Node& map, const std::string& prefix, const ReadEntry& read) {
   Names seen;
   for (const auto& entry : map) {
-    if (!entry.first.IsScalar()) throw SceneError("scene: " + prefix + "a key is not a word");
+    if (!entry.first.IsScalar()) throw SceneError(prefix + "a key is not a word");
     const std::string& key = entry.first.Scalar();
-    if (contains(seen, key)) failAt(prefix + key, "given twice");
+    if (contains(seen, key)) failAt(prefix + shortened(key), "given twice");
     seen.push_back(key);
     read(key, entry.second);
   }
@@ -92,7 +101,7 @@ void readMap(const YAML::Node& node, const std::string& where, const Names& keys
   if (!node.IsMap()) failAt(where, "expected a map with " + listed(keys, ", "));
   forEachEntry(node, where + ".", [&](const std::string& key, const YAML::Node& value) {
     const std::string path = where + "." + key;
-    if (!contains(keys, key)) failAt(path, "unknown key");
+    if (!contains(keys, key)) failAtUnknownKey(where, key, keys);
     read(key, value, path);
   });
 }

@@ -13,8 +13,13 @@ using Names = std::vector<std::string>;
 
 bool contains(const Names& names, const std::string& name);
 
-/// Reports what is wrong with a key of the scene. @throws SceneError always.
+/// Reports what is wrong with a key of the scene, which its path names. @throws SceneError always.
 [[noreturn]] void failAt(const std::string& key, const std::string& what);
+
+/// Reports a key that is not one of those that may stand in the map `where`, which is empty for the
+/// scene itself. @throws SceneError always, with the key that may be meant.
+[[noreturn]] void failAtUnknownKey(const std::string& where, const std::string& key,
+                                   const Names& keys);
 
 // The following functions throw SceneError naming the key when the node has another type or value.
 

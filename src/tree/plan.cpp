@@ -232,8 +232,9 @@ class Compiler {
   }
 
   void addApplied() {
-    for (const AppliedWrench& wrench : scene_.applied_wrenches) {
-      const Placement& place = places_[linkOf(mechanism_, wrench)];
+    for (std::size_t i = 0; i < scene_.applied_wrenches.size(); ++i) {
+      const AppliedWrench& wrench = scene_.applied_wrenches[i];
+      const Placement& place = places_[linkOf(mechanism_, scene_, i)];
       AppliedOutside<Real> applied;
       applied.body = place.body;
       applied.in_root_axes = wrench.axes == Axes::kRoot;  // (3.6), f* and m* other than weight

@@ -11,6 +11,7 @@
 #include "scene/joint_terms.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/instruction_set.h"
+#include "witness/geared_angle.h"
 #include "witness/momentum/welded_bodies.h"
 
 namespace virtual_work_dynamics {
@@ -57,25 +58,14 @@ struct Drive {
         offset(joint.offset) {}
 };
 
-// Cosine and sine of multiplier * q + offset, whose own rounding would turn what the joint carries
-// by as much as the last digit of a large angle.
+// Cosine and sine of a joint's angle.
 void cosineAndSine(const Drive& drive, double q, double& cosine, double& sine) {
-  if (!drive.geared) {
+  if (drive.geared) {
+    gearedCosineAndSine(drive.multiplier, q, drive.offset, cosine, sine);
+  } else {
     cosine = std::cos(q);
     sine = std::sin(q);
-    return;
   }
-  const double product = drive.multiplier * q;
-  const double angle = product + drive.offset;
-  const double back = angle - product;
-  const double rest = std::fma(drive.multiplier, q, -product) +
-                      ((product - (angle - back)) + (drive.offset - back));
-  // At a billion radians even the square of the rest is more than other rounding.
-  const double c = std::cos(angle), s = std::sin(angle);
-  const double half_sine = std::sin(rest / 2), versine = 2 * half_sine * half_sine;
-  const double rest_sine = std::sin(rest);
-  cosine = c - (rest_sine * s + versine * c);
-  sine = s + (rest_sine * c - versine * s);
 }
 
 // Sets to = from Rz, matrices by columns.
@@ -119,7 +109,7 @@ struct Certifier::Impl {
     for (const ResolvedJointTerms& term : terms) {
       term_drives.emplace_back(mechanism.joints()[term.joint]);
     }
-    for (const AppliedWrench& applied : scene.applied_wrenches) addWrench(mechanism, applied);
+    for (std::size_t i = 0; i < scene.applied_wrenches.size(); ++i) addWrench(mechanism, scene, i);
     inputs = {welded.bodies.data(),
               joints.data(),
               welded.bodies.size(),
@@ -129,8 +119,9 @@ struct Certifier::Impl {
               static_cast<double>(scene.gravity.cast<long double>().norm())};
   }
 
-  void addWrench(const Mechanism& mechanism, const AppliedWrench& applied) {
-    const LinkPlace& place = welded.places[linkOf(mechanism, applied)];
+  void addWrench(const Mechanism& mechanism, const Scene& scene, std::size_t index) {
+    const AppliedWrench& applied = scene.applied_wrenches[index];
+    const LinkPlace& place = welded.places[linkOf(mechanism, scene, index)];
     MomentumWrench wrench;
     wrench.body = place.body;
     wrench.in_root_axes = applied.axes == Axes::kRoot;

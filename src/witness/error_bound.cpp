@@ -91,10 +91,10 @@ struct ErrorBound::Impl {
         effort_depths(mechanism.coordinates().size()) {
     for (const Joint& joint : mechanism.joints()) joints.push_back(normsOf(joint));
     for (const Link& link : mechanism.links()) links.push_back(normsOf(link));
-    for (const AppliedWrench& applied : scene.applied_wrenches) {
+    for (std::size_t i = 0; i < scene.applied_wrenches.size(); ++i) {
       AppliedNorms norms;
-      norms.link = static_cast<std::size_t>(linkOf(mechanism, applied));
-      norms.arm = applied.at.cast<long double>().norm();
+      norms.link = static_cast<std::size_t>(linkOf(mechanism, scene, i));
+      norms.arm = scene.applied_wrenches[i].at.cast<long double>().norm();
       applied_wrenches.push_back(norms);
     }
     motions[0].gamma = static_cast<double>(scene.gravity.cast<long double>().norm());

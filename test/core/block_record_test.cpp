@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t kMillisecond = 1000000;
 constexpr std::int64_t kWallClock = 1700000000123456789;  // ns
 
-/// A record of a ramp of 0.5 rad/s at 1 kHz: blocks of four samples, from the twelfth sample on.
+/// A record of a ramp of 0.5 rad/s at 1 kHz: blocks of two samples, from the twelfth sample on.
 class Ramp {
  public:
   Ramp() { record.reserve(); }
@@ -39,17 +39,17 @@ class Ramp {
 
 TEST(BlockRecord, HoldsMeansOfSamples) {
   Ramp ramp;
-  ramp.add(11 + 4 * 10 + 3);
+  ramp.add(11 + 2 * 10 + 1);
   EXPECT_EQ(ramp.record.count(), 10u);
   EXPECT_EQ(ramp.record.fresh(), 10u);
-  EXPECT_EQ(ramp.record.samples(), 4);
-  EXPECT_NEAR(ramp.record.interval(), 0.004, 1e-15);
+  EXPECT_EQ(ramp.record.samples(), 2);
+  EXPECT_NEAR(ramp.record.interval(), 0.002, 1e-15);
   const std::vector<StreamBlock> blocks = ramp.blocks();
   ASSERT_EQ(blocks.size(), 10u);
   EXPECT_EQ(ramp.record.fresh(), 0u);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     // The twelfth sample is the first: at 12 ms, with times from it.
-    const double time = 0.0015 + 0.004 * static_cast<double>(i);
+    const double time = 0.0005 + 0.002 * static_cast<double>(i);
     EXPECT_NEAR(blocks[i].time, time, 1e-12);
     EXPECT_NEAR(blocks[i].position, 1e4 + 0.5 * (0.012 + time), 1e-11);
     EXPECT_EQ(blocks[i].velocity, 0.5);
@@ -58,12 +58,12 @@ TEST(BlockRecord, HoldsMeansOfSamples) {
 
 TEST(BlockRecord, KeepsTheLatest) {
   Ramp ramp;
-  ramp.add(11 + 4 * static_cast<int>(BlockRecord::kMost + 5));
+  ramp.add(11 + 2 * static_cast<int>(BlockRecord::kMost + 5));
   std::vector<StreamBlock> blocks = ramp.blocks();
   ASSERT_EQ(blocks.size(), BlockRecord::kMost);
-  EXPECT_NEAR(blocks[0].time, 0.0015 + 0.004 * 5, 1e-12);
+  EXPECT_NEAR(blocks[0].time, 0.0005 + 0.002 * 5, 1e-12);
   for (std::size_t i = 1; i < blocks.size(); ++i)
-    EXPECT_NEAR(blocks[i].time - blocks[i - 1].time, 0.004, 1e-9);
+    EXPECT_NEAR(blocks[i].time - blocks[i - 1].time, 0.002, 1e-9);
   const double newest = blocks.back().time;
   ramp.record.keep(3);
   blocks = ramp.blocks();
@@ -71,32 +71,46 @@ TEST(BlockRecord, KeepsTheLatest) {
   EXPECT_EQ(blocks.back().time, newest);
 }
 
+TEST(BlockRecord, KeepsSixSecondsOfSlowStreams) {
+  Ramp ramp;
+  ramp.add(2000, 5 * kMillisecond);
+  EXPECT_EQ(ramp.record.samples(), 1);
+  EXPECT_EQ(ramp.record.count(), 1200u);
+  EXPECT_NEAR(ramp.blocks().back().time - ramp.blocks()[0].time, 5.995, 1e-9);
+}
+
+TEST(BlockRecord, KeepsEnoughBlocksOfTheSlowest) {
+  Ramp ramp;
+  ramp.add(2000, 20 * kMillisecond);
+  EXPECT_EQ(ramp.record.count(), BlockRecord::kMost / 2);
+}
+
 TEST(BlockRecord, HasNoBlockAcrossTheBeginningOfAStretch) {
   Ramp ramp;
-  ramp.add(11 + 4 + 2);
+  ramp.add(11 + 2 + 1);
   ramp.record.beginStretch();
-  ramp.add(4);
+  ramp.add(2);
   const std::vector<StreamBlock> blocks = ramp.blocks();
   ASSERT_EQ(blocks.size(), 2u);
-  EXPECT_NEAR(blocks[1].time - blocks[0].time, 0.006, 1e-12);  // two samples belong to none
+  EXPECT_NEAR(blocks[1].time - blocks[0].time, 0.003, 1e-12);  // one sample belongs to none
 }
 
 TEST(BlockRecord, BeginsAnewAtAnotherRate) {
   Ramp ramp;
-  ramp.add(11 + 4 * 10);
+  ramp.add(11 + 2 * 10);
   ramp.add(1, 2 * kMillisecond);
   EXPECT_EQ(ramp.record.count(), 0u);
-  ramp.add(2 * 7, 2 * kMillisecond);
-  EXPECT_EQ(ramp.record.samples(), 2);
+  ramp.add(7, 2 * kMillisecond);
+  EXPECT_EQ(ramp.record.samples(), 1);
   EXPECT_EQ(ramp.record.count(), 7u);
 }
 
 TEST(BlockRecord, ForgetsWhenItIsCleared) {
   Ramp ramp;
-  ramp.add(11 + 4 * 10 + 2);
+  ramp.add(11 + 2 * 10 + 1);
   ramp.record.clear();
   EXPECT_EQ(ramp.record.count() + ramp.record.fresh(), 0u);
-  ramp.add(3);
+  ramp.add(1);
   EXPECT_EQ(ramp.record.count(), 0u);
   ramp.add(1);
   EXPECT_EQ(ramp.record.count(), 1u);

@@ -58,7 +58,7 @@ Closure& pinOf(Scene& scene) {
 
 TEST(ClosedLoopRefusals, Closures) {
   expectRefusal([](Scene& scene) { pinOf(scene).parent.link = "link_9"; },
-                "closures: 'pin': the robot has no link 'link_9'");
+                "closures: 'pin': parent.link: no link 'link_9'; known are 'link_0', ");
   expectRefusal([](Scene& scene) { pinOf(scene).child.link = "link_2"; },
                 "closures: 'pin': both frames are on link 'link_2'");
   expectRefusal(
@@ -103,7 +103,7 @@ TEST(ClosedLoopRefusals, Springs) {
         text);
   };
   refused([](PointSpring& s) { s.link_b = "link_9"; },
-          "springs: 's': the robot has no link 'link_9'");
+          "springs: 's': link_b: no link 'link_9'; known are 'link_0', ");
   refused([](PointSpring& s) { s.link_b = "link_0"; },
           "springs: 's': both ends are on link 'link_0'");
   refused([](PointSpring& s) { s.stiffness = 0; },
@@ -121,7 +121,9 @@ TEST(ClosedLoopRefusals, ActuatedJoints) {
   const auto refused = [](const std::vector<std::string>& names, const std::string& text) {
     expectRefusal([&](Scene& scene) { scene.actuated = names; }, text);
   };
-  refused({"joint_9"}, "actuated: the robot has no joint 'joint_9'");
+  refused({"joint_1", "jiont_3"},
+          "actuated[1]: no joint or closure 'jiont_3'; did you mean 'joint_3'?");
+  refused({"joint_9"}, "actuated[0]: no joint or closure 'joint_9'; known are 'joint_1', ");
   refused({"joint_5"}, "actuated: 'joint_5' is a fixed joint");
   refused({"joint_4"}, "actuated: 'joint_4' mimics another joint");
   refused({"joint_1", "joint_1"}, "actuated: 'joint_1' is given twice");
@@ -158,7 +160,7 @@ TEST(ClosedLoopRefusals, Assembly) {
       [](Scene& scene) {
         scene.assembly = {{"pin", 0}};
       },
-      "assembly: the robot has no joint 'pin'");
+      "assembly[0].name: no joint 'pin'");
   // Half a metre beyond the stretched linkage.
   expectRefusal(
       [](Scene& scene) {
@@ -193,7 +195,7 @@ TEST(ClosedLoopRefusals, Redundancy) {
   refused([](Redundancy& r) { r.rank_tolerance = 1; },
           "redundancy: rank_tolerance = 1 is not less than 1");
   refused([](Redundancy& r) { r.zero_at = {"joint_1"}; },
-          "redundancy: zero_at: the scene has no closure 'joint_1'");
+          "redundancy.zero_at[0]: no closure 'joint_1'; known are 'pin'");
   refused(
       [](Redundancy& r) {
         r.zero_at = {"pin", "pin"};
@@ -208,7 +210,7 @@ TEST(ClosedLoopRefusals, Redundancy) {
       [](Redundancy& r) {
         r.stiffness = {{"x", 1}};
       },
-      "redundancy: stiffness: there is no joint or closure 'x'");
+      "redundancy.stiffness[0].name: no joint or closure 'x'; known are ");
   refused(
       [](Redundancy& r) {
         r.stiffness = {{"joint_5", 1}};
@@ -232,9 +234,9 @@ TEST(ClosedLoopRefusals, Requests) {
   Request request;
   request.child_axes = {"pin", "pin"};
   const auto make = [&]() { ClosedLoops(slider_crank.mechanism(), scene, request); };
-  expectError(make, "reactions: 'pin' is requested twice");
+  expectError(make, "reactions[1]: 'pin' is named twice");
   request.child_axes = {"joint_9"};
-  expectError(make, "reactions: there is no joint or closure 'joint_9'");
+  expectError(make, "reactions[0]: no joint or closure 'joint_9'");
 }
 
 TEST(ClosedLoopRefusals, MotionOfAnotherMechanism) {
@@ -301,7 +303,7 @@ TEST(RequestedReactions, ClosuresStandBehindJoints) {
   EXPECT_EQ(requestedReactions(mechanism, scene), (Names{"ground", "joint_2", "another"}));
   scene.reaction_names = {"nobody"};
   expectError([&]() { requestedReactions(mechanism, scene); },
-              "reactions: there is no joint or closure 'nobody'");
+              "reactions[0]: no joint or closure 'nobody'");
 }
 
 }  // namespace

@@ -34,8 +34,13 @@ set(core_test_files
   test/core/closed_loop_singular_test.cpp
   test/core/closed_loop_tree_test.cpp
   test/core/description_deviations_test.cpp
+  test/core/description_messages_test.cpp
   test/core/deviation_rows_test.cpp
   test/core/deviations_test.cpp
+  test/core/dirty_descriptions.cpp
+  test/core/dirty_descriptions_test.cpp
+  test/core/dirty_faults.cpp
+  test/core/dirty_text_faults.cpp
   test/core/dynamics_test.cpp
   test/core/dynamics_use_test.cpp
   test/core/effort_doubts_test.cpp
@@ -55,12 +60,14 @@ set(core_test_files
   test/core/motion_completion_accuracy_test.cpp
   test/core/motion_completion_test.cpp
   test/core/motion_csv_test.cpp
+  test/core/motion_estimator_jumps_test.cpp
   test/core/motion_estimator_rules_test.cpp
   test/core/motion_estimator_start_test.cpp
   test/core/motion_estimator_streams_test.cpp
   test/core/motion_estimator_test.cpp
   test/core/motion_law_test.cpp
   test/core/multifrontal_qr_test.cpp
+  test/core/nearest_name_test.cpp
   test/core/non_holonomic_conditions_test.cpp
   test/core/offline_certificates_test.cpp
   test/core/offline_deviations_test.cpp
@@ -69,6 +76,7 @@ set(core_test_files
   test/core/offline_loops_errors_test.cpp
   test/core/offline_loops_test.cpp
   test/core/offline_loops_threads_test.cpp
+  test/core/offline_names_test.cpp
   test/core/offline_plan_test.cpp
   test/core/offline_recordings_test.cpp
   test/core/offline_test.cpp
@@ -79,6 +87,7 @@ set(core_test_files
   test/core/plan_summary_test.cpp
   test/core/point_springs_test.cpp
   test/core/power_test.cpp
+  test/core/printable_test.cpp
   test/core/property_bodies_test.cpp
   test/core/property_formalisms_test.cpp
   test/core/property_frames_test.cpp
@@ -116,6 +125,7 @@ set(core_test_files
 # Compiled for each: where its tool is, and tests of code that is all in headers.
 set(core_test_files_of_build
   test/core/exact_products_test.cpp
+  test/core/far_positions_test.cpp
   test/core/number_text_test.cpp
   test/core/offline_progress_test.cpp
   test/core/tested_build.cpp)

@@ -238,6 +238,25 @@ TEST(LagrangeDynamics, RandomTreesAreTheSameByBothRoutes) {
   }
 }
 
+// A last digit of such angles is 1e-8 to 1e-4 rad.
+TEST(LagrangeDynamics, LargeAnglesOfGearsAreTheSameByBothRoutes) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    RobotBuilder builder = chainOf(3, seed);
+    builder.add(3);
+    builder.mimicFirst(-0.97892732527699788, 1e8 + 0.1);
+    builder.add(4);
+    const Mechanism mechanism = builder.build();
+    BothRoutes<double> plain(mechanism, slantedGravity(), everything(mechanism));
+    BothRoutes<long double> extended(mechanism, slantedGravity(), everything(mechanism));
+    for (const double angle : {1e8, 1e12}) {
+      Motion motion = builder.motion();
+      motion.q *= angle;
+      EXPECT_LE(plain.difference(motion), kRoutes) << seed;
+      EXPECT_LE(extended.difference(motion), kRoutes) << seed;
+    }
+  }
+}
+
 // The mobility moves no motor: terms of joints are part of efforts only.
 TEST(LagrangeDynamics, JointTermsMatchTheirClosedFormsAndLeaveReactionsAlone) {
   const Mechanism mechanism = mixedTree().build();

@@ -220,7 +220,10 @@ TEST(MotionCompletion, PositionsOfACompleteMotionAreUnwrapped) {
 
 TEST(MotionCompletion, RevoluteJointsMayGoTheLongerWay) {
   MotionTable motion = without(cubicMotion(unevenTimes(9)), true, true);
-  motion.positions.col(0).tail(4).array() += 4;  // more than half a turn
+  // More than half a turn, not so suddenly that no motion would make it.
+  motion.positions.col(0).tail(4).array() += 4;
+  motion.positions(5, 0) -= 2.6;
+  motion.positions(4, 0) += 0.6;
   const MotionTable completed = completeMotion(twoJoints(), motion);
   EXPECT_GT(completed.velocities.col(0).maxCoeff(), 10);
 }
@@ -261,7 +264,8 @@ TEST(MotionCompletion, RefusesTimesThatDoNotIncrease) {
 TEST(MotionCompletion, RefusesTablesThatDoNotFitTheRobot) {
   MotionTable motion = without(cubicMotion(unevenTimes(12)), true, true);
   motion.joints[1] = "whel";
-  EXPECT_EQ(refusal(motion), "motion: 'whel' is not a generalized coordinate of the robot");
+  EXPECT_EQ(refusal(motion),
+            "motion: 'whel' is not a generalized coordinate of the robot; did you mean 'wheel'?");
   motion = without(cubicMotion(unevenTimes(12)), true, true);
   motion.velocities = Eigen::MatrixXd::Zero(11, 2);
   EXPECT_EQ(refusal(motion), "motion: velocities are 11 x 2, expected 12 rows x 2 joints");

@@ -108,14 +108,60 @@ TEST(MotionCsv, ToleratesTheHabitsOfOtherPrograms) {
   EXPECT_EQ(lines, (std::vector<std::size_t>{5, 7}));
 }
 
+// R's write.csv and pandas quote names, and cells, too.
+TEST(MotionCsv, ReadsQuotedNamesAndCells) {
+  const MotionTable table = read(
+      "\"\",\"time\" , \"position.a\"\"b\",\"position.c,d\",velocity.e\r\n"
+      "\"1\",0,\"0.5\",-1,\"x, y\"\r\n2,1,0.25,\" 2 \",\r\n",
+      {"c,d", "a\"b"});
+  EXPECT_EQ(table.times, (std::vector<double>{0, 1}));
+  EXPECT_EQ(table.positions, (Eigen::Matrix2d() << -1, 0.5, 2, 0.25).finished());
+  const std::string header = "\"time\",\"position.a\"\n";
+  EXPECT_EQ(refusal(header + "0,\"1\n"), "m.csv: line 2: its quotes do not match");
+  EXPECT_EQ(refusal(header + "0,\"1\"2\n"), "m.csv: line 2: its quotes do not match");
+  EXPECT_EQ(refusal(header + "0,1\"\n"), "m.csv: line 2: its quotes do not match");
+  EXPECT_EQ(refusal("time,\"position.a\n0,1\n"), "m.csv: line 1: its quotes do not match");
+  EXPECT_EQ(refusal(header + "0,\"1,2\"\n"),
+            "m.csv: line 2, column 2 (position.a): '1,2' is not a finite number");
+  EXPECT_EQ(refusal(header + "\"0\",\"1\",\"2\"\n"),
+            "m.csv: line 2: 2 cells expected as in the header, 3 found");
+}
+
+TEST(MotionCsv, LinesMayEndWithACommaWhereTheHeaderDoes) {
+  const MotionTable table = read("time,position.a,\n0,1,\n1,2\n");
+  EXPECT_EQ(table.joints, (std::vector<std::string>{"a"}));
+  EXPECT_EQ(table.positions, Eigen::Vector2d(1, 2));
+  EXPECT_EQ(refusal("time,position.a,\n0,1,2,\n"),
+            "m.csv: line 2: 2 cells expected as in the header, 3 found");
+  EXPECT_EQ(refusal("time,position.a,\n0,\n"),
+            "m.csv: line 2: 2 cells expected as in the header, 1 found");
+}
+
+TEST(MotionCsv, WhatResultsAndOtherProgramsHoldIsLeftOut) {
+  std::vector<std::string> unused;
+  const MotionTable table =
+      read(",time,position.a,effort.a,reaction.a.fx\n0,0.5,1,x,\n1,0.75,2,y,\n", {}, &unused);
+  EXPECT_EQ(table.times, (std::vector<double>{0.5, 0.75}));
+  EXPECT_EQ(table.positions, Eigen::Vector2d(1, 2));
+  EXPECT_EQ(unused, (std::vector<std::string>{"effort.a", "reaction.a.fx"}));
+}
+
+TEST(MotionCsv, SemicolonsInRowsAreSpokenOf) {
+  EXPECT_EQ(refusal("time,position.a\n0;1\n"),
+            "m.csv: line 2: 2 cells expected as in the header, 1 found; cells are separated by "
+            "commas, not semicolons");
+}
+
 TEST(MotionCsv, TheLastLineNeedsNoLineEnd) {
   EXPECT_EQ(read("time,position.a\n0,1\n1,2").positions, Eigen::Vector2d(1, 2));
 }
 
 TEST(MotionCsv, NamesAMissingColumn) {
   EXPECT_EQ(refusal("position.a\n1\n"), "m.csv: line 1: column 'time' is missing");
-  EXPECT_EQ(refusal("# c\ntime,position.a\n0,1\n", {"a", "b"}),
-            "m.csv: line 2: column 'position.b' is missing");
+  EXPECT_EQ(refusal("# c\ntime,position.a,position.bb\n0,1,2\n", {"a", "b"}),
+            "m.csv: line 2: column 'position.b' is missing; there are 'position.bb'");
+  EXPECT_EQ(refusal("time,position.slidr,velocity.slidr\n0,1,2\n", {"slider"}),
+            "m.csv: line 1: column 'position.slider' is missing; is it 'position.slidr'?");
   EXPECT_EQ(refusal("time,velocity.a\n0,1\n"), "m.csv: line 1: no column position.<joint>");
 }
 
@@ -139,9 +185,27 @@ TEST(MotionCsv, NamesAColumnOfNoKnownKind) {
   const std::string tail =
       " is not one of time, position.<joint>, velocity.<joint>, acceleration.<joint>";
   for (const std::string column :
-       {"positon.a", "effort.a", "position", "position.", "Time", "t", "", "time;position.a"}) {
+       {"place.a", "effort", "position", "position.", "effort.", "t", "x"}) {
     EXPECT_EQ(refusal("time," + column + "\n0,1\n"),
               "m.csv: line 1, column 2: '" + column + "'" + tail);
+  }
+  EXPECT_EQ(refusal("time,,position.a\n0,1,2\n"), "m.csv: line 1, column 2: ''" + tail);
+  const std::pair<const char*, const char*> helped[] = {
+      {"positon.a", "; did you mean 'position.a'?"},
+      {"Velocity.a", "; did you mean 'velocity.a'?"},
+      {"Time", "; did you mean 'time'?"},
+      {"time;position.a",
+       "; cells are separated by commas, not semicolons, and numbers have a decimal point"},
+      {"time\tposition.a", "; cells are separated by commas"},
+      {"field.position0",
+       "; columns of rostopic and PlotJuggler are not read: play the bag to "
+       "inverse_dynamics_node, or rename them"},
+      {"/joint_states/a/position",
+       "; columns of rostopic and PlotJuggler are not read: play the bag to "
+       "inverse_dynamics_node, or rename them"}};
+  for (const auto& [column, help] : helped) {
+    const std::string message = refusal("time," + std::string(column) + "\n0,1\n");
+    EXPECT_EQ(message.substr(message.find(tail) + tail.size()), help) << message;
   }
 }
 
@@ -168,7 +232,7 @@ TEST(MotionCsv, QuotesWhatIsNoNumber) {
 
 TEST(MotionCsv, QuotesGarbageOnOneShortLine) {
   const std::string message = refusal("time,position.a\n0,\x01\x02" + std::string(500, 'z') + "\n");
-  EXPECT_EQ(message, "m.csv: line 2, column 2 (position.a): '??" + std::string(38, 'z') +
+  EXPECT_EQ(message, "m.csv: line 2, column 2 (position.a): '\\x01\\x02" + std::string(58, 'z') +
                          "...' is not a finite number");
 }
 

@@ -72,7 +72,8 @@ TEST_F(OfflineToolErrors, WrongUsageIsToldWithAHint) {
   EXPECT_EQ(usage(""), "--urdf FILE is missing");
   EXPECT_EQ(usage("--urdf p.urdf"),
             "--motion FILE is missing (only --check and --explain need none)");
-  EXPECT_EQ(usage(good + "--gravitiy '0 0 0'"), "unknown option '--gravitiy'");
+  EXPECT_EQ(usage(good + "--gravitiy '0 0 0'"),
+            "unknown option '--gravitiy'; did you mean --gravity?");
   EXPECT_EQ(usage(good + "extra"), "unexpected argument 'extra'");
   EXPECT_EQ(usage(good + "--motion=n.csv"), "--motion is given twice");
   EXPECT_EQ(usage("--motion m.csv --urdf"), "--urdf needs a value");
@@ -135,10 +136,10 @@ TEST_F(OfflineToolErrors, BadMotionsAreNamedWithLineAndColumn) {
   EXPECT_EQ(motion("time,position.hinge\n"), "bad.csv: no rows after the header");
   EXPECT_EQ(motion("position.hinge\n1\n"), "bad.csv: line 1: column 'time' is missing");
   EXPECT_EQ(motion("time,position.hing\n0,1\n"),
-            "bad.csv: line 1: column 'position.hinge' is missing");
+            "bad.csv: line 1: column 'position.hinge' is missing; is it 'position.hing'?");
   EXPECT_EQ(motion("time,positon.hinge\n0,1\n"),
             "bad.csv: line 1, column 2: 'positon.hinge' is not one of time, position.<joint>, "
-            "velocity.<joint>, acceleration.<joint>");
+            "velocity.<joint>, acceleration.<joint>; did you mean 'position.hinge'?");
   EXPECT_EQ(motion("time,position.hinge,position.hinge\n0,1,2\n"),
             "bad.csv: line 1, column 3: 'position.hinge' already stands in column 2");
   EXPECT_EQ(motion(std::string(kSwing) + "0.2,1,2\n"),

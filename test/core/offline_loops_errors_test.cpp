@@ -62,7 +62,7 @@ TEST_F(OfflineLoops, APartOfThePassiveJointsIsNoMotion) {
   EXPECT_TRUE(contains(failure("--scene s.yaml --motion part.csv"), "but not 'wrist'"));
   write("none.csv", "time,position.door\n0,0\n");
   EXPECT_EQ(failure("--scene s.yaml --motion none.csv"),
-            "none.csv: line 1: column 'position.drive' is missing");
+            "none.csv: line 1: column 'position.drive' is missing; there are 'position.door'");
   write("part.csv", "time,position.drive,velocity.drive,velocity.elbow\n0,0,0,0\n");
   EXPECT_EQ(failure("--scene s.yaml --motion part.csv"),
             "part.csv: column 'velocity.elbow' without 'position.elbow'");

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
+#include <random>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -21,9 +23,9 @@ double position(double t) {
 double velocity(double t) {
   return 1.26 * std::cos(2.1 * t) + 1.2 * std::cos(6 * t);
 }
-double effort(double t) {
+double effort(double t, double offset = 0) {
   const double qdd = -2.646 * std::sin(2.1 * t) - 7.2 * std::sin(6 * t);
-  return 0.53 * qdd + 9.81 * std::sin(position(t));  // of kPendulum in offline_tool.h
+  return 0.53 * qdd + 9.81 * std::sin(position(t) + offset);  // of kPendulum in offline_tool.h
 }
 
 bool says(const std::string& text, const std::string& part) {
@@ -42,6 +44,19 @@ class OfflineRecordings : public OfflineTool {
       csv << stamp << "," << std::round(position(t) / kStep) * kStep;
       if (!std::isnan(ratio)) csv << "," << ratio * velocity(t);
       csv << "\n";
+    }
+    write("m.csv", csv.str());
+    write("p.urdf", kPendulum);
+  }
+
+  // Writes m.csv with so much added to the position of each row.
+  void recordWith(const std::function<double(int row)>& offset) const {
+    std::ostringstream csv;
+    csv.precision(12);
+    csv << "time,position.hinge\n";
+    for (int i = 0; i < kRows; ++i) {
+      const double t = kInterval * i;
+      csv << t << "," << std::round((position(t) + offset(i)) / kStep) * kStep << "\n";
     }
     write("m.csv", csv.str());
     write("p.urdf", kPendulum);
@@ -122,6 +137,46 @@ TEST_F(OfflineRecordings, NothingIsAssumedAcrossGaps) {
     EXPECT_NEAR(table.rows.at(static_cast<std::size_t>(i)).at(1), effort(kInterval * i), 1.5) << i;
   }
   EXPECT_FALSE(says(compute("--max-gap 4").err, "gap")) << "longer gaps were allowed";
+}
+
+TEST_F(OfflineRecordings, PositionsThatStandAloneAreLeftOut) {
+  record();
+  const double clean = error(compute());
+  recordWith([](int row) { return row == 1000 || row == 2000 || row == 2001 ? -0.5 : 0; });
+  const Run result = compute();
+  EXPECT_TRUE(says(result.err,
+                   "warning: m.csv: line 1002 and in 2 more rows: position of 'hinge' is "
+                   "far from those before and after, and is left out"))
+      << result.err;
+  EXPECT_TRUE(says(result.err, "left out 3")) << result.err;
+  EXPECT_LE(error(result), 1.05 * clean);
+  EXPECT_FALSE(says(result.err, "jump")) << result.err;
+}
+
+TEST_F(OfflineRecordings, WhiteNoiseDoesNotStandAlone) {
+  for (const double deviation : {0.01, 0.1}) {
+    std::mt19937 random(1);
+    std::normal_distribution<double> noise(0, deviation);
+    recordWith([&](int) { return noise(random); });
+    const Run result = compute();
+    EXPECT_FALSE(says(result.err, "jumps")) << result.err;
+    EXPECT_FALSE(says(result.err, "left out")) << result.err;
+  }
+}
+
+TEST_F(OfflineRecordings, NothingIsAssumedAcrossJumps) {
+  recordWith([](int row) { return row < 500 ? 0.4 : 0; });
+  const Run result = compute();
+  EXPECT_TRUE(says(result.err,
+                   "warning: m.csv: line 502: position of 'hinge' jumps as no motion "
+                   "does; nothing is assumed of the motion across it"))
+      << result.err;
+  const NumberTable table = parseTable(result.out);
+  for (int i = 400; i < 600; ++i) {
+    EXPECT_NEAR(table.rows.at(static_cast<std::size_t>(i)).at(1),
+                effort(kInterval * i, i < 500 ? 0.4 : 0), 1.5)
+        << i;
+  }
 }
 
 TEST_F(OfflineRecordings, JointsThatAreNotRecordedMayRest) {

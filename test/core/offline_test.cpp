@@ -232,7 +232,9 @@ TEST_F(OfflineTool, ColumnsOfOtherJointsAreNamedAndIgnored) {
         "position.lid\n0,1,2,3,?,?,?\n");
   const Run result = run("--urdf p.urdf --motion m.csv");
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.err, "note: m.csv: ignored, not coordinates of the robot: gripper, lid\n");
+  EXPECT_EQ(result.err,
+            "note: m.csv: ignored, not coordinates of the robot: 'gripper' and 'lid'; they are "
+            "'hinge'\n");
 }
 
 TEST_F(OfflineTool, DoubtsAboutTheRobotAreWarnings) {

@@ -139,7 +139,7 @@ TEST(PlanMerging, ReactionsRequestedTwiceAreRefused) {
       const InverseDynamics dynamics(mechanism, Scene(), request);
       FAIL();
     } catch (const SceneError& error) {
-      EXPECT_STREQ(error.what(), "reactions: 'joint_1' is requested twice");
+      EXPECT_STREQ(error.what(), "reactions[2]: 'joint_1' is named twice");
     }
   }
   Request request;

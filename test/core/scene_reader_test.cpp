@@ -79,13 +79,17 @@ use_urdf_dynamics: true
 
 TEST(SceneReader, RefusesByKey) {
   expectRefusal("[1, 2]", "map");
-  expectRefusal("gravty: [0, 0, 0]", "gravty: unknown key");
+  expectRefusal("gravty: [0, 0, 0]", "gravty: unknown key; did you mean 'gravity'?");
   expectRefusal("gravity: [0, 0]", "gravity");
   expectRefusal("gravity: [0, 0, heavy]", "'heavy'");
   expectRefusal("gravity: [0, 0, .nan]", "gravity");
   expectRefusal("gravity: [0, 0, 1e999]", "gravity");
   expectRefusal("gravity: 9.81", "gravity");
   expectRefusal("motion: fast", "'fast'");
+  expectRefusal("motion: sttaic",
+                "motion: 'sttaic' is neither full nor static; did you mean 'static'?");
+  expectRefusal("closure: []", "closure: unknown key; did you mean 'closures'?");
+  expectRefusal("{\"a\\nb\": 1}", "a\\nb: unknown key");
   expectRefusal("reactions: some", "'some'");
   expectRefusal("reactions: {a: 1}", "reactions");
   expectRefusal("reactions: [[a]]", "reactions");
@@ -98,7 +102,8 @@ TEST(SceneReader, RefusesByKey) {
   expectRefusal("joints: {name: a}", "joints");
   expectRefusal("joints: [a]", "joints[0]");
   expectRefusal("joints: [{stiffness: 1}]", "joints[0]: names no joint");
-  expectRefusal("joints: [{name: a}, {name: b, stifness: 1}]", "joints[1].stifness: unknown key");
+  expectRefusal("joints: [{name: a}, {name: b, stifness: 1}]",
+                "joints[1].stifness: unknown key; did you mean 'stiffness'?");
   expectRefusal("joints: [{name: a, damping: soft}]", "'soft'");
   expectRefusal("use_urdf_dynamics: perhaps", "use_urdf_dynamics");
 }

@@ -143,7 +143,7 @@ TEST(UrdfReader, RefusesBrokenDescriptions) {
   expectRefusal("", "empty");
   expectRefusal("not xml", "broken");
   expectRefusal("<robot name='r'>", "broken");
-  expectRefusal(robot(link("a") + link("b")), "broken");  // two roots
+  expectRefusal(robot(link("a") + link("b")), "links 'a' and 'b' are all roots");
   expectRefusal(robot(link("a") + link("b") + joint("j", "revolute", "a", "nowhere")), "nowhere");
   expectRefusal(robot(link("a", "heavy")), "heavy");
 }
@@ -178,8 +178,8 @@ TEST(UrdfReader, ReadsVeryLongChains) {
 TEST(UrdfReader, RefusesImpossibleNumbersByName) {
   expectRefusal(robot(link("a", "-1")), "'a': mass -1 kg");
   expectRefusal(robot(link("a", "-1e-9")), "'a': mass -1e-09 kg");
-  expectRefusal(robot(link("a", "nan")), "Link [a]");
-  expectRefusal(robot(link("a", "1e999")), "Link [a]");
+  expectRefusal(robot(link("a", "nan")), "link 'a': mass");
+  expectRefusal(robot(link("a", "1e999")), "link 'a': mass");
   expectRefusal(oneJoint("revolute", "<axis xyz='0 0 0'/>"), "'j': axis (0, 0, 0)");
   expectRefusal(oneJoint("prismatic", "<axis xyz='0 0 0'/>"), "'j': axis (0, 0, 0)");
 }

@@ -154,9 +154,26 @@ class JointStates(NodeTest):
         self.assertEqual(len([line for line in self.node.lines('INFO')
                               if 'time went back to stamp' in line]), 1)
         self.assertEqual(len([line for line in self.node.lines('INFO') if
-                              "'shoulder' had a gap of 0.251 s, longer than ~estimator/max_gap = "
-                              '0.25 s' in line]), 1)
+                              "'shoulder' had a gap of 0.251 s, longer than %s/estimator/max_gap = "
+                              '0.25 s' % self.node.name in line]), 1)
         self.assertEqual(self.node.lines('WARN'), [])
+
+    def test_positions_before_encoders_are_read_are_no_part_of_the_motion(self):
+        self.start()
+        stamps = [EPOCH + 10 * MS * i for i in range(80)]
+        zeros = Polynomials(shoulder=(0,), elbow=(0,), slide=(0,))
+        for i, ns in enumerate(stamps):
+            self.publish(ns, velocities=False, motion=zeros if i < 3 else SLOW)
+        messages = self.efforts.wait(len(stamps) - LATEST)
+        self.assertStamps(messages, stamps[:-LATEST])
+        for message in messages[3:]:
+            ns = message.header.stamp.to_nsec()
+            self.assertEffort(message, self.bodies, SLOW(ns), ESTIMATED)
+        values = self.node.diagnostics(lambda values: 'samples of elbow' in values)
+        for joint in COORDINATES:
+            self.assertIn(', jumps 1', values['samples of ' + joint])
+            self.assertIn("position of '%s' jumps as no motion does: nothing is assumed of the "
+                          'motion across it' % joint, self.node.lines('WARN'))
 
     def test_joint_states_at_10_hz_are_close_enough(self):
         self.start()
@@ -172,11 +189,12 @@ class JointStates(NodeTest):
             self.publish(EPOCH + 400 * MS * i, motion=SLOW)
         self.node.wait_for_count('gaps', 14)
         wait_until(lambda: [line for line in self.node.lines('INFO') if "'shoulder' had a gap of "
-                            '0.4 s, longer than ~estimator/max_gap = 0.25 s' in line], 'the line')
+                            '0.4 s, longer than %s/estimator/max_gap = 0.25 s' % self.node.name
+                            in line], 'the line')
         self.assertTrue([status for status in self.node.statuses()
                          if status.level == DiagnosticStatus.WARN and
                          'no result from joint states' in status.message and
-                         '~estimator/max_gap' in status.message])
+                         self.node.name + '/estimator/max_gap' in status.message])
         self.assertEqual(self.efforts.messages(), [])
         # After enough samples without one, a gap is news and no more.
         last = EPOCH + 400 * MS * 14

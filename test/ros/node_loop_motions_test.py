@@ -102,7 +102,7 @@ class LoopMotions(LoopTest):
         status = self.status(lambda s: 'violate' in s.message, 'the violation')
         self.assertEqual(status.level, DiagnosticStatus.WARN)
         self.assertIn("positions violate closure 'wrist_pin' by 0.001 m or rad", status.message)
-        self.assertIn('~loop_tolerance is 1e-06', status.message)
+        self.assertIn(self.node.name + '/loop_tolerance is 1e-06', status.message)
         self.assertEqual(self.node.wait_for_count('samples that violate a loop', 1)['dropped'], '0')
         # Some way from there again, in time.
         self.states.publish(joint_state(EPOCH + 2 * STEP, still.q, {**still.qd, 'rod_joint': 0.5}))

@@ -110,7 +110,8 @@ class LoopPositions(LoopTest):
                              from_the_start=True)
         self.assertEqual(status.level, DiagnosticStatus.WARN)
         self.assertRegex(status.message, "close to a singular position of the loops through "
-                         "wrist_pin, condition [1-9][.0-9]*e\\+0[678]: .*; ~condition_warn is 1e\\+05")
+                         "wrist_pin, condition [1-9][.0-9]*e\\+0[678]: .*; %s/condition_warn is "
+                         "1e\\+05" % self.node.name)
         move(-0.04)
         self.status(lambda s: s.level == DiagnosticStatus.OK, 'a position like others again')
         self.assertEqual(self.node.wait_for_count('samples computed', 3)

@@ -123,7 +123,7 @@ class MessageOrder(StreamTest):
         self.assertEqual((values['dropped'], values['restarts']), ('0', '0'))
         lines = [line for line in self.node.lines('INFO') if 'a message is not used' in line]
         self.assertEqual(len(lines), 1)
-        self.assertIn("it names no joint of robot 'test_arm' that moves by itself: lamp, bell",
+        self.assertIn("it names no joint of robot 'test_arm' that moves by itself: lamp, bell; they are ",
                       lines[0])
         self.assertEqual(self.node.lines('WARN'), [])
         self.assertEqual(self.node.statuses()[-1].level, DiagnosticStatus.OK)

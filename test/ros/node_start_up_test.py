@@ -9,8 +9,9 @@ import xmlrpc.server
 import rosgraph
 import rospy
 import yaml
+from sensor_msgs.msg import JointState
 
-from node_under_test import Node, NodeTest, Process, executable, read, run
+from node_under_test import Node, NodeTest, Process, executable, joint_state, read, run
 
 # About the centre of mass; parts of a robot description.
 INERTIAL = ('<inertial><origin xyz="0.1 0 0"/><mass value="2"/><inertia ixx="0.1" ixy="0" ixz="0" '
@@ -56,7 +57,7 @@ BAD_ROBOTS = {
     'broken_xml': ('<robot name="tester"><link name="base"></robot>',
                    ['robot_description', 'broken']),
     'no_xml_at_all': ('tester.urdf', ['robot_description', 'broken']),
-    'two_roots': (robot(HINGE), ['robot_description', 'broken', 'hand']),
+    'two_roots': (robot(HINGE), ['robot_description', "links 'base' and 'hand' are all roots"]),
     'joint_to_unknown_link': (robot(HINGE, joint('wrist', 'arm', 'paw')), ['paw']),
     'negative_mass': (with_inertial(mass='-2'), ["link 'arm'", 'mass -2']),
     'mass_nan': (with_inertial(mass='nan'), ['arm', 'mass']),
@@ -75,6 +76,16 @@ BAD_ROBOTS = {
                     ["joint 'hinge'", 'cycle']),
     'mimic_of_itself': (robot(HINGE, joint('wrist', 'arm', 'hand', inside=mimic('wrist'))),
                         ["joint 'wrist'", 'cycle']),
+    'mimic_misspelt': (robot(HINGE, joint('wrist', 'arm', 'hand', inside=mimic('hnge'))),
+                       ["joint 'wrist'", "'hnge'; did you mean 'hinge'?"]),
+    'xacro': ('<robot xmlns:xacro="http://wiki.ros.org/xacro"><xacro:macro name="arm"/></robot>',
+              ['parameter ', 'robot_description: this is a xacro file', 'rosrun xacro xacro FILE']),
+    'spherical_joint_among_capsules': (
+        robot(HINGE, joint('wrist', 'arm', 'hand', 'spherical'), inertial=INERTIAL +
+              '<visual><geometry><capsule radius="1"/></geometry></visual>'),
+        ["robot_description: joint 'wrist': type 'spherical' is not one of"]),
+    'control_characters': (robot(HINGE, joint('wr&#10;ist&#x1b;[31m', 'arm', 'hand', 'planar')),
+                           [r"joint 'wr\nist\x1b[31m': planar"]),
     'mimic_of_unknown_joint': (robot(HINGE, joint('wrist', 'arm', 'hand', inside=mimic('knee'))),
                                ["joint 'wrist'", "'knee'"]),
     'joint_named_ground': (robot(joint('ground', 'base', 'arm'), WRIST), ["joint 'ground'"]),
@@ -109,13 +120,16 @@ NEW_ONES = ['no longer exists', '~estimator/position_noise', 'velocity_noise', '
             'bandwidth', '~estimator/lag is in seconds']
 # Parameters of a good robot, and parts of the FATAL line.
 BAD_PARAMETERS = {
-    'unknown_joint_in_reactions': ({'scene': {'reactions': ['hinge', 'knee']}}, ["'knee'"]),
+    'unknown_joint_in_reactions': ({'scene': {'reactions': ['hinge', 'knee']}}, [
+        "parameter ~scene: reactions[1]: no joint 'knee'; known are 'hinge' and 'wrist'"]),
     'joint_twice_in_reactions': ({'scene': {'reactions': ['hinge', 'hinge']}}, ["'hinge'"]),
     'unknown_link_in_applied_wrenches': (
         {'scene': {'applied_wrenches': [{'link': 'paw', 'force': [0, 0, 1]}]}}, ["'paw'"]),
     'unknown_key_in_applied_wrenches': (
-        {'scene': {'applied_wrenches': [{'link': 'arm', 'forse': [0, 0, 1]}]}}, ['forse']),
-    'unknown_scene_key': ({'scene': {'gravitation': [0, 0, 1]}}, ['gravitation: unknown key']),
+        {'scene': {'applied_wrenches': [{'link': 'arm', 'forse': [0, 0, 1]}]}},
+        ["parameter ~scene: applied_wrenches[0].forse: unknown key; did you mean 'force'?"]),
+    'unknown_scene_key': ({'scene': {'gravitation': [0, 0, 1]}},
+                          ['parameter ~scene: gravitation: unknown key']),
     'gravity_of_two': ({'scene': {'gravity': [0, 1]}}, ['gravity', 'three numbers']),
     'gravity_that_is_no_number': ({'scene': {'gravity': [0, 0, 'down']}}, ['gravity', "'down'"]),
     'closure_without_a_type': ({'scene': {'closures': [{'name': 'pin'}]}},
@@ -130,10 +144,13 @@ BAD_PARAMETERS = {
                                ['assembly: expected a list']),
     'policy_of_another_kind': ({'scene': {'redundancy': {'policy': 'least'}}},
                                ['redundancy.policy', "'least'"]),
-    'scene_that_is_no_map': ({'scene': 5}, ['scene', 'map']),
-    'unknown_parameter': ({'twists': True}, ['unknown parameter ~twists']),
+    'scene_that_is_no_map': ({'scene': 5}, ['parameter ~scene: expected a map of keys']),
+    'scene_that_is_the_name_of_a_file': ({'scene': 'scene.yaml'}, [
+        "parameter ~scene: expected a map of keys, got the text 'scene.yaml'"]),
+    'scene_as_text_that_is_cut': ({'scene': '{gravity: [0, 0'}, ['parameter ~scene: is not valid']),
+    'unknown_parameter': ({'twists': True}, ['unknown parameter ~twists (did you mean ~twist?)']),
     'unknown_nested_parameter': ({'estimator': {'windows': 9}},
-                                 ['unknown parameter ~estimator/windows']),
+                                 ['unknown parameter ~estimator/windows; known are ']),
     'number_that_is_text': ({'estimator': {'max_gap': 'long'}}, ['~estimator/max_gap', "'long'"]),
     'integer_that_is_none': ({'queue_size': {'input': 9.5}}, ['~queue_size/input', '9.5']),
     'boolean_that_is_a_number': ({'twist': 1}, ['~twist', 'true or false']),
@@ -153,16 +170,16 @@ BAD_PARAMETERS = {
     'negative_stamp_noise': ({'estimator': {'stamp_noise': -1.0}}, [
         '~estimator/stamp_noise: -1 is neither auto nor zero or positive']),
     'bandwidth_that_is_text': ({'estimator': {'bandwidth': 'wide'}},
-                               ['~estimator/bandwidth', "'wide'"]),
+                               ['parameter ~estimator/bandwidth', "'wide'"]),
     'infinite_bandwidth': ({'estimator': {'bandwidth': float('inf')}}, ['~estimator/bandwidth']),
-    'hold_after_nothing': ({'hold_after': 0}, ['hold_after is 0', 'positive']),
+    'hold_after_nothing': ({'hold_after': 0}, ['parameter ~hold_after: 0 s is not positive']),
     'rest_that_is_a_map': ({'rest': {'hinge': 1}}, ['~rest', '[{name: finger, position: 0.02}]']),
     'rest_without_a_position': ({'rest': [{'name': 'hinge'}]},
                                 ['~rest', '[{name: finger, position: 0.02}]']),
     'rest_of_an_unknown_joint': ({'rest': [{'name': 'knee', 'position': 1}]},
                                  ['~rest', "'tester' has no joint 'knee'"]),
     'rest_that_is_text': ({'rest': [{'name': 'hinge', 'position': 'closed'}]},
-                          ["~rest of 'hinge'", "'closed'"]),
+                          ["parameter ~rest of 'hinge'", "'closed'"]),
     'negative_trajectory_rate': ({'trajectory_rate': -1}, ['~trajectory_rate: -1 points/s']),
     'trajectory_rate_too_high': ({'trajectory_rate': 1e6}, ['~trajectory_rate: ', 'to 20000']),
     'negative_trajectory_sampling': ({'trajectory_sampling': -1},
@@ -183,7 +200,8 @@ BAD_PARAMETERS = {
     'doubt_of_everything': ({'deviation_warn': 0}, ['~deviation_warn: 0 is not positive']),
     'tolerance_of_all': ({'scene': {'tolerances': {'mass': 1}}},
                          ['mass', '1 is not from 0 to below 1']),
-    'negative_gap': ({'estimator': {'max_gap': -0.1}}, ['~estimator', 'max_gap is -0.1']),
+    'negative_gap': ({'estimator': {'max_gap': -0.1}},
+                     ['parameter ~estimator/max_gap: -0.1 s is not positive']),
     'queue_of_nothing': ({'queue_size': {'output': 0}}, ['~queue_size/output', '0']),
     'endless_queue_by_a_negative_size': ({'queue_size': {'input': -1}},
                                          ['~queue_size/input', '-1']),
@@ -251,8 +269,8 @@ class StartUp(NodeTest):
         self.assertEqual(node.wait(), 1, node.output())
         lines = node.lines('FATAL')
         self.assertEqual(len(lines), 1, node.output())
-        for part in parts:
-            self.assertIn(part, lines[0])
+        for part in parts:  # in which ~ stands for the node's own name
+            self.assertIn(re.sub('(^| )~', lambda match: match[1] + node.name + '/', part), lines[0])
         # A line, and nothing else: what is wrong with a description is not said twice.
         self.assertEqual(node.output().count('\n'), 1, node.output())
         self.assertEqual(self.master.topics(node.name), [])
@@ -279,6 +297,34 @@ class StartUp(NodeTest):
 
     def test_slender_rods_are_not_doubted(self):
         self.expect_start(self.start(read('..', '..', 'urdf', 'composed_pendulum.urdf')), [])
+
+    def test_what_is_not_read_is_warned_of(self):
+        loop = ('<loop_joint name="k" type="revolute"><link1 link="base"/><link2 link="hand"/>'
+                '</loop_joint>')
+        description = robot(HINGE, WRIST, loop, inertial=INERTIAL + '<visual><geometry/></visual>')
+        self.expect_start(self.start(description),
+                          [['<loop_joint name=', 'not read', 'closures: [{name: k, type: revolute']])
+
+    def test_names_with_control_characters_stay_in_their_line(self):
+        description = (GOOD.replace('name="hinge"', 'name="hin&#10;ge&#27;[31m"')
+                       .replace('name="tester"', 'name="te&#10;ster"'))
+        node = self.start(description)
+        node.feed('joint_states', JointState).publish(joint_state(1000000000, {'wrist': 0.1}))
+        values = node.diagnostics(lambda values: values['joints waited for'] != 'none')
+        self.assertEqual(values['joints waited for'], r'hin\nge\x1b[31m')
+        status = node.statuses()[-1]
+        self.assertEqual(status.hardware_id, r'te\nster')
+        for text in [status.name, status.message, *values.keys(), *values.values()]:
+            self.assertTrue(text.isprintable(), repr(text))
+        node.interrupt()
+        self.assertEqual(node.wait(), 0, node.output())
+        self.assertIn(r"Robot 'te\nster' from", node.output())
+        for line in node.output().splitlines():
+            self.assertNotIn('\x1b[31m', line)
+
+    def test_inertias_of_another_unit_are_doubted(self):
+        self.expect_start(self.start(with_inertial(ixx='11467', iyy='11467', izz='11467')),
+                          [['link', 'radius of gyration', 'g mm^2']] * 2)
 
     def test_axis_of_another_length(self):
         description = GOOD.replace('<axis xyz="0 0 1"/>', '<axis xyz="0 0 3"/>', 1)
@@ -323,6 +369,36 @@ class StartUp(NodeTest):
         node = self.start(GOOD, {'estimator': estimator, 'rest': rest, 'hold_after': 1})
         self.expect_start(node, [])
         self.assertIn('accelerations of joint states estimated 0 s behind', node.output())
+
+    def test_scene_on_the_command_line(self):
+        for argument in ('_scene:={gravity: [0, 1.5, -2], reactions: [wrist]}',
+                         '_scene/gravity:=[0, 1.5, -2]'):
+            node = self.start(GOOD, arguments=[argument])
+            self.expect_start(node, [])
+            self.assertIn('gravity [0, 1.5, -2] m/s^2', node.output())
+            self.assertIn('scene from %s/scene' % node.name, node.output())
+
+    def expect_one_line(self, arguments, part, environment=None):
+        """What is wrong before there is a node that could say so."""
+        process = Process(self, [executable('inverse_dynamics_node'), *arguments], environment)
+        self.assertEqual(process.wait(), 1, process.output())
+        self.assertEqual(len(process.lines('FATAL')), 1, process.output())
+        self.assertIn(part, process.lines('FATAL')[0])
+        self.assertEqual(process.output().count('\n'), 1, process.output())
+
+    def test_names_that_ros_does_not_take(self):
+        self.expect_one_line(['joint_states:=joint%states'], '[joint%states]')
+        self.expect_one_line(['joint%states:=joint_states'], '[joint%states]')
+        self.expect_one_line(['__name:=left/arm'], '[left/arm]')
+        self.expect_one_line(['_sc%ene:=5'], '[~sc%ene]')
+
+    def test_address_that_is_none(self):
+        for address in ('nowhere', '', 'http://localhost', 'http://localhost:port', 'http://:11311'):
+            self.expect_one_line([], "ROS_MASTER_URI: expected an address like "
+                                 "http://localhost:11311, got '%s'" % address,
+                                 {'ROS_MASTER_URI': address})
+        self.expect_one_line(['__master:=nowhere'], "__master: expected an address like "
+                             "http://localhost:11311, got 'nowhere'")
 
     def test_unknown_argument(self):
         self.expect_refusal(self.start(GOOD, arguments=['--robot']), ['unknown argument --robot'])

@@ -205,7 +205,7 @@ class Trajectories(NodeTest):
     def test_more_points_than_the_queue_holds_are_warned_of(self):
         self.start('effort', parameters={'queue_size': {'output': 4}})
         self.trajectories.publish(message(UNEVEN))
-        self.wait_for_line('WARN', '5 points are more than ~queue_size/output = 4')
+        self.wait_for_line('WARN', '5 points are more than %s/queue_size/output = 4' % self.node.name)
 
     def test_trajectories_played_at_a_rate_take_turns_with_joint_states(self):
         self.start('effort', 'joint_trajectory', parameters={
@@ -238,7 +238,7 @@ class Trajectories(NodeTest):
         for _ in range(2):
             self.trajectories.publish(message(UNEVEN + [2000 * MS]))
         values = self.node.wait_for_count('dropped: backlog', 1)
-        self.assertIn('points still wait to be played, more than ~queue_size/output = 4',
+        self.assertIn('points still wait to be played, more than %s/queue_size/output = 4' % self.node.name,
                       values['last drop'])
         self.assertNotIn('subscribers may lose some', self.node.output())
 

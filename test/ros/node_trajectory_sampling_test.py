@@ -134,7 +134,8 @@ class SampledTrajectories(NodeTest):
         self.start('effort')
         self.trajectories.publish(message([0, 5000000 * MS]))
         values = self.node.wait_for_count('dropped: times', 1)
-        self.assertIn('it lasts 5000 s, more than the 1000000 samples of ~trajectory_sampling = 250 Hz',
+        self.assertIn('it lasts 5000 s, more than the 1000000 samples of %s/trajectory_sampling = 250 Hz'
+                      % self.node.name,
                       values['last drop'])
         self.trajectories.publish(message([7 * MS]))
         self.recorders['effort'].wait(1)
@@ -144,7 +145,8 @@ class SampledTrajectories(NodeTest):
         self.trajectories.publish(message(UNEVEN))
         self.recorders['effort'].wait(100)
         self.assertTrue([line for line in self.node.lines('WARN')
-                         if '252 samples are more than ~queue_size/output = 100' in line])
+                         if '252 samples are more than %s/queue_size/output = 100' % self.node.name
+                         in line])
 
     def test_samples_behind_a_long_backlog_are_dropped(self):
         self.start('effort', parameters={'queue_size': {'output': 200}, 'trajectory_rate': 0.01})

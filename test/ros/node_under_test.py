@@ -109,12 +109,13 @@ class Polynomials:
 class Process:
     """A program with what it says in a file; killed at the end of the test."""
 
-    def __init__(self, test, arguments, environment=None):
+    def __init__(self, test, arguments, environment=None, inherited=os.environ, folder=None):
+        """In `folder`, with `environment` in addition to what is `inherited`."""
         self._log = tempfile.NamedTemporaryFile(prefix='vwd_test_', suffix='.log')
         test.addCleanup(self._log.close)
-        environment = dict(os.environ, ROSCONSOLE_STDOUT_LINE_BUFFERED='1', **(environment or {}))
+        environment = dict(inherited, ROSCONSOLE_STDOUT_LINE_BUFFERED='1', **(environment or {}))
         self._process = subprocess.Popen(arguments, stdout=self._log, stderr=subprocess.STDOUT,
-                                         env=environment)
+                                         env=environment, cwd=folder)
         test.addCleanup(self._kill)
 
     def _kill(self):

@@ -128,13 +128,25 @@ TEST(PrivateParameters, UnknownOnesAreRefusedByName) {
   parameters.number("rate", 0);
   parameters.integer("estimator/window", 0);
   expectRefused([&] { parameters.refuseUnknown(); },
-                "unknown parameters ~estimator/windw, ~other, ~ratee; known are estimator/window, "
-                "rate");
+                "unknown parameters ~estimator/windw (did you mean ~estimator/window?), ~other, "
+                "~ratee (did you mean ~rate?); known are estimator/window, rate");
   parameters.expect("other");
   parameters.expect("ratee");
   expectRefused([&] { parameters.refuseUnknown(); },
-                "unknown parameter ~estimator/windw; known are estimator/window, other, rate, "
-                "ratee");
+                "unknown parameter ~estimator/windw (did you mean ~estimator/window?); known are "
+                "estimator/window, other, rate, ratee");
+}
+
+TEST(PrivateParameters, NamesAndTextsOfOthersStayInTheirLine) {
+  XmlRpcValue tree;
+  tree["ra\nte\x1b"] = 1;
+  tree["rate"] = std::string("fa\nst") + std::string(500, 't');
+  PrivateParameters parameters(tree);
+  expectRefused(
+      [&] { parameters.number("rate", 0); },
+      "parameter ~rate: expected a number, got the text 'fa\\nst" + std::string(55, 't') + "...'");
+  expectRefused([&] { parameters.refuseUnknown(); },
+                "unknown parameter ~ra\\nte\\x1b (did you mean ~rate?); known are rate");
 }
 
 TEST(PrivateParameters, ValueInPlaceOfAGroupIsUnknown) {
@@ -143,7 +155,8 @@ TEST(PrivateParameters, ValueInPlaceOfAGroupIsUnknown) {
   PrivateParameters parameters(tree);
   EXPECT_EQ(parameters.integer("estimator/window", 9), 9);
   expectRefused([&] { parameters.refuseUnknown(); },
-                "unknown parameter ~estimator; known are estimator/window");
+                "unknown parameter ~estimator (did you mean ~estimator/window?); known are "
+                "estimator/window");
 }
 
 TEST(PrivateParameters, RawCoversEverythingBelow) {

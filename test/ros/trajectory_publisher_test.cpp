@@ -265,12 +265,17 @@ TEST(TrajectoryPublisher, RefusesToStartWithOneLine) {
     std::string part;
   };
   const std::vector<Refusal> refusals = {
-      {{"_ratee:=5"}, "unknown parameter ~ratee;"},
-      {{"_rate:=fast"}, "parameter ~rate: expected a number, got the text 'fast'"},
-      {{"_law:=cosinus"}, "parameter ~law: expected cosine"},
-      {{"_joints:=a"}, "parameter ~joints: expected a list of texts"},
-      {{"_law:=table", "_file:=/does/not/exist.csv"}, "/does/not/exist.csv"},
+      {{"_ratee:=5"}, "unknown parameter /refused_1/ratee (did you mean /refused_1/rate?);"},
+      {{"_rate:=fast"}, "parameter /refused_2/rate: expected a number, got the text 'fast'"},
+      {{"_law:=cosinus"}, "parameter /refused_3/law: expected cosine"},
+      {{"_joints:=a"}, "parameter /refused_4/joints: expected a list of texts"},
+      {{"_law:=table", "_file:=/does/not/exist.csv"},
+       "parameter /refused_5/file: /does/not/exist.csv: "},
       {{"nonsense"}, "unknown argument nonsense"},
+      // Before there is a node.
+      {{"joint_states:=joint%states"}, "[joint%states]"},
+      {{"__master:=nowhere"}, "__master: expected an address like http://localhost:11311"},
+      {{"_rate%:=5"}, "[~rate%]"},
   };
   int count = 0;
   for (const Refusal& refusal : refusals) {

@@ -222,24 +222,25 @@ TEST(TrajectorySettings, OnlyATableAsksForTheRobot) {
 }
 
 TEST(TrajectorySettings, RefusalsNameTheParameter) {
-  expectRefused("{rates: 5}", "unknown parameter ~rates;");
+  expectRefused("{rates: 5}", "unknown parameter ~rates (did you mean ~rate?);");
   expectRefused("{rate: fast}", "~rate: expected a number");
   expectRefused("{rate: 0}", "~rate: expected more than 0 and up to 1e6 Hz, got 0");
   expectRefused("{rate: 2.0e6}", "~rate");
   expectRefused("{joints: a}", "~joints: expected a list of texts");
   expectRefused("{joints: []}", "~joints: expected at least one");
-  expectRefused("{joints: [a, a]}", "~joints: a is named twice");
+  expectRefused("{joints: [a, a]}", "~joints: 'a' is named twice");
   expectRefused("{joints: [a, '']}", "~joints: a name is empty");
   expectRefused("{joints: [a, b, c]}", "~amplitudes: expected a number for each of the 3 joints");
   expectRefused("{joints: [a]}", "~amplitudes: expected a number for each of the 1 joints, got 2");
   expectRefused("{amplitudes: [1, x]}", "~amplitudes[1]");
   expectRefused("{law: cosinus}", "~law: expected cosine, sine_sweep, minimum_jerk or table");
   expectRefused("{law: 3}", "~law");
-  expectRefused("{period: -1}", "period of the cosine law must be positive, is -1");
-  expectRefused("{duration: 0}", "duration of the cosine law");
-  expectRefused("{duration: 1.0e-7}", "its duration is 1e-07 s");
+  expectRefused("{period: -1}", "~period: expected more than 0 s, got -1");
+  expectRefused("{duration: 0}", "~duration: expected more than 0 s, got 0");
+  expectRefused("{duration: 1.0e-7}",
+                "~duration: the motion must last from 1e-6 to 1e9 s, its duration is 1e-07 s");
   expectRefused("{duration: 2.0e9}", "its duration is 2e+09 s");
-  expectRefused("{law: sine_sweep, end_frequency: -1}", "end frequency");
+  expectRefused("{law: sine_sweep, end_frequency: -1}", "~end_frequency: expected 0 Hz or more");
   expectRefused("{message: joint_stat}", "~message: expected joint_state or joint_trajectory");
   expectRefused("{stamp: later}", "~stamp: expected now or zero");
   expectRefused("{stamp: zero}", "~stamp: only a joint_trajectory");
@@ -271,12 +272,12 @@ TEST(TrajectorySettings, RefusalsOfViaPointsNameThePoint) {
 
 TEST(TrajectorySettings, RefusalsOfTables) {
   expectRefused("{law: table}", "~file: the law `table` needs a file");
-  expectRefused("{law: table, file: /does/not/exist.csv}", "/does/not/exist.csv");
+  expectRefused("{law: table, file: /does/not/exist.csv}", "~file: /does/not/exist.csv");
   const TemporaryFile file("time,position.joint_1,position.joint_2\n2,1,10\n");
   expectRefused("{law: table, loop: true, file: '" + file.path() + "'}",
                 "~loop: a motion of a single instant");
   const TemporaryFile other("time,position.a\n0,1\n1,1\n");
-  expectRefused("{law: table, file: '" + other.path() + "'}", "joint_1");
+  expectRefused("{law: table, file: '" + other.path() + "'}", "~file: " + other.path());
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "scene/input_checks.h"
 #include "virtual_work_dynamics/error.h"
+#include "witness/geared_angle.h"
 #include "witness/lagrange/lagrange_equations.h"
 #include "witness/lagrange/lagrange_plan.h"
 
@@ -86,10 +87,9 @@ void LagrangeDynamics<Real>::Impl::move(const Motion& motion) {
         state.qd = joint.multiplier * Real(motion.qd[joint.coordinate]);
         state.qdd = joint.multiplier * Real(motion.qdd[joint.coordinate]);
       }
-      if (joint.type != JointType::kPrismatic) {
-        state.sine = std::sin(state.q);
-        state.cosine = std::cos(state.q);
-      }
+      if (joint.type != JointType::kPrismatic)
+        gearedCosineAndSine(joint.multiplier, Real(motion.q[joint.coordinate]), joint.offset,
+                            state.cosine, state.sine);
       poses[k] = relativePose(joint, state, std::array<Real, 0>{});
     }
     axes[k + 1] = childOrientation<Real>(joint, poses[k], axes[joint.parent]);

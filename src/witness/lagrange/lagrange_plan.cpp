@@ -53,8 +53,9 @@ typename LagrangePlan<Real>::LinkData linkData(const Link& link) {
 
 template <typename Real>
 void addApplied(const Mechanism& mechanism, const Scene& scene, LagrangePlan<Real>& plan) {
-  for (const AppliedWrench& wrench : scene.applied_wrenches) {
-    const int link = static_cast<int>(linkOf(mechanism, wrench));
+  for (std::size_t i = 0; i < scene.applied_wrenches.size(); ++i) {
+    const AppliedWrench& wrench = scene.applied_wrenches[i];
+    const int link = linkOf(mechanism, scene, i);
     auto& applied = plan.links[link].applied;
     plan.applied.push_back({link, applied.size()});
     applied.push_back({wrench.axes == Axes::kRoot, triple<Real>(wrench.at),
