@@ -61,7 +61,6 @@ else()
   export(EXPORT ${PROJECT_NAME}
     NAMESPACE ${PROJECT_NAME}::
     FILE ${CATKIN_DEVEL_PREFIX}/share/${PROJECT_NAME}/cmake/${PROJECT_NAME}Targets.cmake)
-  catkin_install_python(PROGRAMS scripts/read_input.py scripts/rviz_for_robot.py
-    DESTINATION ${vwd_programs})
+  catkin_install_python(PROGRAMS scripts/read_input.py DESTINATION ${vwd_programs})
   install(DIRECTORY launch DESTINATION ${vwd_data})
 endif()

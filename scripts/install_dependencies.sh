@@ -8,13 +8,14 @@ build_packages=(
   libconsole-bridge-dev libeigen3-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev
   libyaml-cpp-dev
   libdiagnostic-msgs-dev libdiagnostic-updater-dev libgeometry-msgs-dev libroscpp-dev
-  libsensor-msgs-dev libtf2-msgs-dev libtrajectory-msgs-dev
+  libsensor-msgs-dev libtf2-msgs-dev libtrajectory-msgs-dev libvisualization-msgs-dev
   ros-environment
 )
 run_packages=(
   python3-rosbag python3-roslaunch python3-rostopic ros-robot-state-publisher rosbash rosout
   tf2-tools
   python3-diagnostic-msgs python3-geometry-msgs python3-sensor-msgs python3-trajectory-msgs
+  python3-visualization-msgs
 )
 test_packages=(
   "${run_packages[@]}"
@@ -26,7 +27,7 @@ check_packages=(
   liborocos-kdl-dev
 )
 demo_packages=("${run_packages[@]}" python3-matplotlib)
-rviz_packages=("${run_packages[@]}" python3-yaml rviz)
+rviz_packages=("${run_packages[@]}" rviz)
 benchmark_packages=(
   libbenchmark-dev libdart-dev libmujoco-dev liborocos-kdl-dev python3-matplotlib valgrind
 )

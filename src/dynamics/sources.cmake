@@ -4,6 +4,7 @@ vwd_core(
   dynamics.cpp
   effort_doubts.cpp
   given_joints.cpp
+  model_view.cpp
   passive_joints.cpp
   shifted_samples.cpp
   sample_rows.cpp)

@@ -45,4 +45,10 @@ tf2_msgs::TFMessage closureFrames(const Mechanism& mechanism, const Scene& scene
   return message;
 }
 
+std::string reactionFrame(const Mechanism& mechanism, const std::string& reaction) {
+  const int joint = reaction == kGround ? -1 : mechanism.jointIndex(reaction);
+  if (joint < 0 && reaction != kGround) return reaction;
+  return mechanism.link(joint + 1).name;
+}
+
 }  // namespace virtual_work_dynamics

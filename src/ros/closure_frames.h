@@ -18,4 +18,8 @@ tf2_msgs::TFMessage closureFrames(const Mechanism& mechanism, const Scene& scene
                                   const std::vector<std::string>& reactions,
                                   const std::string& frame_prefix);
 
+/// The frame whose axes and origin a reaction in child axes refers to: the child link's, or the
+/// closure's own.
+std::string reactionFrame(const Mechanism& mechanism, const std::string& reaction);
+
 }  // namespace virtual_work_dynamics

@@ -160,6 +160,16 @@ double readDeviationWarn(PrivateParameters& parameters, double fallback) {
   return warn;
 }
 
+double readMarkerRate(PrivateParameters& parameters, double fallback) {
+  constexpr double kSlowest = 0.001, kFastest = 1000;
+  const double rate = parameters.number("marker_rate", fallback);
+  if (!(rate >= kSlowest && rate <= kFastest)) {
+    throw parameterError("marker_rate", numberText(rate) + " Hz is not from " +
+                                            numberText(kSlowest) + " to " + numberText(kFastest));
+  }
+  return rate;
+}
+
 }  // namespace
 
 InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& private_node) {
@@ -181,6 +191,7 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   result.self_check = readSelfCheck(parameters);
   result.loop_limits = readLoopLimits(parameters);
   result.deviation_warn = readDeviationWarn(parameters, result.deviation_warn);
+  result.marker_rate = readMarkerRate(parameters, result.marker_rate);
   result.scene_given = parameters.has("scene");
   const YAML::Node scene = sceneDocument(parameters.raw("scene"));
   parameters.refuseUnknown();

@@ -46,6 +46,7 @@ struct InverseDynamicsParameters {
   double late_threshold = 0.001;   ///< s, from receipt of a joint state to its published result
   LoopLimits loop_limits;          ///< samples beyond them are a WARN
   SelfCheckSettings self_check;
+  double marker_rate = 20;                 ///< largest rate of ~markers, Hz
   double deviation_warn = kDeviationWarn;  ///< deviation of an effort over the effort, both rms
 };
 

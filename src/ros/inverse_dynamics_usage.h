@@ -18,6 +18,7 @@ publishes (each only while somebody subscribes)
   ~effort_tolerance  sensor_msgs/JointState           the same by the scene's tolerances, where it has any
   ~reactions         sensor_msgs/MultiDOFJointState   joint poses and wrenches, axes of the root link
   ~reaction/<joint>  geometry_msgs/WrenchStamped      the same wrench, frame of the child link
+  ~markers           visualization_msgs/MarkerArray   RViz: arrows and numbers at the joints, a legend
   ~joint_trajectory  trajectory_msgs/JointTrajectory  the input trajectory with efforts
   ~determinacy       diagnostic_msgs/DiagnosticArray  closed loops: what mechanics determines; latched
   /diagnostics       diagnostic_msgs/DiagnosticArray  rates, run times, drops, checks
@@ -40,6 +41,7 @@ parameters
   ~rest                      [{name, position}] of joints that may never come ([])
   ~frame_prefix              put before every frame_id, such as left/ ("")
   ~twist                     fill in the twists of ~reactions (false)
+  ~marker_rate               largest rate of ~markers, Hz, 0.001 to 1000 (20)
   ~queue_size/input          messages (1000)
   ~queue_size/output         messages (20000)
   ~trajectory_rate           points a second of a trajectory's results; 0: all at once (0)

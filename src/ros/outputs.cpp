@@ -11,8 +11,10 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "ros/closure_frames.h"
 #include "ros/determinacy_message.h"
 #include "ros/deviation_output.h"
+#include "ros/marker_output.h"
 #include "ros/message_copies.h"
 
 namespace virtual_work_dynamics {
@@ -357,14 +359,6 @@ class TrajectoryOutput : public Output {
   }
 };
 
-// The frame whose axes and origin a reaction in child axes refers to: the child link's, or the
-// closure's own.
-std::string childFrame(const Mechanism& mechanism, const std::string& name) {
-  const int index = name == kGround ? -1 : mechanism.jointIndex(name);
-  if (index < 0 && name != kGround) return name;
-  return mechanism.links()[static_cast<std::size_t>(index + 1)].name;
-}
-
 }  // namespace
 
 Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
@@ -385,10 +379,15 @@ Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
         std::make_unique<ReactionsOutput>(settings.reactions, root_frame, settings.twist));
   }
   outputs.push_back(std::make_unique<TrajectoryOutput>());
+  Names frames;
   for (std::size_t i = 0; i < settings.reactions.size(); ++i) {
     const std::string& name = settings.reactions[i];
-    outputs.push_back(std::make_unique<WrenchOutput>(
-        name, settings.reaction_topics[i], settings.frame_prefix + childFrame(mechanism, name)));
+    frames.push_back(settings.frame_prefix + reactionFrame(mechanism, name));
+    outputs.push_back(
+        std::make_unique<WrenchOutput>(name, settings.reaction_topics[i], frames.back()));
+  }
+  if (!settings.reactions.empty()) {
+    outputs.push_back(makeMarkerOutput(mechanism, settings, frames, root_frame));
   }
   if (everything.closed()) {
     outputs.push_back(std::make_unique<DeterminacyOutput>(mechanism, everything, settings));

@@ -88,8 +88,9 @@ struct OutputSettings {
   std::string frame_prefix;                  ///< put before every frame_id
   bool twist = false;                        ///< whether ~reactions has twists
   double condition_warn = kCloseToSingular;  ///< a larger condition is close to a singular position
-  Scene scene;                               ///< of which deviations are computed
+  Scene scene;                               ///< of which deviations and arrows are computed
   std::shared_ptr<DeviationRecord> deviations;  ///< what they are recorded in; null: no deviations
+  double marker_rate = 20;                      ///< largest rate of ~markers, Hz
 };
 
 /// All outputs of the node for a mechanism and a scene.

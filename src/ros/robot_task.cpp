@@ -88,9 +88,10 @@ RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
   });
   deviations =
       std::make_shared<DeviationRecord>(everything.effortNames(), mechanism.coordinateNames());
-  outputs = makeOutputs(mechanism, everything,
-                        {reactions, reaction_topics, parameters.frame_prefix, parameters.twist,
-                         parameters.loop_limits.condition, scene, deviations});
+  outputs =
+      makeOutputs(mechanism, everything,
+                  {reactions, reaction_topics, parameters.frame_prefix, parameters.twist,
+                   parameters.loop_limits.condition, scene, deviations, parameters.marker_rate});
   plan_lines = everything.closed()
                    ? loopLines(mechanism, scene, everything, parameters.loop_limits.condition)
                    : everything.summary().lines();

@@ -15,6 +15,7 @@ foreach(file
     joint_watch.cpp
     loop_record.cpp
     loop_report.cpp
+    marker_output.cpp
     motion_completer.cpp
     node_program.cpp
     output_topics.cpp
@@ -23,6 +24,8 @@ foreach(file
     private_name.cpp
     private_parameters.cpp
     robot_task.cpp
+    rviz_configuration.cpp
+    rviz_for_robot.cpp
     sample_computation.cpp
     sample_times.cpp
     scene_parameter.cpp
@@ -37,3 +40,11 @@ foreach(file
     xmlrpc_to_yaml.cpp)
   list(APPEND ros_files ${CMAKE_CURRENT_LIST_DIR}/${file})
 endforeach()
+
+# The template of rviz_for_robot is part of the program, which so needs no place to find it.
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS
+  ${PROJECT_SOURCE_DIR}/config/inverse_dynamics.rviz)
+file(READ ${PROJECT_SOURCE_DIR}/config/inverse_dynamics.rviz VWD_RVIZ_TEMPLATE)
+configure_file(${CMAKE_CURRENT_LIST_DIR}/rviz_template.cpp.in
+  ${PROJECT_BINARY_DIR}/rviz_template.cpp @ONLY)
+list(APPEND ros_files ${PROJECT_BINARY_DIR}/rviz_template.cpp)

@@ -120,7 +120,8 @@ std::int64_t TrajectoryPublisher::playStates() {
 
 std::int64_t TrajectoryPublisher::playTrajectories() {
   trajectory_msgs::JointTrajectory trajectory = sampled(settings_, samples_);
-  const std::int64_t round_ns = samples_.durationNs() + samples_.stepNs();
+  const auto pause_ns = static_cast<std::int64_t>(settings_.loop_pause * 1e9);
+  const std::int64_t round_ns = samples_.durationNs() + samples_.stepNs() + pause_ns;
   std::int64_t count = 0;
   const ros::Time start = ros::Time::now();
   const Clock::time_point steady_start = Clock::now();

@@ -199,6 +199,9 @@ void checkSampling(const TrajectorySettings& settings, const std::string& law) {
     if (settings.zero_stamp) {
       throw parameterError("stamp", "only a joint_trajectory can have the stamp zero");
     }
+    if (settings.loop_pause > 0) {
+      throw parameterError("loop_pause", "only a joint_trajectory can pause: joint states go on");
+    }
     return;
   }
   const double points = static_cast<double>(SampleTimes(duration, settings.rate).last()) + 1;
@@ -220,6 +223,7 @@ TrajectorySettings readTrajectorySettings(PrivateParameters& parameters, const R
   settings.velocities = parameters.boolean("velocities", true);
   settings.zero_stamp = choice(parameters, "stamp", "now", "zero");
   settings.loop = parameters.boolean("loop", false);
+  settings.loop_pause = atLeastZero(parameters, "loop_pause", 0);
   settings.wait_for_subscribers = parameters.integer("wait_for_subscribers", 1);
   settings.start_delay = atLeastZero(parameters, "start_delay", 0.5);
   settings.linger = atLeastZero(parameters, "linger", 1);

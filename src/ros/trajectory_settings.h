@@ -21,6 +21,7 @@ struct TrajectorySettings {
   bool velocities = true;      ///< whether JointStates carry velocities
   bool zero_stamp = false;     ///< whether the stamp of the JointTrajectory is zero
   bool loop = false;
+  double loop_pause = 0;  ///< s, between the rounds of a JointTrajectory
   int wait_for_subscribers = 0;
   double start_delay = 0;  ///< s
   double linger = 0;       ///< s

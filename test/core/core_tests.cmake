@@ -58,6 +58,7 @@ set(core_test_files
   test/core/loop_oracles_test.cpp
   test/core/loop_rank_test.cpp
   test/core/loop_residuals_test.cpp
+  test/core/model_view_test.cpp
   test/core/motion_completion_accuracy_test.cpp
   test/core/motion_completion_test.cpp
   test/core/motion_csv_test.cpp

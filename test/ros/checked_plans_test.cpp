@@ -1,5 +1,6 @@
 #include <geometry_msgs/WrenchStamped.h>
 #include <gtest/gtest.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <cstdint>
 #include <memory>
@@ -164,6 +165,18 @@ TEST_F(CheckedPlans, ComputeAndCheckWithoutAllocation) {
   EXPECT_EQ(outcome, SampleComputation::Outcome::kDone);
   EXPECT_EQ(allocations, 0u);
   EXPECT_TRUE(plan->cross_check->full());
+}
+
+TEST_F(CheckedPlans, MarkersAreWrittenWithoutAllocation) {
+  const auto plan = maker.compile({"markers"});
+  maker.samples.motion() = robot.motion(mechanism);
+  const AllocationGuard guard;
+  const SampleComputation::Outcome outcome = maker.samples.compute(*plan, 1);
+  const std::size_t allocations = guard.allocations();
+  EXPECT_EQ(outcome, SampleComputation::Outcome::kDone);
+  EXPECT_EQ(allocations, 0u);
+  const auto& markers = maker.message<visualization_msgs::MarkerArray>(*plan, "markers");
+  EXPECT_NE(markers.message().markers.at(0).text.find(" N, "), std::string::npos);
 }
 
 }  // namespace

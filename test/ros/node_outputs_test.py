@@ -64,6 +64,7 @@ class Outputs(NodeTest):
             ('motion', 'trajectory_msgs/JointTrajectory'),
             ('effort_deviation', 'sensor_msgs/JointState'),
             ('reactions', 'sensor_msgs/MultiDOFJointState'),
+            ('markers', 'visualization_msgs/MarkerArray'),
             ('joint_trajectory', 'trajectory_msgs/JointTrajectory'),
             ('reaction/shoulder', 'geometry_msgs/WrenchStamped'),
             ('reaction/elbow', 'geometry_msgs/WrenchStamped'),

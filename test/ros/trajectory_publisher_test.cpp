@@ -230,6 +230,17 @@ TEST(TrajectoryPublisher, LoopedTrajectoriesFollowOneSampleAfterTheOther) {
   }
 }
 
+TEST(TrajectoryPublisher, LoopedTrajectoriesPause) {
+  NodeProcess node({"__name:=paused", "joint_trajectory:=paused", "_message:=joint_trajectory",
+                    "_rate:=20", "_duration:=0.4", "_loop:=true", "_loop_pause:=0.25"});
+  Recorder<JointTrajectory> recorder("paused");
+  const auto& trajectories = recorder.wait(3, 0);
+  ASSERT_GE(trajectories.size(), 3u);
+  for (std::size_t k = 1; k < trajectories.size(); ++k) {
+    EXPECT_EQ(between(trajectories[k - 1].header.stamp, trajectories[k].header.stamp), 700000000);
+  }
+}
+
 TEST(TrajectoryPublisher, InterruptEndsItQuietly) {
   // A hundred seconds between messages: the wait itself must be interrupted.
   NodeProcess node({"__name:=interrupted", "joint_states:=interrupted", "_rate:=0.01",

@@ -104,6 +104,7 @@ TEST(TrajectorySettings, TheConfigurationFileHoldsAllDefaults) {
   EXPECT_EQ(read.velocities, defaults.velocities);
   EXPECT_EQ(read.zero_stamp, defaults.zero_stamp);
   EXPECT_EQ(read.loop, defaults.loop);
+  EXPECT_EQ(read.loop_pause, defaults.loop_pause);
   EXPECT_EQ(read.wait_for_subscribers, defaults.wait_for_subscribers);
   EXPECT_EQ(read.start_delay, defaults.start_delay);
   EXPECT_EQ(read.linger, defaults.linger);
@@ -134,7 +135,8 @@ TEST(TrajectorySettings, TheConfigurationFileHoldsAllDefaults) {
 TEST(TrajectorySettings, EverythingCanBeSet) {
   const TrajectorySettings settings = settingsOf(
       "{joints: [a], amplitudes: [2], period: 4, duration: 3, rate: '2e1', velocities: false,"
-      " message: joint_trajectory, stamp: zero, loop: true, wait_for_subscribers: 0,"
+      " message: joint_trajectory, stamp: zero, loop: true, loop_pause: 1.5,"
+      " wait_for_subscribers: 0,"
       " start_delay: 0.25, linger: 0}");
   EXPECT_EQ(settings.joints, std::vector<std::string>{"a"});
   EXPECT_EQ(settings.law->duration(), 3);
@@ -144,6 +146,7 @@ TEST(TrajectorySettings, EverythingCanBeSet) {
   EXPECT_TRUE(settings.as_trajectory);
   EXPECT_TRUE(settings.zero_stamp);
   EXPECT_TRUE(settings.loop);
+  EXPECT_EQ(settings.loop_pause, 1.5);
   EXPECT_EQ(settings.wait_for_subscribers, 0);
   EXPECT_EQ(settings.start_delay, 0.25);
   EXPECT_EQ(settings.linger, 0);
@@ -243,6 +246,8 @@ TEST(TrajectorySettings, RefusalsNameTheParameter) {
   expectRefused("{stamp: zero}", "~stamp: only a joint_trajectory");
   expectRefused("{velocities: 1}", "~velocities: expected true or false");
   expectRefused("{loop: 'no'}", "~loop: expected true or false");
+  expectRefused("{message: joint_trajectory, loop_pause: -1}", "~loop_pause: expected 0 to 1e9 s");
+  expectRefused("{loop_pause: 1}", "~loop_pause: only a joint_trajectory can pause");
   expectRefused("{wait_for_subscribers: -1}", "~wait_for_subscribers");
   expectRefused("{wait_for_subscribers: 0.5}", "~wait_for_subscribers: expected an integer");
   expectRefused("{start_delay: -1}", "~start_delay: expected 0 to 1e9 s, got -1");
