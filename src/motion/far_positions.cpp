@@ -9,11 +9,12 @@ namespace virtual_work_dynamics {
 namespace {
 
 /// Steps that are far: longer than this, rad or m, with this acceleration, rad/s^2 or m/s^2, and so
-/// many of the smallest and of the usual deviations.
+/// many of the smallest and of the usual deviations: white noise makes differences of steps with
+/// sqrt(6) of its own.
 constexpr double kLongStep = 0.01;
 constexpr double kAcceleration = 200;
 constexpr double kLeastDeviations = 20;
-constexpr double kDeviations = 8;
+constexpr double kDeviations = 20;
 
 /// By how much a step is faster than usual and later ones when it is not of their motion.
 constexpr double kIsolated = 10;

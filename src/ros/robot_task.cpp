@@ -51,17 +51,6 @@ std::vector<std::pair<int, double>> restOf(const Mechanism& mechanism,
   return rest;
 }
 
-// Puts the parameter's name before what is wrong with the scene.
-template <typename Make>
-auto ofScene(const InverseDynamicsParameters& parameters, Make make) {
-  try {
-    return make();
-  } catch (const SceneError& error) {
-    throw SceneError((parameters.scene_given ? "parameter ~scene: " : "") +
-                     std::string(error.what()));
-  }
-}
-
 // Compiles all that the scene asks for.
 Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const std::string& key) {
   if (mechanism.coordinates().empty()) {
@@ -76,16 +65,12 @@ Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const s
 RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
     : mechanism(readRobot(parameters)),
       scene(parameters.scene),
-      reactions(ofScene(parameters, [&] { return requestedReactions(mechanism, scene); })),
+      reactions(requestedReactions(mechanism, scene)),
       reaction_topics(legalTopicNames(reactions)),
       estimator(checkedSettings(mechanism, parameters.estimator, scene)),
       rest(restOf(mechanism, parameters.rest)),
-      everything(ofScene(parameters, [&] {
-        return movableDynamics(mechanism, scene, parameters.robot_description_key);
-      })) {
-  closure_frames = ofScene(parameters, [&] {
-    return closureFrames(mechanism, scene, reactions, parameters.frame_prefix);
-  });
+      everything(movableDynamics(mechanism, scene, parameters.robot_description_key)) {
+  closure_frames = closureFrames(mechanism, scene, reactions, parameters.frame_prefix);
   deviations =
       std::make_shared<DeviationRecord>(everything.effortNames(), mechanism.coordinateNames());
   outputs =

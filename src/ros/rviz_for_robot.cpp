@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -28,6 +29,8 @@
 namespace virtual_work_dynamics {
 namespace {
 
+// Bytes, beyond configurations with thousands of displays.
+constexpr std::size_t kLongestTemplate = std::size_t{64} << 20;
 constexpr char kRobotDescription[] = "robot_description";
 constexpr char kDefaultTemplate[] = "config/inverse_dynamics.rviz";
 
@@ -103,7 +106,7 @@ Mechanism named(const std::string& source, const std::string& urdf) {
 
 Inputs filesOf(const Options& options) {
   const std::string& scene = options["scene"];
-  return {named(options.robot, readTextFile(options.robot)),
+  return {readUrdfFile(options.robot),
           scene.empty() || scene == "none" ? Scene() : readSceneFile(scene),
           ros::names::resolve(kRobotDescription), options["frame-prefix"]};
 }
@@ -157,7 +160,7 @@ std::string configurationFor(const Options& options) {
   }
   const std::string& path = options["template"];
   return path.empty() ? rvizConfiguration(rvizTemplate(), kDefaultTemplate, scene)
-                      : rvizConfiguration(readTextFile(path), path, scene);
+                      : rvizConfiguration(readTextFile(path, kLongestTemplate), path, scene);
 }
 
 FileError systemError(const std::string& what) {

@@ -31,7 +31,7 @@ TEST(FarPositions, StepsThatAJointMakesAreNotFar) {
   EXPECT_TRUE(isFar(0.02, 0.001, 0.001, 1e-12, 0));
   // Nor are those of a coarse encoder, or of noise.
   EXPECT_FALSE(isFar(0.02, 0.001, 0.001, 0.0015, 0));
-  EXPECT_FALSE(isFar(0.02, 0.001, 0.001, 1e-12, 0.003));
+  EXPECT_FALSE(isFar(0.02, 0.001, 0.001, 1e-12, 0.0011));
 }
 
 TEST(FarPositions, AJumpIsOneWhereTheJointStaysAfterIt) {
