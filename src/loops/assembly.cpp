@@ -124,6 +124,11 @@ Eigen::VectorXd closedPosition(const LoopScene& loops, LoopCompletion& completio
     if (completion.rank(kinematics, given) < completion.rank(kinematics, none)) return q;
     if (moveGiven(completion, kinematics, q, loops.start, given)) return q;
   }
+  // Zero, where actuated coordinates start that the scene does not place, is no wish of the user's.
+  std::vector<bool> placed = given;
+  for (std::size_t i = 0; i < placed.size(); ++i) placed[i] = given[i] && loops.placed[i];
+  q = loops.start;
+  if (placed != given && closeNear(completion, kinematics, nearest, q, placed)) return q;
   // The conditions themselves do not tell frames that fit from those that are half a turn apart,
   // which is what assemble() then refuses.
   q = loops.start;

@@ -43,6 +43,7 @@ class Resolver {
     loops_.closure_stiffness.assign(closures, 1);
     loops_.zero_at.assign(closures, false);
     loops_.start.setZero(static_cast<Eigen::Index>(coordinates));
+    loops_.placed.assign(coordinates, false);
     readActuated();
     readAssembly();
     readRedundancy();
@@ -129,6 +130,7 @@ class Resolver {
         throw SceneError("assembly: " + inQuotes(start.name) + ": the position is not finite");
       }
       loops_.start[coordinate] = start.value;
+      loops_.placed[static_cast<std::size_t>(coordinate)] = true;
     }
   }
 

@@ -22,7 +22,8 @@ struct LoopScene {
   RedundancyPolicy policy = RedundancyPolicy::kMinimumNorm;
   double rank_tolerance = 0;
   std::optional<double> length;
-  Eigen::VectorXd start;  ///< where the assembly starts, by coordinate
+  Eigen::VectorXd start;     ///< where the assembly starts, by coordinate
+  std::vector<bool> placed;  ///< whether the scene says where, by coordinate
 };
 
 /// Resolves the names of a scene.

@@ -103,7 +103,7 @@ TEST_F(OfflineLoopThreads, ARowThatViolatesALoopIsNamedBeforeOneThatIsSingular) 
   for (const bool violated : {true, false}) {
     std::string text = "time,position.drive,position.elbow,position.wrist\n";
     for (int i = 0; i < 200; ++i) {
-      const double q = i == 110 ? std::acos(0.0) : 0.001 * i;
+      const double q = std::acos(0.0) + 0.001 * (i - 110);
       const double off = violated && i == 105 ? 1e-3 : 0;
       text += numberText(0.01 * i) + "," + numberText(q) + "," + numberText(-q + off) + "," +
               numberText(q) + "\n";

@@ -237,19 +237,17 @@ class DroppedMessages(NodeTest):
                    'the line on the restart')
 
     def test_results_that_overflow_are_not_published(self):
-        self.start({'estimator': {'acceleration': 'zero'}})
-        for i, velocity in enumerate((0.2, 1e200, 0.3)):
-            message = joint_state(EPOCH + STEP * i, dict.fromkeys(COORDINATES, 0.1),
-                                  dict.fromkeys(COORDINATES, velocity))
-            self.states.publish(message)
+        self.start()
+        motions = [(dict.fromkeys(COORDINATES, 0.1), dict.fromkeys(COORDINATES, velocity),
+                    dict.fromkeys(COORDINATES, 0)) for velocity in (0.2, 1e200, 0.3)]
+        for i, motion in enumerate(motions):
+            self.trajectories.publish(trajectory(trajectory_point(0, COORDINATES, motion),
+                                                 stamp=EPOCH + STEP * i))
         messages = self.efforts.wait(2)
         self.assertStamps(messages, [EPOCH, EPOCH + 2 * STEP])
-        for message, velocity in zip(messages, (0.2, 0.3)):
-            self.assertEffort(message, self.bodies,
-                              (dict.fromkeys(COORDINATES, 0.1),
-                               dict.fromkeys(COORDINATES, velocity),
-                               dict.fromkeys(COORDINATES, 0)), EXACT)
-        self.expect_drop('overflow', 'joint_states', 'overflow', 'not finite at stamp')
+        for message, motion in zip(messages, motions[::2]):
+            self.assertEffort(message, self.bodies, motion, EXACT)
+        self.expect_drop('overflow', 'joint_trajectory', 'overflow', 'not finite at stamp')
 
     def test_warnings_are_throttled_and_reasons_do_not_hide_each_other(self):
         self.start()
