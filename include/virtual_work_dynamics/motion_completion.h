@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -22,6 +23,8 @@ struct CompletionSettings {
   /// Whether positions stay as given: with closed loops smoothed ones would not close them, and a
   /// row that cannot be closed would take others with it.
   bool keep_positions = false;
+  /// Told now and then how many of how many steps are done; may be empty.
+  std::function<void(std::size_t done, std::size_t total)> progress;
 };
 
 /// What completeMotion() found and did.

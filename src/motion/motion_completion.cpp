@@ -141,7 +141,13 @@ MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion,
   checkRows(motion);
   checkValues(motion);
   Recording recording(motion.times, streamsOf(motion), settings);
-  recording.identify();
+  const std::size_t steps = motion.joints.size() * (Recording::kModels + 1);
+  std::size_t done = 0;
+  const auto did = [&](std::size_t more) {
+    done += more;
+    if (settings.progress) settings.progress(done, steps);
+  };
+  recording.identify(did);
   const bool given = motion.hasAccelerations();
   motion.velocities.resize(motion.positions.rows(), motion.positions.cols());
   if (!given) motion.accelerations.resize(motion.positions.rows(), motion.positions.cols());
@@ -160,6 +166,7 @@ MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion,
       motion.accelerations(at, column) = sample.motion[2];
     };
     recording.smooth(joint, settings.covariances, take);
+    did(1);
   }
   if (report != nullptr) {
     *report = CompletionReport();

@@ -169,9 +169,12 @@ void Recording::leaveOut(RecordedStream& stream, std::size_t begin, std::size_t 
   }
 }
 
-void Recording::identify() {
-  chooseClock();
-  for (RecordedStream& stream : streams_) chooseOrder(stream);
+void Recording::identify(const std::function<void(std::size_t models)>& found) {
+  chooseClock(found);
+  for (RecordedStream& stream : streams_) {
+    chooseOrder(stream);
+    found(kModels - 2);  // of three orders
+  }
 }
 
 /// Finds the model of a stream for its order.
@@ -194,14 +197,23 @@ double Recording::identify(RecordedStream& stream, const std::vector<double>& ti
 
 /// Stamps tell the truth, or they are those of an even clock with noise: whichever makes the
 /// positions of all joints together likelier.
-void Recording::chooseClock() {
+void Recording::chooseClock(const std::function<void(std::size_t models)>& found) {
   double stamped = 0;
-  for (RecordedStream& stream : streams_) stamped += identify(stream, times_, false);
+  for (RecordedStream& stream : streams_) {
+    stamped += identify(stream, times_, false);
+    found(1);
+  }
   std::vector<double> even_times = evenTimes(times_);
-  if (even_times.empty()) return;
+  if (even_times.empty()) {
+    found(streams_.size());
+    return;
+  }
   std::vector<RecordedStream> stamped_streams = streams_;
   double even = 0;
-  for (RecordedStream& stream : streams_) even += identify(stream, even_times, true);
+  for (RecordedStream& stream : streams_) {
+    even += identify(stream, even_times, true);
+    found(1);
+  }
   even_clock_ = even < stamped;
   if (even_clock_) {
     times_ = std::move(even_times);

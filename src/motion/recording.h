@@ -30,8 +30,12 @@ class Recording {
   Recording(std::vector<double> times, std::vector<RecordedStream> streams,
             const CompletionSettings& settings);
 
-  /// Finds clock, orders and noises.
-  void identify();
+  /// Models of each stream that identify() finds, at most.
+  static constexpr std::size_t kModels = 5;
+
+  /// Finds clock, orders and noises. @param found is told how many more models are found or not
+  /// needed, kModels for each stream in the end.
+  void identify(const std::function<void(std::size_t models)>& found);
   void smooth(std::size_t stream, bool covariance,
               const std::function<void(std::size_t row, const SmoothedSample&)>& take) const;
 
@@ -50,7 +54,7 @@ class Recording {
   FarFinding judge(const RecordedStream& stream, std::size_t begin, std::size_t row) const;
   void leaveOut(RecordedStream& stream, std::size_t begin, std::size_t row, int count) const;
   double identify(RecordedStream& stream, const std::vector<double>& times, bool even) const;
-  void chooseClock();
+  void chooseClock(const std::function<void(std::size_t models)>& found);
   void chooseOrder(RecordedStream& stream) const;
 
   std::vector<double> times_;

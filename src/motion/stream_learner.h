@@ -25,6 +25,8 @@ class StreamLearner {
   StreamLearner(const NoiseSettings& settings, std::int64_t max_gap, bool learns);
 
   const StreamModel& model() const { return model_; }
+  /// Whether the settings leave noise or bandwidth to be found.
+  bool finds() const { return settings_.position_noise < 0 || settings_.bandwidth <= 0; }
   /// Whether the model was found from blocks of samples.
   bool learnt() const { return learnt_; }
   /// Velocities over slopes of the positions where they contradict each other; 1: they do not.

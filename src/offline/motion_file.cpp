@@ -13,6 +13,7 @@
 #include "base/printable.h"
 #include "motion/motion_text.h"
 #include "motion/stream_text.h"
+#include "offline/progress.h"
 #include "offline/watched_file.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -208,7 +209,10 @@ void completeDerivatives(const Mechanism& mechanism, const Scene& scene,
   checkTimes(motion);
   CompletionReport report;
   try {
-    table = completeMotion(mechanism, std::move(table), settings, &report);
+    Progress progress(std::cerr, ProgressLine::whereIs(STDERR_FILENO), "estimating " + missing);
+    CompletionSettings shown = settings;
+    shown.progress = [&](std::size_t done, std::size_t total) { progress.update(done, total); };
+    table = completeMotion(mechanism, std::move(table), shown, &report);
   } catch (const MotionError& error) {
     throw FileError(motion.path + ": " + error.what());
   }

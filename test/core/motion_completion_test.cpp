@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -226,6 +227,24 @@ TEST(MotionCompletion, RevoluteJointsMayGoTheLongerWay) {
   motion.positions(4, 0) += 0.6;
   const MotionTable completed = completeMotion(twoJoints(), motion);
   EXPECT_GT(completed.velocities.col(0).maxCoeff(), 10);
+}
+
+TEST(MotionCompletion, TellsHowFarItIs) {
+  std::vector<double> even;
+  for (int i = 0; i < 40; ++i) even.push_back(0.01 * i);
+  for (const std::vector<double>& times : {even, unevenTimes(40)}) {
+    CompletionSettings settings;
+    std::vector<std::size_t> steps;
+    std::size_t of = 0;
+    settings.progress = [&](std::size_t done, std::size_t total) {
+      steps.push_back(done);
+      of = total;
+    };
+    completeMotion(twoJoints(), without(cubicMotion(times), true, true), settings);
+    EXPECT_GE(steps.size(), 6u);
+    EXPECT_TRUE(std::is_sorted(steps.begin(), steps.end()));
+    EXPECT_EQ(steps.back(), of);
+  }
 }
 
 TEST(MotionCompletion, ShortTablesAreFittedWithWhatTheyHave) {
