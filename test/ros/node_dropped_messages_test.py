@@ -247,7 +247,7 @@ class DroppedMessages(NodeTest):
         self.assertStamps(messages, [EPOCH, EPOCH + 2 * STEP])
         for message, motion in zip(messages, motions[::2]):
             self.assertEffort(message, self.bodies, motion, EXACT)
-        self.expect_drop('overflow', 'joint_trajectory', 'overflow', 'not finite at stamp')
+        self.expect_drop('overflow', 'joint_trajectory', 'overflow', 'not finite at point 1')
 
     def test_warnings_are_throttled_and_reasons_do_not_hide_each_other(self):
         self.start()
