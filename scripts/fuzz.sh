@@ -5,16 +5,18 @@ set -euo pipefail
 targets=(description scene motion messages tool)
 seconds=20
 jobs=1
+only_build=false
 chosen=()
 
 usage() {
   cat <<END
-Usage: scripts/fuzz.sh [--seconds N] [--jobs N] [TARGET ...]
+Usage: scripts/fuzz.sh [--build] [--seconds N] [--jobs N] [TARGET ...]
 
 Gives inputs of random changes to what reads input, built with Clang's libFuzzer and the address and
 undefined-behaviour sanitizers, and says of each target how many inputs it took and how many edges of
 the code they reached. Whatever crashes, hangs, leaks or takes much memory is a finding.
   TARGET       ${targets[*]} (all of them)
+  --build      only builds them
   --seconds N  for each target ($seconds)
   --jobs N     processes for each target ($jobs)
 Starts from test/fuzz/corpus, and from what earlier runs have found in build/fuzz/corpus. Findings and
@@ -29,6 +31,7 @@ number() {
 }
 while [[ $# -gt 0 ]]; do
   case "$1" in
+    --build) only_build=true ;;
     --seconds) seconds=$(number "$@"); shift ;;
     --jobs) jobs=$(number "$@"); shift ;;
     -h | --help) usage; exit 0 ;;
@@ -73,6 +76,7 @@ if ! run build_targets; then
   exit 1
 fi
 echo "Built in $((SECONDS - start)) s."
+if $only_build; then exit 0; fi
 
 # dictionary TARGET: prints its words; the whole tool has those of all files, and options.
 dictionary() {

@@ -75,24 +75,32 @@ sanitized_build() {
 }
 
 # Starts the longest of the builds while tests through ROS run, which leave most of the processor free.
-start_sanitized_build() {
+start_long_builds() {
   set -m  # a process group of its own, to be ended as a whole
-  (renice -n 19 -p "$BASHPID" && sanitized_build 1) >"$results/started_sanitized_build.log" 2>&1 \
-    </dev/null &
+  (renice -n 19 -p "$BASHPID" && sanitized_build 1 && JOBS=1 scripts/fuzz.sh --build) \
+    >"$results/started_builds.log" 2>&1 </dev/null &
   started_build=$!
   set +m
 }
-stop_sanitized_build() {
+stop_long_builds() {
   [[ -n "${started_build:-}" ]] || return 0
   kill -- "-$started_build" 2>/dev/null || true
   wait "$started_build" 2>/dev/null || true
   started_build=
 }
 
+# In two halves at once, as they take long and use one processor each.
 sanitized_core_tests() {
-  sanitized_build "${JOBS:-$(nproc)}" &&
-    (cd "$package_build" && UBSAN_OPTIONS=print_stacktrace=1 sanitized/sanitized_core_tests \
-      --gtest_output="xml:$results/sanitized_core_tests.junit/core_tests.xml")
+  sanitized_build "${JOBS:-$(nproc)}" || return 1
+  local half halves=() failed=false
+  for half in 0 1; do
+    (cd "$package_build" && GTEST_TOTAL_SHARDS=2 GTEST_SHARD_INDEX=$half \
+      UBSAN_OPTIONS=print_stacktrace=1 sanitized/sanitized_core_tests \
+      --gtest_output="xml:$results/sanitized_core_tests.junit/core_tests_$half.xml") &
+    halves+=($!)
+  done
+  for half in "${halves[@]}"; do wait "$half" || failed=true; done
+  ! $failed
 }
 
 # Each target starts from what is known to be hard, and from what earlier runs on this machine learnt.
@@ -176,10 +184,10 @@ fi
 
 if $install; then scripts/install_dependencies.sh --checks; fi
 if check build_without_warnings build; then
-  start_sanitized_build
-  trap stop_sanitized_build EXIT
+  start_long_builds
+  trap stop_long_builds EXIT
   check run_tests run_tests || true
-  stop_sanitized_build
+  stop_long_builds
   check core_links_no_ros core_links_no_ros || true
   check kernels_share_no_code kernels_share_no_code || true
   check sanitized_core_tests sanitized_core_tests || true
