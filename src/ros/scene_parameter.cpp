@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "base/printable.h"
 #include "ros/private_name.h"
 #include "ros/xmlrpc_to_yaml.h"
 #include "scene/yaml_document.h"
@@ -17,7 +18,7 @@ YAML::Node parsed(const std::string& text, const std::string& name) {
   try {
     return readYamlDocument(text);
   } catch (const YAML::Exception& error) {
-    throw parameterError(name, std::string("is not valid YAML: ") + error.what());
+    throw parameterError(name, "is not valid YAML: " + printable(error.what()));
   } catch (const SceneError& error) {
     throw parameterError(name, error.what());
   }

@@ -122,7 +122,7 @@ Scene readSceneFile(const std::string& path) {
   } catch (const SceneError& error) {
     throw SceneError(path + ": " + error.what());
   } catch (const YAML::Exception& error) {
-    throw FileError(path + ": is not valid YAML: " + error.what());
+    throw FileError(path + ": is not valid YAML: " + printable(error.what()));
   }
   try {
     return readScene(node);

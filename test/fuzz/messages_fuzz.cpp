@@ -1,16 +1,24 @@
 // Joint states and trajectories whose values come from bytes, up to the core's motions.
 #include <fuzzer/FuzzedDataProvider.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <string>
 #include <vector>
 
 #include "fuzz_target.h"
 #include "ros/joint_state_conversion.h"
+#include "ros/private_name.h"
 #include "ros/trajectory_conversion.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 using namespace virtual_work_dynamics;
+
+// As it is where there is no node; the real one needs roscpp.
+std::string virtual_work_dynamics::privateName(const std::string& name) {
+  return "~" + name;
+}
 
 namespace {
 
@@ -71,8 +79,9 @@ void useJointStates(Values& values) {
     if (message.name.empty() || !values.yes()) message.name = values.names();
     message.position = values.numbers(message.name.size());
     message.velocity = values.numbers(message.name.size());
-    message.header.stamp = ros::Time().fromNSec(message.header.stamp.toNSec() +
-                                                values.integer<std::uint16_t>() * 1000);
+    const std::uint64_t stamp =
+        message.header.stamp.toNSec() + std::uint64_t{values.integer<std::uint16_t>()} * 1000;
+    message.header.stamp.fromNSec(std::min(stamp, ros::TIME_MAX.toNSec()));
     JointSample sample;
     if (const auto rejection = conversion.convert(message, sample)) {
       requireWord(*rejection);

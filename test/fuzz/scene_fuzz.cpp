@@ -1,6 +1,7 @@
 // A scene from bytes, compiled for robots whose names the corpus has, completed and computed once.
 #include <array>
 
+#include "base/printable.h"
 #include "fuzz_target.h"
 #include "scene/yaml_document.h"
 #include "virtual_work_dynamics/dynamics.h"
@@ -23,7 +24,7 @@ YAML::Node documentOf(const std::string& text) {
   try {
     return readYamlDocument(text);
   } catch (const YAML::Exception& error) {
-    throw SceneError(error.what());
+    throw SceneError(printable(error.what()));  // as readSceneFile() does
   }
 }
 

@@ -29,6 +29,12 @@ def lives(group):
     return False
 
 
+def heed_signals():
+    """Of those that are ignored from the start, as under nohup, bash takes no more notice."""
+    for number in (signal.SIGTERM, signal.SIGHUP, signal.SIGINT):
+        signal.signal(number, signal.SIG_DFL)
+
+
 def ends(group):
     """Whether the group ends soon; a signal that was sent takes its time."""
     for _ in range(100):
@@ -46,7 +52,8 @@ class RunningTest(unittest.TestCase):
 
     def bash(self, script):
         return subprocess.Popen(['bash', '-c', script], cwd=self.folder.name, text=True,
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                preexec_fn=heed_signals)
 
     def test_what_runs_ends_with_the_script(self):
         for number, status in ((signal.SIGTERM, 143), (signal.SIGHUP, 143), (signal.SIGINT, 130)):
@@ -58,7 +65,7 @@ class RunningTest(unittest.TestCase):
                     self.assertIsNone(script.poll())
                 group = int(pid.read_text())
                 script.send_signal(number)
-                _, said = script.communicate()
+                _, said = script.communicate(timeout=60)
                 self.assertEqual(script.returncode, status)
                 self.assertEqual(said.strip(), 'test.sh: interrupted; half of it')
                 self.assertTrue(ends(group))
