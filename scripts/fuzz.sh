@@ -5,12 +5,14 @@ set -euo pipefail
 targets=(description scene motion messages tool)
 seconds=20
 jobs=1
+seed=0
 only_build=false
 chosen=()
 
 usage() {
   cat <<END
-Usage: scripts/fuzz.sh [--build] [--seconds N] [--jobs N] [TARGET ...]
+Usage: scripts/fuzz.sh [--build] [--seconds N] [--jobs N] [--seed N]
+           [TARGET ...]
 
 Gives inputs of random changes to what reads input, built with Clang's libFuzzer and the address and
 undefined-behaviour sanitizers, and says of each target how many inputs it took and how many edges of
@@ -19,6 +21,7 @@ the code they reached. Whatever crashes, hangs, leaks or takes much memory is a 
   --build      only builds them
   --seconds N  for each target ($seconds)
   --jobs N     processes for each target ($jobs)
+  --seed N     of the random changes, for the same ones again (another each time)
 Starts from test/fuzz/corpus, and from what earlier runs have found in build/fuzz/corpus. Findings and
 logs are in build/fuzz; to run one finding again, give it to the program in build/fuzz_build.
 The exit status is 1 when there is a finding. Ctrl-C ends the run; what it has learnt stays.
@@ -34,6 +37,7 @@ while [[ $# -gt 0 ]]; do
     --build) only_build=true ;;
     --seconds) seconds=$(number "$@"); shift ;;
     --jobs) jobs=$(number "$@"); shift ;;
+    --seed) seed=$(number "$@"); shift ;;
     -h | --help) usage; exit 0 ;;
     -*) echo "fuzz.sh: unknown option $1; --help names all" >&2; exit 2 ;;
     *)
@@ -116,6 +120,7 @@ for target in "${chosen[@]}"; do
   dictionary "$target" >"$found/$target.dict"
   # Longer than any sensible input of this size takes under the sanitizers.
   options=(-max_total_time="$seconds" -timeout=20 -rss_limit_mb=2048 -max_len=8192 -print_final_stats=1
+    -seed="$seed"
     -artifact_prefix="$found/$target-")
   if [[ -s "$found/$target.dict" ]]; then options+=(-dict="$found/$target.dict"); fi
   if [[ $jobs -gt 1 ]]; then options+=(-fork="$jobs"); fi
