@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/number_text.h"
+#include "base/printable.h"
 
 namespace virtual_work_dynamics {
 
@@ -117,25 +118,25 @@ std::string Rows::warning() const {
   const auto rows = [](std::size_t count) {
     return std::to_string(count) + (count == 1 ? " row" : " rows");
   };
+  const std::string begin = "warning: " + printable(file_.path) + ": ";
   std::string text;
   if (overflowed_ > 0) {
-    text = "warning: " + file_.path + ": results of " + rows(overflowed_) +
-           " overflow, first in line " + std::to_string(first_line_) + "; their cells are empty\n";
+    text = begin + "results of " + rows(overflowed_) + " overflow, first in line " +
+           std::to_string(first_line_) + "; their cells are empty\n";
   }
   if (singular_ > 0) {
-    text += "warning: " + file_.path + ": " + rows(singular_) +
-            " in singular positions, first in line " + std::to_string(first_singular_line_) +
+    text += begin + rows(singular_) + " in singular positions, first in line " +
+            std::to_string(first_singular_line_) +
             "; cells of results without a value there are empty\n";
   }
   if (undirected_ > 0) {
-    text += "warning: " + file_.path + ": the ends of a spring meet in " + rows(undirected_) +
-            ", first in line " + std::to_string(first_undirected_line_) +
+    text += begin + "the ends of a spring meet in " + rows(undirected_) + ", first in line " +
+            std::to_string(first_undirected_line_) +
             ", so that its force has no direction; cells of results that it reaches are empty\n";
   }
   if (conditions_.close() > 0) {
-    text += "warning: " + file_.path + ": " + rows(conditions_.close()) +
-            " close to singular positions, " + conditions_.worst(file_) +
-            ": forces may exceed the load by this factor\n";
+    text += begin + rows(conditions_.close()) + " close to singular positions, " +
+            conditions_.worst(file_) + ": forces may exceed the load by this factor\n";
   }
   return text;
 }
