@@ -13,6 +13,10 @@ struct Request {
   std::vector<std::string> root_axes;   ///< reactions in root axes, (4.3)
   bool poses = false;                   ///< poses of the `root_axes` joints
   bool twists = false;                  ///< twists of the `root_axes` joints
+  /// With closed loops: which results rigid-body mechanics determines,
+  /// LoopResults::effort_determined and what follows it. Which results have a value at all is
+  /// always found.
+  bool determinacy = true;
 };
 
 }  // namespace virtual_work_dynamics

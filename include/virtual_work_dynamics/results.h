@@ -56,8 +56,9 @@ constexpr double kCloseToSingular = 1e4;
 /// What closed loops add to the results of one sample; empty in an open chain.
 struct LoopResults {
   Determinacy determinacy;
-  /// Which results rigid-body mechanics determines, in the order of Results. Results that redundant
-  /// constraints leave open have the value that the scene's policy chooses.
+  /// Which results rigid-body mechanics determines, in the order of Results; empty unless
+  /// Request::determinacy. Results that redundant constraints leave open have the value that the
+  /// scene's policy chooses.
   std::vector<bool> effort_determined;
   std::vector<Determined> child_axes_determined, root_axes_determined;
   /// Which results have a value at all. In singular positions: what is determined, and reactions of

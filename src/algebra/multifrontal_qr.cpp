@@ -20,13 +20,30 @@ Eigen::Index size(const std::vector<int>& list) {
   return static_cast<Eigen::Index>(list.size());
 }
 
-// The places in `whole` of the columns of `part`.
-std::vector<Eigen::Index> placesIn(const std::vector<int>& whole, const std::vector<int>& part) {
-  std::vector<Eigen::Index> places;
-  for (const int column : part) {
-    places.push_back(std::find(whole.begin(), whole.end(), column) - whole.begin());
+// The kernels below are loops over plain numbers, as fronts of single loops have few rows: what
+// Eigen does for sizes known only at run time would cost more than the numbers themselves.
+
+double dot(const double* a, const double* b, Eigen::Index count) {
+  double even = 0, odd = 0;
+  Eigen::Index i = 0;
+  for (; i + 1 < count; i += 2) {
+    even += a[i] * b[i];
+    odd += a[i + 1] * b[i + 1];
   }
-  return places;
+  if (i < count) even += a[i] * b[i];
+  return even + odd;
+}
+
+void subtract(double factor, const double* what, double* from, Eigen::Index count) {
+  for (Eigen::Index i = 0; i < count; ++i) from[i] -= factor * what[i];
+}
+
+// Sets the places in `whole` of the columns of `part`.
+void setPlaces(const std::vector<int>& whole, const std::vector<int>& part,
+               std::vector<Eigen::Index>& places) {
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    places[i] = std::find(whole.begin(), whole.end(), part[i]) - whole.begin();
+  }
 }
 
 }  // namespace
@@ -47,16 +64,17 @@ MultifrontalQr::MultifrontalQr(const std::vector<RowBlock>& blocks, int columns)
   first_.push_back(rows_);
   for (const Front& front : fronts_) {
     Work work;
-    work.order = front.pivots;
+    work.pivots = size(front.pivots);
+    work.order = work.start = front.pivots;
     work.order.insert(work.order.end(), front.rest.begin(), front.rest.end());
     Eigen::Index most_rows = 0;
     for (const std::size_t b : front.blocks) {
       most_rows += blocks[b].rows;
-      work.places.push_back(placesIn(work.order, blocks[b].columns));
+      work.places.emplace_back(blocks[b].columns.size());
     }
     for (const std::size_t child : front.children) {
       most_rows += std::min(work_[child].F.rows(), size(fronts_[child].rest));
-      work.places.push_back(placesIn(work.order, fronts_[child].rest));
+      work.places.emplace_back(fronts_[child].rest.size());
     }
     const Eigen::Index width = size(work.order);
     work.F.resize(most_rows, width);
@@ -64,40 +82,78 @@ MultifrontalQr::MultifrontalQr(const std::vector<RowBlock>& blocks, int columns)
     work.factors.resize(std::min(most_rows, width));
     work.stairs.resize(static_cast<std::size_t>(std::min(most_rows, width)));
     work_.push_back(std::move(work));
+    orderPivots(work_.size() - 1);
   }
+  setPlacesOfRows();
   null_rows_.reserve(static_cast<std::size_t>(rows_));
   touched_.reserve(blocks_.size());
   open_.reserve(fronts_.size());
 }
 
+void MultifrontalQr::setPlacesOfRows() {
+  places_.resize(static_cast<std::size_t>(rows_));
+  for (std::size_t f = 0; f < fronts_.size(); ++f) {
+    parents_.push_back(f);
+    for (const std::size_t child : fronts_[f].children) parents_[child] = f;
+    Eigen::Index row = 0;
+    for (const std::size_t b : fronts_[f].blocks) {
+      for (Eigen::Index i = first_[b]; i < first_[b + 1]; ++i) {
+        places_[static_cast<std::size_t>(i)] = {f, row++};
+      }
+    }
+  }
+}
+
 void MultifrontalQr::setPresent(const std::vector<bool>& present) {
+  if (present_ == present) return;
   present_ = present;
+  for (std::size_t f = 0; f < fronts_.size(); ++f) orderPivots(f);
+}
+
+// Puts the pivots that are part of M first, so that the others need not be looked at.
+void MultifrontalQr::orderPivots(std::size_t f) {
+  const Front& front = fronts_[f];
+  Work& work = work_[f];
+  auto next = work.start.begin();
+  for (const bool part : {true, false}) {
+    for (const int column : front.pivots) {
+      if (present_[std::size_t(column)] == part) *next++ = column;
+    }
+    if (part) work.present = next - work.start.begin();
+  }
+  std::copy(work.start.begin(), work.start.end(), work.order.begin());
+  auto places = work.places.begin();
+  for (const std::size_t b : front.blocks) setPlaces(work.order, blocks_[b].columns, *places++);
+  for (const std::size_t child : front.children) {
+    setPlaces(work.order, fronts_[child].rest, *places++);
+  }
 }
 
 void MultifrontalQr::assemble(std::size_t f) {
   const Front& front = fronts_[f];
   Work& work = work_[f];
-  std::copy(front.pivots.begin(), front.pivots.end(), work.order.begin());
-  work.F.setZero();
+  std::copy(work.start.begin(), work.start.end(), work.order.begin());
+  std::fill_n(work.F.data(), work.F.size(), 0.0);
   Eigen::Index row = 0;
   auto places = work.places.begin();
   for (const std::size_t b : front.blocks) {
     const Eigen::MatrixXd& entries = entries_[b];
-    for (Eigen::Index j = 0; j < entries.cols(); ++j) {
-      const std::size_t column = static_cast<std::size_t>(blocks_[b].columns[std::size_t(j)]);
+    const Eigen::Index count = entries.rows();
+    for (std::size_t j = 0; j < places->size(); ++j) {
+      const std::size_t column = static_cast<std::size_t>(blocks_[b].columns[j]);
       if (!present_[column]) continue;
-      work.F.col((*places)[std::size_t(j)]).segment(row, entries.rows()) = entries.col(j);
-      lengths_[Eigen::Index(column)] += entries.col(j).squaredNorm();
+      const double* from = entries.data() + Eigen::Index(j) * count;
+      std::copy_n(from, count, work.column((*places)[j]) + row);
+      lengths_[Eigen::Index(column)] += dot(from, from, count);
     }
-    row += entries.rows();
+    row += count;
     ++places;
   }
   for (const std::size_t child : front.children) {
     const Work& from = work_[child];
-    const Eigen::Index pivots = size(fronts_[child].pivots);
     for (Eigen::Index step = from.present; step < from.steps; ++step, ++row) {
-      for (Eigen::Index j = from.stairs[std::size_t(step)]; j < from.F.cols(); ++j) {
-        work.F(row, (*places)[std::size_t(j - pivots)]) = from.F(step, j);
+      for (Eigen::Index j = from.stairs[std::size_t(step)]; j < from.width(); ++j) {
+        work.F(row, (*places)[std::size_t(j - from.pivots)]) = from.F(step, j);
       }
     }
     ++places;
@@ -106,49 +162,59 @@ void MultifrontalQr::assemble(std::size_t f) {
 }
 
 // H = 1 - factor v v^T with v = (1, below the step's row) turns the rest of a column into its norm.
-void MultifrontalQr::reflect(Work& work, Eigen::Index step, Eigen::Index column,
-                             Eigen::Index last) {
+void MultifrontalQr::reflect(Work& work, Eigen::Index step, Eigen::Index column) {
   const Eigen::Index below = work.rows - step - 1;
-  auto tail = work.F.col(column).segment(step + 1, below);
-  const double head = work.F(step, column);
-  const double norm = std::hypot(head, tail.norm());
+  double* tail = work.column(column) + step;
+  const double head = *tail++;
+  const double norm = std::sqrt(head * head + dot(tail, tail, below));
   work.stairs[std::size_t(step)] = column;
   work.factors[step] = 0;
   if (norm == 0) return;
   const double diagonal = head > 0 ? -norm : norm;
-  work.factors[step] = (diagonal - head) / diagonal;
-  tail /= head - diagonal;
-  work.F(step, column) = diagonal;
-  for (Eigen::Index j = column + 1; j < last; ++j) {
-    auto other = work.F.col(j).segment(step + 1, below);
-    const double along = work.factors[step] * (work.F(step, j) + tail.dot(other));
-    work.F(step, j) -= along;
-    other -= along * tail;
+  const double factor = (diagonal - head) / diagonal, scale = 1 / (head - diagonal);
+  work.factors[step] = factor;
+  for (Eigen::Index i = 0; i < below; ++i) tail[i] *= scale;
+  tail[-1] = diagonal;
+  // Columns that are no part of M have no entries.
+  const auto after = [&](Eigen::Index j) { return j + 1 == work.present ? work.pivots : j + 1; };
+  for (Eigen::Index j = after(column); j < work.width(); j = after(j)) {
+    double* other = work.column(j) + step;
+    const double along = factor * (*other + dot(tail, other + 1, below));
+    *other -= along;
+    subtract(along, tail, other + 1, below);
   }
+}
+
+// Applies the reflection of a step to z.
+void MultifrontalQr::reflectVector(Work& work, Eigen::Index step) {
+  const Eigen::Index below = work.rows - step - 1;
+  const double* tail = work.reflector(step);
+  double* z = work.z.data() + step;
+  const double along = work.factors[step] * (*z + dot(tail, z + 1, below));
+  *z -= along;
+  subtract(along, tail, z + 1, below);
 }
 
 bool MultifrontalQr::eliminate(std::size_t f) {
   Work& work = work_[f];
-  const Eigen::Index pivots = size(fronts_[f].pivots);
-  work.present = 0;
-  for (const int column : fronts_[f].pivots) work.present += present_[std::size_t(column)];
   if (work.present > work.rows) return false;
   for (Eigen::Index step = 0; step < work.present; ++step) {
     Eigen::Index pivot = step;
     double longest = -1;
-    for (Eigen::Index j = step; j < pivots; ++j) {
-      const double length = work.F.col(j).segment(step, work.rows - step).squaredNorm();
-      if (length > longest && present_[std::size_t(work.order[std::size_t(j)])]) {
+    for (Eigen::Index j = step; j < work.present; ++j) {
+      const double* column = work.column(j) + step;
+      const double length = dot(column, column, work.rows - step);
+      if (length > longest) {
         longest = length;
         pivot = j;
       }
     }
     if (!(longest > 0)) return false;
     if (pivot != step) {
-      work.F.col(step).swap(work.F.col(pivot));
+      std::swap_ranges(work.column(step), work.column(step) + work.rows, work.column(pivot));
       std::swap(work.order[std::size_t(step)], work.order[std::size_t(pivot)]);
     }
-    reflect(work, step, step, work.F.cols());
+    reflect(work, step, step);
   }
   return true;
 }
@@ -157,17 +223,16 @@ bool MultifrontalQr::eliminate(std::size_t f) {
 // have no entries.
 void MultifrontalQr::compress(std::size_t f) {
   Work& work = work_[f];
-  const Eigen::Index pivots = size(fronts_[f].pivots);
+  work.steps = work.present;
   double longest = 0;
-  for (Eigen::Index j = pivots; j < work.F.cols(); ++j) {
-    longest = std::max(longest, work.F.col(j).head(work.rows).squaredNorm());
+  for (Eigen::Index j = work.pivots; j < work.width(); ++j) {
+    longest = std::max(longest, dot(work.column(j), work.column(j), work.rows));
   }
   const double nothing = kRounding * kRounding * longest;
-  work.steps = work.present;
-  for (Eigen::Index j = pivots; j < work.F.cols() && work.steps < work.rows; ++j) {
-    const double length = work.F.col(j).segment(work.steps, work.rows - work.steps).squaredNorm();
-    if (length <= nothing) continue;
-    reflect(work, work.steps, j, work.F.cols());
+  for (Eigen::Index j = work.pivots; j < work.width() && work.steps < work.rows; ++j) {
+    const double* column = work.column(j) + work.steps;
+    if (dot(column, column, work.rows - work.steps) <= nothing) continue;
+    reflect(work, work.steps, j);
     ++work.steps;
   }
   for (Eigen::Index row = work.steps; row < work.rows; ++row) null_rows_.push_back({f, row});
@@ -198,15 +263,14 @@ void MultifrontalQr::estimateCondition() {
   double before = 0;
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     Work& work = work_[f];
+    double* z = work.z.data();
     for (Eigen::Index k = 0; k < work.present; ++k) {
-      const Eigen::Index column = work.order[std::size_t(k)];
-      const double sum = sums_[column] + work.F.col(k).head(k).dot(work.z.head(k));
-      work.z[k] = -(sum + (sum < 0 ? -1 : 1)) / work.F(k, k);
-      before += work.z[k] * work.z[k];
+      const double sum = sums_[work.order[std::size_t(k)]] + dot(work.column(k), z, k);
+      z[k] = -(sum + (sum < 0 ? -1 : 1)) / work.F(k, k);
+      before += z[k] * z[k];
     }
-    for (Eigen::Index j = size(fronts_[f].pivots); j < work.F.cols(); ++j) {
-      sums_[work.order[std::size_t(j)]] +=
-          work.F.col(j).head(work.present).dot(work.z.head(work.present));
+    for (Eigen::Index j = work.pivots; j < work.width(); ++j) {
+      sums_[work.order[std::size_t(j)]] += dot(work.column(j), z, work.present);
     }
   }
   for (std::size_t f = fronts_.size(); f-- > 0;) backSubstitute(f);
@@ -220,65 +284,52 @@ void MultifrontalQr::estimateCondition() {
 // Solves the part of R u = z that belongs to a front; called from the last front to the first.
 void MultifrontalQr::backSubstitute(std::size_t f) {
   Work& work = work_[f];
-  for (Eigen::Index j = size(fronts_[f].pivots); j < work.F.cols(); ++j) {
+  double* z = work.z.data();
+  for (Eigen::Index j = work.pivots; j < work.width(); ++j) {
     const int column = work.order[std::size_t(j)];
     if (!present_[std::size_t(column)]) continue;
-    work.z.head(work.present) -= solution_[column] * work.F.col(j).head(work.present);
+    subtract(solution_[column], work.column(j), z, work.present);
   }
   for (Eigen::Index k = work.present; k-- > 0;) {
-    const double value = work.z[k] / work.F(k, k);
+    const double* column = work.column(k);
+    const double value = z[k] / column[k];
     solution_[work.order[std::size_t(k)]] = value;
-    work.z.head(k) -= value * work.F.col(k).head(k);
+    subtract(value, column, z, k);
   }
 }
 
 void MultifrontalQr::applyQ(Work& work) {
-  for (Eigen::Index step = work.steps; step-- > 0;) {
-    const Eigen::Index below = work.rows - step - 1;
-    const auto tail = work.F.col(work.stairs[std::size_t(step)]).segment(step + 1, below);
-    const double along =
-        work.factors[step] * (work.z[step] + tail.dot(work.z.segment(step + 1, below)));
-    work.z[step] -= along;
-    work.z.segment(step + 1, below) -= along * tail;
-  }
+  for (Eigen::Index step = work.steps; step-- > 0;) reflectVector(work, step);
 }
 
 void MultifrontalQr::applyQTransposed(Work& work) {
-  for (Eigen::Index step = 0; step < work.steps; ++step) {
-    const Eigen::Index below = work.rows - step - 1;
-    const auto tail = work.F.col(work.stairs[std::size_t(step)]).segment(step + 1, below);
-    const double along =
-        work.factors[step] * (work.z[step] + tail.dot(work.z.segment(step + 1, below)));
-    work.z[step] -= along;
-    work.z.segment(step + 1, below) -= along * tail;
-  }
+  for (Eigen::Index step = 0; step < work.steps; ++step) reflectVector(work, step);
 }
 
 // Hands the rows of a front, computed by applyQ(), on to its blocks' entries of x and its children.
 void MultifrontalQr::scatter(std::size_t f, Eigen::Ref<Eigen::VectorXd> x) {
-  const Work& work = work_[f];
-  Eigen::Index row = 0;
+  const double* z = work_[f].z.data();
   for (const std::size_t b : fronts_[f].blocks) {
-    x.segment(first_[b], blocks_[b].rows) = work.z.segment(row, blocks_[b].rows);
-    row += blocks_[b].rows;
+    std::copy_n(z, blocks_[b].rows, x.data() + first_[b]);
+    z += blocks_[b].rows;
   }
   for (const std::size_t child : fronts_[f].children) {
     Work& to = work_[child];
-    to.z.segment(to.present, remaining(child)) = work.z.segment(row, remaining(child));
-    row += remaining(child);
+    std::copy_n(z, remaining(child), to.z.data() + to.present);
+    z += remaining(child);
   }
 }
 
 // Solves the part of R^T y = b that belongs to a front; called from the first front to the last.
 void MultifrontalQr::solveTransposed(std::size_t f) {
   Work& work = work_[f];
+  double* z = work.z.data();
   for (Eigen::Index k = 0; k < work.present; ++k) {
-    const double sum = sums_[work.order[std::size_t(k)]];
-    work.z[k] = (sum - work.F.col(k).head(k).dot(work.z.head(k))) / work.F(k, k);
+    const double* column = work.column(k);
+    z[k] = (sums_[work.order[std::size_t(k)]] - dot(column, z, k)) / column[k];
   }
-  for (Eigen::Index j = size(fronts_[f].pivots); j < work.F.cols(); ++j) {
-    sums_[work.order[std::size_t(j)]] -=
-        work.F.col(j).head(work.present).dot(work.z.head(work.present));
+  for (Eigen::Index j = work.pivots; j < work.width(); ++j) {
+    sums_[work.order[std::size_t(j)]] -= dot(work.column(j), z, work.present);
   }
 }
 
@@ -287,7 +338,7 @@ void MultifrontalQr::leastNorm(const Vector& b, Eigen::Ref<Eigen::VectorXd> x) {
   for (std::size_t f = 0; f < fronts_.size(); ++f) solveTransposed(f);
   for (std::size_t f = fronts_.size(); f-- > 0;) {
     Work& work = work_[f];
-    work.z.segment(work.steps, work.rows - work.steps).setZero();
+    std::fill_n(work.z.data() + work.steps, work.rows - work.steps, 0.0);
     applyQ(work);
     scatter(f, x);
   }
@@ -296,20 +347,43 @@ void MultifrontalQr::leastNorm(const Vector& b, Eigen::Ref<Eigen::VectorXd> x) {
 void MultifrontalQr::leastSquares(const Vector& r, Eigen::Ref<Eigen::VectorXd> u) {
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     Work& work = work_[f];
-    Eigen::Index row = 0;
+    double* z = work.z.data();
     for (const std::size_t b : fronts_[f].blocks) {
-      work.z.segment(row, blocks_[b].rows) = r.segment(first_[b], blocks_[b].rows);
-      row += blocks_[b].rows;
+      z = std::copy_n(r.data() + first_[b], blocks_[b].rows, z);
     }
     for (const std::size_t child : fronts_[f].children) {
-      const Work& from = work_[child];
-      work.z.segment(row, remaining(child)) = from.z.segment(from.present, remaining(child));
-      row += remaining(child);
+      z = std::copy_n(work_[child].z.data() + work_[child].present, remaining(child), z);
     }
     applyQTransposed(work);
   }
   for (std::size_t f = fronts_.size(); f-- > 0;) backSubstitute(f);
   for (Eigen::Index j = 0; j < columns_; ++j) u[j] = present_[std::size_t(j)] ? solution_[j] : 0;
+}
+
+// Goes from the row's front to the last one that its part reaches.
+double MultifrontalQr::nullSquare(Eigen::Index row) {
+  std::size_t f = places_[static_cast<std::size_t>(row)].front;
+  work_[f].z.head(work_[f].rows).setZero();
+  work_[f].z[places_[static_cast<std::size_t>(row)].row] = 1;
+  double square = 0;
+  while (true) {
+    Work& work = work_[f];
+    applyQTransposed(work);
+    const double* z = work.z.data();
+    square += dot(z + work.steps, z + work.steps, work.rows - work.steps);
+    const std::size_t parent = parents_[f];
+    if (parent == f || remaining(f) == 0) return square;
+    Work& next = work_[parent];
+    next.z.head(next.rows).setZero();
+    Eigen::Index at = 0;
+    for (const std::size_t b : fronts_[parent].blocks) at += blocks_[b].rows;
+    for (const std::size_t child : fronts_[parent].children) {
+      if (child == f) break;
+      at += remaining(child);
+    }
+    std::copy_n(z + work.present, remaining(f), next.z.data() + at);
+    f = parent;
+  }
 }
 
 void MultifrontalQr::nullVector(std::size_t i, Eigen::Ref<Eigen::VectorXd> x) {

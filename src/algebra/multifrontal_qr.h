@@ -30,7 +30,7 @@ class MultifrontalQr {
   const std::vector<int>& columnsOf(std::size_t block) const { return blocks_[block].columns; }
 
   /// Makes the columns with a true entry part of M and leaves out the others. Without this call all
-  /// columns are part of M.
+  /// columns are part of M. Costs little when they are so already.
   /// @param present one entry for each column.
   void setPresent(const std::vector<bool>& present);
 
@@ -54,6 +54,9 @@ class MultifrontalQr {
 
   /// Number of vectors in an orthonormal basis of the null space, M^T x = 0.
   std::size_t nullity() const { return null_rows_.size(); }
+  /// The squared length of what the null space has of the unit vector of a row: zero when the row's
+  /// entry of every null vector is.
+  double nullSquare(Eigen::Index row);
   /// Computes vector i of that basis. Sets only the entries of x that belong to the blocks in
   /// touched(); the other entries of the vector are zero.
   void nullVector(std::size_t i, Eigen::Ref<Eigen::VectorXd> x);
@@ -67,21 +70,34 @@ class MultifrontalQr {
     Eigen::MatrixXd F;                              // R above, reflections below
     Eigen::VectorXd factors;                        // factors of the reflections
     Eigen::VectorXd z;                              // a vector with an entry for each row
+    std::vector<int> start;                         // pivots that are part of M, the other pivots
     std::vector<int> order;                         // columns: pivots, as chosen, then the rest
     std::vector<Eigen::Index> stairs;               // column of each reflection
     std::vector<std::vector<Eigen::Index>> places;  // of the columns of each block, then each child
-    Eigen::Index rows = 0, present = 0, steps = 0;  // present: pivots that are part of M
+    Eigen::Index pivots = 0, present = 0;  // columns that are pivots; those that are part of M
+    Eigen::Index rows = 0, steps = 0;
+
+    Eigen::Index width() const { return F.cols(); }
+    double* column(Eigen::Index j) { return F.data() + j * F.rows(); }
+    const double* column(Eigen::Index j) const { return F.data() + j * F.rows(); }
+    // What step k reflects along, from below the step's row on.
+    const double* reflector(Eigen::Index step) const {
+      return column(stairs[static_cast<std::size_t>(step)]) + step + 1;
+    }
   };
   struct NullRow {
     std::size_t front;
     Eigen::Index row;
   };
 
+  void setPlacesOfRows();
+  void orderPivots(std::size_t f);
   void assemble(std::size_t f);
   bool eliminate(std::size_t f);
   void compress(std::size_t f);
   void estimateCondition();
-  static void reflect(Work& work, Eigen::Index step, Eigen::Index column, Eigen::Index last);
+  static void reflect(Work& work, Eigen::Index step, Eigen::Index column);
+  static void reflectVector(Work& work, Eigen::Index step);
   static void applyQ(Work& work);
   static void applyQTransposed(Work& work);
   Eigen::Index remaining(std::size_t f) const { return work_[f].steps - work_[f].present; }
@@ -100,6 +116,12 @@ class MultifrontalQr {
   double longest_ = 0, condition_ = 1;
   Eigen::VectorXd sums_, solution_;  // by column
   std::vector<NullRow> null_rows_;
+  struct Place {
+    std::size_t front;
+    Eigen::Index row;  // of the front, in assemble()
+  };
+  std::vector<Place> places_;         // by row of M
+  std::vector<std::size_t> parents_;  // by front; itself where it has none
   std::vector<std::size_t> touched_, open_;
 };
 

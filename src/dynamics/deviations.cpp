@@ -25,6 +25,7 @@ constexpr double kLargestShift = 1e-3;
 
 Request withoutPoses(Request request) {
   request.poses = request.twists = false;
+  request.determinacy = true;
   return request;
 }
 

@@ -59,6 +59,7 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& of, const Scene& scene, const Re
       tree(closedTreeScene(scene, springs)),
       own_wrenches(scene.applied_wrenches.size()),
       own_load(scene),
+      reacts(!wanted.child_axes.empty() || !wanted.root_axes.empty()),
       closures(scene.closures.size()),
       kinematics(mechanism, scene),
       groups(loopGroups(mechanism, kinematics)) {
@@ -133,10 +134,10 @@ void ClosedLoopDynamics::Impl::setUsual() {
     motion.q = assembly;
     workspace.compute(motion, own_load);
   }
+  workspace.setDetermined();
   workspace.setRanks();
-  const LoopResults& found = workspace.results.loops;
-  child_axes_usual = usuallyOpen(found.child_axes_determined, workspace.child_axes_ranks);
-  root_axes_usual = usuallyOpen(found.root_axes_determined, workspace.root_axes_ranks);
+  child_axes_usual = usuallyOpen(workspace.determined.child_axes, workspace.child_axes_ranks);
+  root_axes_usual = usuallyOpen(workspace.determined.root_axes, workspace.root_axes_ranks);
 }
 
 ClosedLoopDynamics::ClosedLoopDynamics(const Mechanism& mechanism, const Scene& scene,

@@ -32,14 +32,14 @@ ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compil
   if (plan.request.twists) results.twists.resize(root_axes_.size());
   LoopResults& loops = results.loops;
   effort_freedoms_.resize(static_cast<std::size_t>(results.effort.size()));
-  loops.effort_determined.assign(effort_freedoms_.size(), true);
-  loops.child_axes_determined.assign(child_axes_.size(), kAllComponents);
-  loops.root_axes_determined.assign(root_axes_.size(), kAllComponents);
+  determined.effort.assign(effort_freedoms_.size(), true);
+  determined.child_axes.assign(child_axes_.size(), kAllComponents);
+  determined.root_axes.assign(root_axes_.size(), kAllComponents);
   child_axes_ranks.resize(child_axes_.size());
   root_axes_ranks.resize(root_axes_.size());
-  loops.effort_exists = loops.effort_determined;
-  loops.child_axes_exist = loops.child_axes_determined;
-  loops.root_axes_exist = loops.root_axes_determined;
+  loops.effort_exists = determined.effort;
+  loops.child_axes_exist = determined.child_axes;
+  loops.root_axes_exist = determined.root_axes;
   loops.springs_directed.assign(plan.springs.size(), true);
   loops.closure_conditions.assign(plan.closures, 1);
   loops.residuals.resize(plan.closures);
@@ -57,10 +57,14 @@ void ClosedLoopDynamics::Workspace::Impl::compute(const Motion& motion, const Lo
   setActuatedClosures();
   solve();
   react(motion);
-  setFlags();
   setDeterminacy();
+  if (plan.request.determinacy || results.singular()) setDetermined();
   setExistence();
   leaveOutSprings();
+  if (!plan.request.determinacy) return;
+  results.loops.effort_determined = determined.effort;
+  results.loops.child_axes_determined = determined.child_axes;
+  results.loops.root_axes_determined = determined.root_axes;
 }
 
 // Computes the efforts of the open tree, which closures and actuators have to balance.
@@ -122,6 +126,7 @@ void ClosedLoopDynamics::Workspace::Impl::react(const Motion& motion) {
     load[child + 1] = {-wrench.force, -(wrench.moment + lever.cross(wrench.force))};
   }
   results.loops.tree_wrenches = load;
+  if (!plan.reacts) return;
   plan.second_pass->compute(motion, second_load_, second_);
   child_axes_.setValues(kinematics, second_.childAxes(), closures_, results.child_axes);
   root_axes_.setValues(kinematics, second_.rootAxes(), closures_, results.root_axes);
@@ -129,7 +134,7 @@ void ClosedLoopDynamics::Workspace::Impl::react(const Motion& motion) {
   if (plan.request.twists) root_axes_.setTwists(kinematics, second_.twists(), results.twists);
 }
 
-void ClosedLoopDynamics::Workspace::Impl::setFlags() {
+void ClosedLoopDynamics::Workspace::Impl::setDetermined() {
   const LoopKinematics& kinematics = solvers.kinematics;
   child_axes_.reset();
   root_axes_.reset();
@@ -155,10 +160,10 @@ void ClosedLoopDynamics::Workspace::Impl::setFlags() {
       effort_freedoms_[static_cast<std::size_t>(coordinates[local])] = kOpenEffort;
     }
   }
-  child_axes_.setFlags(results.loops.child_axes_determined);
-  root_axes_.setFlags(results.loops.root_axes_determined);
+  child_axes_.setFlags(determined.child_axes);
+  root_axes_.setFlags(determined.root_axes);
   for (std::size_t i = 0; i < effort_freedoms_.size(); ++i) {
-    results.loops.effort_determined[i] = effort_freedoms_[i] <= 1;
+    determined.effort[i] = effort_freedoms_[i] <= 1;
   }
 }
 
@@ -208,9 +213,12 @@ void ClosedLoopDynamics::Workspace::Impl::setRanks() {
 // so must that of a passive joint, zero, which is not what a load demands that nothing bears.
 void ClosedLoopDynamics::Workspace::Impl::setExistence() {
   LoopResults& loops = results.loops;
-  std::fill(loops.effort_exists.begin(), loops.effort_exists.end(), true);
-  std::fill(loops.child_axes_exist.begin(), loops.child_axes_exist.end(), kAllComponents);
-  std::fill(loops.root_axes_exist.begin(), loops.root_axes_exist.end(), kAllComponents);
+  if (!all_exist_) {
+    std::fill(loops.effort_exists.begin(), loops.effort_exists.end(), true);
+    std::fill(loops.child_axes_exist.begin(), loops.child_axes_exist.end(), kAllComponents);
+    std::fill(loops.root_axes_exist.begin(), loops.root_axes_exist.end(), kAllComponents);
+  }
+  all_exist_ = !results.singular() && !results.undirected();
   if (!results.singular()) return;
   setRanks();
   using UsuallyOpen = ClosedLoopDynamics::Impl::UsuallyOpen;
@@ -224,16 +232,16 @@ void ClosedLoopDynamics::Workspace::Impl::setExistence() {
       }
     }
   };
-  set(plan.child_axes_usual, child_axes_ranks, loops.child_axes_determined, loops.child_axes_exist);
-  set(plan.root_axes_usual, root_axes_ranks, loops.root_axes_determined, loops.root_axes_exist);
+  set(plan.child_axes_usual, child_axes_ranks, determined.child_axes, loops.child_axes_exist);
+  set(plan.root_axes_usual, root_axes_ranks, determined.root_axes, loops.root_axes_exist);
   for (const LoopForces& group : solvers.forces) {
     if (group.rank() == group.coordinates()) continue;
     for (const LoopUnknowns::Effort& actuator : group.efforts()) {
-      loops.effort_exists[actuator.index] = loops.effort_determined[actuator.index];
+      loops.effort_exists[actuator.index] = determined.effort[actuator.index];
     }
     for (const int i : group.group().coordinates) {
       const auto coordinate = static_cast<std::size_t>(i);
-      loops.effort_exists[coordinate] = loops.effort_determined[coordinate];
+      loops.effort_exists[coordinate] = determined.effort[coordinate];
     }
   }
 }
@@ -247,13 +255,13 @@ void ClosedLoopDynamics::Workspace::Impl::leaveOutSprings() {
     if (loops.springs_directed[i]) continue;
     const SpringReach& reach = plan.reach[i];
     for (const std::size_t j : reach.efforts) {
-      loops.effort_determined[j] = loops.effort_exists[j] = false;
+      determined.effort[j] = loops.effort_exists[j] = false;
     }
     for (const std::size_t j : reach.child_axes) {
-      loops.child_axes_determined[j] = loops.child_axes_exist[j] = kNone;
+      determined.child_axes[j] = loops.child_axes_exist[j] = kNone;
     }
     for (const std::size_t j : reach.root_axes) {
-      loops.root_axes_determined[j] = loops.root_axes_exist[j] = kNone;
+      determined.root_axes[j] = loops.root_axes_exist[j] = kNone;
     }
   }
 }

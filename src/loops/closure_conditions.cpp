@@ -102,97 +102,116 @@ ClosureConditions::ClosureConditions(const Closure& closure, const Frame& parent
       length_(closure.length.value_or(0)) {}
 
 void ClosureConditions::setPosition(const LoopState& state, ConditionRows rows) const {
-  const LinkKinematics& links = state.links;
-  const Eigen::Vector3d Co = links.originOf(child_), r = Co - links.originOf(parent_);  // (2.1)
+  FramePair& frames = rows.frames();
+  frames.R_P.noalias() = state.links.axesOf(parent_.link) * parent_.R_LF;
+  frames.R_C.noalias() = state.links.axesOf(child_.link) * child_.R_LF;
+  frames.Po = state.links.originOf(parent_);
+  frames.Co = state.links.originOf(child_);
+  setValues(frames, rows);
+  setJacobian(state.links, frames.Co, rows);
+}
+
+// Sets conditions and the wrenches of unit multipliers.
+void ClosureConditions::setValues(const FramePair& frames, ConditionRows& rows) const {
+  const Eigen::Vector3d r = frames.Co - frames.Po;  // (2.1)
+  const ClosureDemand* demands = traits_.demands.data();
+  ClosureWrench* wrenches = &rows.unitWrench(0);
   for (int i = 0; i < traits_.conditions; ++i) {
-    const ClosureDemand& demand = traits_.demands[static_cast<std::size_t>(i)];
-    ClosureWrench& wrench = rows.unitWrench(i);
+    const ClosureDemand& demand = demands[i];
+    ClosureWrench& wrench = wrenches[i];
     if (demand.kind == Kind::kDistance) {
       const double distance = r.norm();
       rows.phi(i) = distance - length_;  // (3.3)
-      wrench.force = r.normalized();
-      continue;
-    }
-    const Eigen::Vector3d a = links.axisOf(parent_, demand.a);
-    if (demand.kind == Kind::kAlong) {
-      rows.phi(i) = a.dot(r);  // (3.3)
-      wrench.force = a;
+      wrench.force = distance > 0 ? (r / distance).eval() : r;
+    } else if (demand.kind == Kind::kAlong) {
+      wrench.force = frames.R_P.col(demand.a);
+      rows.phi(i) = wrench.force.dot(r);  // (3.3)
     } else {
-      const Eigen::Vector3d b = links.axisOf(child_, demand.b);
+      const auto a = frames.R_P.col(demand.a), b = frames.R_C.col(demand.b);
       rows.phi(i) = a.dot(b);  // (3.3)
       wrench.moment = b.cross(a);
     }
   }
-  // A row of A is the generalized force of the wrench that a multiplier of one exerts.
+}
+
+// A row of A is the generalized force of the wrench that a multiplier of one exerts: (3.3),
+// dPhi/dq.
+void ClosureConditions::setJacobian(const LinkKinematics& links, const Eigen::Vector3d& Co,
+                                    ConditionRows& rows) const {
   for (const int coordinate : coordinates()) {
-    for (int i = 0; i < traits_.conditions; ++i) rows.A(i, coordinate) = 0;
+    std::fill_n(rows.column(coordinate), traits_.conditions, 0.0);
   }
+  const ClosureDemand* demands = traits_.demands.data();
+  const ClosureWrench* wrenches = &rows.unitWrench(0);
   for (const PathStep& step : path_) {
     const int coordinate = links.coordinateOf(step);
     if (coordinate < 0) continue;
+    const LinkKinematics::Displacement moved = links.movedBy(step, Co);
+    double* column = rows.column(coordinate);
     for (int i = 0; i < traits_.conditions; ++i) {
-      rows.A(i, coordinate) += links.workOf(step, Co, rows.unitWrench(i));  // (3.3), dPhi/dq
+      column[i] += demands[i].kind == Kind::kNormal ? wrenches[i].moment.dot(moved.turn)
+                                                    : wrenches[i].force.dot(moved.origin);
     }
   }
 }
 
+// The second derivatives are those that an observer on P sees, who moves with the parent's link.
 void ClosureConditions::setMotion(const LoopState& state, ConditionRows rows) const {
-  const LinkKinematics& links = state.links;
-  const LinkKinematics::Point P = links.pointOf(parent_), C = links.pointOf(child_);
-  const Eigen::Vector3d r = C.o - P.o, v = C.v - P.v, acceleration = C.a - P.a;
+  const FramePair& frames = rows.frames();
+  const LinkKinematics::PointMotion P = state.links.motionAt(parent_.link, frames.Po);
+  const LinkKinematics::PointMotion C = state.links.motionAt(child_.link, frames.Co);
+  const Eigen::Vector3d r = frames.Co - frames.Po, carried = P.w.cross(r);
+  const Eigen::Vector3d v = C.v - P.v - carried;  // seen from P
+  const Eigen::Vector3d a = C.a - P.a - P.alpha.cross(r) - P.w.cross(carried) - 2 * P.w.cross(v);
+  const Eigen::Vector3d w = C.w - P.w, alpha = C.alpha - P.alpha - P.w.cross(C.w);
+  const ClosureWrench* wrenches = &rows.unitWrench(0);
   for (int i = 0; i < traits_.conditions; ++i) {
     const ClosureDemand& demand = traits_.demands[static_cast<std::size_t>(i)];
-    double& rate = rows.rate(i);
-    double& second = rows.acceleration(i);
+    const ClosureWrench& wrench = wrenches[i];
     if (demand.kind == Kind::kDistance) {
-      const double distance = r.norm();
-      rate = distance > 0 ? r.dot(v) / distance : 0;  // (3.2)
-      second = distance > 0 ? (v.dot(v) + r.dot(acceleration) - rate * rate) / distance : 0;
-      continue;
-    }
-    const Eigen::Vector3d a = links.axisOf(parent_, demand.a);
-    const Eigen::Vector3d ad = P.w.cross(a), add = P.alpha.cross(a) + P.w.cross(ad);
-    if (demand.kind == Kind::kAlong) {
-      rate = ad.dot(r) + a.dot(v);  // (3.2)
-      second = add.dot(r) + 2 * ad.dot(v) + a.dot(acceleration);
+      const double distance = r.norm(), rate = wrench.force.dot(v);
+      rows.turning(i) =
+          distance > 0 ? (v.dot(v) - rate * rate) / distance + wrench.force.dot(a) : 0;
+    } else if (demand.kind == Kind::kAlong) {
+      rows.turning(i) = wrench.force.dot(a);
     } else {
-      const Eigen::Vector3d b = links.axisOf(child_, demand.b);
-      const Eigen::Vector3d bd = C.w.cross(b), bdd = C.alpha.cross(b) + C.w.cross(bd);
-      rate = ad.dot(b) + a.dot(bd);  // (3.2)
-      second = add.dot(b) + 2 * ad.dot(bd) + a.dot(bdd);
+      const auto normal = frames.R_P.col(demand.a), other = frames.R_C.col(demand.b);
+      rows.turning(i) =
+          wrench.moment.dot(alpha) + w.dot(normal) * w.dot(other) - w.dot(w) * normal.dot(other);
     }
   }
 }
 
-double ClosureConditions::freePosition(const LinkKinematics& links) const {
-  if (freeUnit() == Unit::kMetre) {
-    return freeAxis(links).dot(links.originOf(child_) - links.originOf(parent_));
-  }
-  const Eigen::Vector3d x = links.axisOf(child_, 0);
-  return std::atan2(links.axisOf(parent_, 1).dot(x), links.axisOf(parent_, 0).dot(x));
+double ClosureConditions::freePosition(const FramePair& frames) const {
+  if (freeUnit() == Unit::kMetre) return frames.R_P.col(2).dot(frames.Co - frames.Po);
+  const auto x = frames.R_C.col(0);
+  return std::atan2(frames.R_P.col(1).dot(x), frames.R_P.col(0).dot(x));
 }
 
-double ClosureConditions::freeVelocity(const LinkKinematics& links) const {
-  const LinkKinematics::Point P = links.pointOf(parent_), C = links.pointOf(child_);
-  if (freeUnit() == Unit::kRadian) return freeAxis(links).dot(C.w - P.w);
-  return freeAxis(links).dot(C.v - P.v - P.w.cross(C.o - P.o));
+double ClosureConditions::freeVelocity(const LinkKinematics& links, const FramePair& frames) const {
+  const LinkKinematics::PointMotion P = links.motionAt(parent_.link, frames.Po);
+  const LinkKinematics::PointMotion C = links.motionAt(child_.link, frames.Co);
+  const auto axis = frames.R_P.col(2);
+  if (freeUnit() == Unit::kRadian) return axis.dot(C.w - P.w);
+  return axis.dot(C.v - P.v - P.w.cross(frames.Co - frames.Po));
 }
 
 LinkKinematics::Displacement ClosureConditions::displacedBy(const LinkKinematics& links,
+                                                            const FramePair& frames,
                                                             const PathStep& step,
                                                             double length) const {
-  LinkKinematics::Displacement moves = links.displacementBy(step, links.originOf(child_), length);
+  LinkKinematics::Displacement moves = links.displacementBy(step, frames.Co, length);
   if (!traits_.hasLength()) return moves;
-  const Eigen::Vector3d r = links.originOf(child_) - links.originOf(parent_);
+  const Eigen::Vector3d r = frames.Co - frames.Po;
   const double square = r.squaredNorm();
   if (square > 0) moves.turn = r.cross(moves.origin) / square;  // a rod's, which joins the origins
   return moves;
 }
 
-bool ClosureConditions::reversed(const LinkKinematics& links) const {
+bool ClosureConditions::reversed(const FramePair& frames) const {
   if (traits_.canTurn()) return false;
-  return links.axisOf(parent_, 0).dot(links.axisOf(child_, 0)) < 0 ||
-         links.axisOf(parent_, 2).dot(links.axisOf(child_, 2)) < 0;
+  return frames.R_P.col(0).dot(frames.R_C.col(0)) < 0 ||
+         frames.R_P.col(2).dot(frames.R_C.col(2)) < 0;
 }
 
 ConditionSets closureConditions(const Mechanism& mechanism, const Scene& scene) {

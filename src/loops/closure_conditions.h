@@ -35,22 +35,24 @@ class ClosureConditions : public ConditionSet {
   /// Joints between the links, fixed ones included; a positive step moves the child's link.
   const std::vector<PathStep>& path() const { return path_; }
 
-  /// Direction of axis z of P, the axis of the one free motion of closures that have one.
-  Eigen::Vector3d freeAxis(const LinkKinematics& links) const { return links.axisOf(parent_, 2); }
   /// Unit of the free motion; radian where there is none.
   Unit freeUnit() const { return traits_.free_axis.value_or(Unit::kRadian); }
   /// Angle about the free axis, within half a turn, or distance along it; rad or m.
-  double freePosition(const LinkKinematics& links) const;
+  double freePosition(const FramePair& frames) const;
   /// Rate of freePosition(), rad/s or m/s.
-  double freeVelocity(const LinkKinematics& links) const;
+  double freeVelocity(const LinkKinematics& links, const FramePair& frames) const;
   /// How a step of a joint on the path displaces the line of a wrench between the frames.
-  LinkKinematics::Displacement displacedBy(const LinkKinematics& links, const PathStep& step,
-                                           double length) const;
+  LinkKinematics::Displacement displacedBy(const LinkKinematics& links, const FramePair& frames,
+                                           const PathStep& step, double length) const;
   /// Whether the closure lets nothing turn and its frames are more than a quarter turn apart, which
   /// the conditions do not detect.
-  bool reversed(const LinkKinematics& links) const;
+  bool reversed(const FramePair& frames) const;
 
  private:
+  void setValues(const FramePair& frames, ConditionRows& rows) const;
+  void setJacobian(const LinkKinematics& links, const Eigen::Vector3d& Co,
+                   ConditionRows& rows) const;
+
   const ClosureTypeTraits& traits_;
   Frame parent_, child_;
   std::vector<PathStep> path_;

@@ -51,6 +51,7 @@ struct ClosedLoopDynamics::Impl {
   Scene tree;
   std::size_t own_wrenches;  // number of the scene's own, the tree's first
   Load own_load;             // values of the scene's own wrenches
+  bool reacts;               // whether reactions are requested
   std::size_t closures;
   std::vector<std::string> actuated_closures;
   LoopKinematics kinematics;  // at the assembly
@@ -83,12 +84,19 @@ struct ClosedLoopDynamics::Workspace::Impl {
   explicit Impl(const ClosedLoopDynamics::Impl& compiled);
 
   void compute(const Motion& motion, const Load& load);
-  /// Sets the ranks below, of the sample computed last.
+  /// Sets the flags and the ranks below, of the sample computed last.
+  void setDetermined();
   void setRanks();
 
   const ClosedLoopDynamics::Impl& plan;
   LoopSolvers solvers;
   Results results;
+  /// Which results are determined: those of LoopResults, also where these are not requested.
+  struct Flags {
+    std::vector<bool> effort;
+    std::vector<Determined> child_axes, root_axes;
+  };
+  Flags determined;
   /// How many dimensions the changes of each reaction span that mechanics leaves open.
   std::vector<int> child_axes_ranks, root_axes_ranks;
 
@@ -97,7 +105,6 @@ struct ClosedLoopDynamics::Workspace::Impl {
   void solve();
   void react(const Motion& motion);
   void setActuatedClosures();
-  void setFlags();
   void setExistence();
   void leaveOutSprings();
   void setDeterminacy();
@@ -108,6 +115,7 @@ struct ClosedLoopDynamics::Workspace::Impl {
   std::vector<Wrench> tree_reactions_;   // by joint
   std::vector<ClosureWrench> closures_;  // by closure
   std::vector<double> effort_freedoms_;  // sums of squared changes over leastChange()
+  bool all_exist_ = true;                // of the sample before
   Motion rest_;
 };
 

@@ -22,6 +22,11 @@ constexpr double kExact = std::numeric_limits<double>::epsilon();
 constexpr double kRounding = 20 * kExact;
 // Longest step, rad or of the length, so that an almost singular position does not cause a jump.
 constexpr double kLongestStep = 0.5;
+// Longest step, rad or of the length, after which rates are refined from the factorization before
+// it: once, to the square of the step.
+constexpr double kCloseBy = 1e-7;
+// How much of the right side refined rates may miss.
+constexpr double kRefined = 16 * kExact;
 // How far velocities and accelerations may contradict the conditions, relative to the largest term.
 constexpr double kConsistent = 1e-8;
 
@@ -96,7 +101,8 @@ LoopCompletion::LoopCompletion(const Mechanism& mechanism, const LoopKinematics&
       in_loop_(mechanism.coordinates().size()),
       right_(mostConditions(groups, kinematics)),
       found_(mostCoordinates(groups)),
-      misses_(right_.size()) {
+      misses_(right_.size()),
+      refined_(found_.size()) {
   for (Eigen::Index i = 0; i < row_scales_.size(); ++i) {
     row_scales_[i] = 1 / scaleOf(kinematics.condition(i).unit, length);
   }
@@ -125,35 +131,64 @@ double LoopCompletion::columnScale(int coordinate) const {
   return column_scales_[static_cast<std::size_t>(coordinate)];
 }
 
-void LoopCompletion::factorize(const LoopKinematics& kinematics, const std::vector<bool>& given,
-                               const Eigen::VectorXd& row_scales) {
+// Makes the coordinates that are not given those to be found.
+void LoopCompletion::want(const std::vector<bool>& given) {
+  if (given_ == given) return;
+  given_ = given;
   for (System& system : systems_) {
     const LoopGroup& group = system.group;
     for (std::size_t i = 0; i < group.coordinates.size(); ++i) {
       system.wanted[i] = !given[static_cast<std::size_t>(group.coordinates[i])];
     }
+    system.qr.setPresent(system.wanted);
+    system.entries.clear();
     for (std::size_t local = 0; local < group.sets.size(); ++local) {
-      const Eigen::Index first = kinematics.firstOf(group.sets[local]);
-      Eigen::MatrixXd& entries = system.qr.entriesOf(local);
       for (std::size_t k = 0; k < group.moved[local].size(); ++k) {
-        const int coordinate = group.coordinates[static_cast<std::size_t>(group.moved[local][k])];
-        for (Eigen::Index i = 0; i < entries.rows(); ++i) {
-          entries(i, static_cast<Eigen::Index>(k)) = row_scales[first + i] *
-                                                     kinematics.jacobian()(first + i, coordinate) *
-                                                     columnScale(coordinate);
-        }
+        const int place = group.moved[local][k];
+        if (!system.wanted[static_cast<std::size_t>(place)]) continue;
+        system.entries.push_back({local, static_cast<Eigen::Index>(k), place,
+                                  group.coordinates[static_cast<std::size_t>(place)]});
       }
     }
-    system.qr.setPresent(system.wanted);
+  }
+}
+
+void LoopCompletion::setEntries(const LoopKinematics& kinematics,
+                                const Eigen::VectorXd& row_scales) {
+  for (System& system : systems_) {
+    for (const System::Entry& entry : system.entries) {
+      const Eigen::Index first = kinematics.firstOf(system.group.sets[entry.local]);
+      Eigen::MatrixXd& entries = system.qr.entriesOf(entry.local);
+      const double* from = kinematics.jacobian().col(entry.coordinate).data() + first;
+      const double* row_scale = row_scales.data() + first;
+      double* to = entries.col(entry.column).data();
+      const double scale = columnScale(entry.coordinate);
+      for (Eigen::Index i = 0; i < entries.rows(); ++i) to[i] = row_scale[i] * from[i] * scale;
+    }
+  }
+}
+
+void LoopCompletion::factorize(const LoopKinematics& kinematics,
+                               const Eigen::VectorXd& row_scales) {
+  setEntries(kinematics, row_scales);
+  close_by_ = false;
+  for (System& system : systems_) {
     system.sound = system.qr.factorize(MultifrontalQr::sureCondition(rank_tolerance_),
                                        system.rank.largestSize());
   }
 }
 
+// Whether all factorizations are well-conditioned.
+bool LoopCompletion::sound() const {
+  return std::all_of(systems_.begin(), systems_.end(),
+                     [](const System& system) { return system.sound; });
+}
+
 Eigen::Index LoopCompletion::rank(const LoopKinematics& kinematics,
                                   const std::vector<bool>& given) {
   Eigen::Index sum = 0;
-  factorize(kinematics, given, position_scales_);
+  want(given);
+  factorize(kinematics, position_scales_);
   for (System& system : systems_) {
     if (system.sound) {
       sum += std::count(system.wanted.begin(), system.wanted.end(), true);
@@ -167,11 +202,10 @@ Eigen::Index LoopCompletion::rank(const LoopKinematics& kinematics,
 
 void LoopCompletion::setRight(const LoopKinematics& kinematics, const System& system,
                               const Eigen::VectorXd& conditions) {
-  for (std::size_t local = 0; local < system.group.sets.size(); ++local) {
-    const std::size_t s = system.group.sets[local];
-    for (Eigen::Index i = 0; i < conditionsOf(kinematics, s); ++i) {
-      const Eigen::Index condition = kinematics.firstOf(s) + i;
-      right_[system.qr.firstOf(local) + i] = -row_scales_[condition] * conditions[condition];
+  double* right = right_.data();
+  for (const std::size_t s : system.group.sets) {
+    for (Eigen::Index i = kinematics.firstOf(s); i < kinematics.firstOf(s + 1); ++i) {
+      *right++ = -row_scales_[i] * conditions[i];
     }
   }
 }
@@ -195,14 +229,25 @@ double LoopCompletion::misses(const System& system) {
   const MultifrontalQr& qr = system.qr;
   auto misses = misses_.head(qr.rows());
   misses = -right_.head(qr.rows());
-  for (std::size_t b = 0; b < qr.blocks(); ++b) {
-    const Eigen::MatrixXd& entries = qr.entriesOf(b);
-    for (Eigen::Index k = 0; k < entries.cols(); ++k) {
-      misses.segment(qr.firstOf(b), entries.rows()) +=
-          found_[qr.columnsOf(b)[std::size_t(k)]] * entries.col(k);
-    }
+  for (const System::Entry& entry : system.entries) {
+    const Eigen::MatrixXd& entries = qr.entriesOf(entry.local);
+    const double* column = entries.col(entry.column).data();
+    double* sum = misses_.data() + qr.firstOf(entry.local);
+    const double factor = found_[entry.place];
+    for (Eigen::Index i = 0; i < entries.rows(); ++i) sum[i] += factor * column[i];
   }
   return misses.cwiseAbs().maxCoeff();
+}
+
+// Corrects what solve() found by the factorization of a position close by. Returns false when that
+// does not suffice.
+bool LoopCompletion::refine(System& system) {
+  const Eigen::Index columns = system.qr.columns();
+  const double enough = kRefined * right_.head(system.qr.rows()).cwiseAbs().maxCoeff();
+  if (misses(system) <= enough) return true;
+  system.qr.leastSquares(misses_.head(system.qr.rows()), refined_.head(columns));
+  found_.head(columns) -= refined_.head(columns);
+  return misses(system) <= enough;
 }
 
 double LoopCompletion::misfit(const LoopKinematics& kinematics) const {
@@ -231,31 +276,47 @@ double LoopCompletion::largestCondition(const Eigen::VectorXd& conditions) const
   return most;
 }
 
-void LoopCompletion::newtonStep(const LoopKinematics& kinematics, const std::vector<bool>& given) {
+// Sets the step that the latest factorization leads to.
+void LoopCompletion::setStep(const LoopKinematics& kinematics) {
   step_.setZero();
-  factorize(kinematics, given, position_scales_);
+  step_length_ = 0;
   for (System& system : systems_) {
     setRight(kinematics, system, kinematics.phi());
     solve(system);
-    const auto found = found_.head(system.qr.columns());
-    const double longest = found.cwiseAbs().maxCoeff();
+    const double longest = found_.head(system.qr.columns()).cwiseAbs().maxCoeff();
     const double damping = longest > kLongestStep ? kLongestStep / longest : 1;
     for (std::size_t i = 0; i < system.group.coordinates.size(); ++i) {
       const int coordinate = system.group.coordinates[i];
-      step_[coordinate] = damping * columnScale(coordinate) * found[static_cast<Eigen::Index>(i)];
+      step_[coordinate] = damping * columnScale(coordinate) * found_[static_cast<Eigen::Index>(i)];
     }
+    step_length_ = std::max(step_length_, damping * longest);
   }
 }
 
+// A step s leaves a misfit of about |H| s^2 / 2, where H holds the second derivatives of the
+// conditions; a step s' that the same factorization leads to from there, one of about |H| s s'. So
+// the misfit before s' and both steps tell the misfit after it, and whether another factorization
+// can be spared.
 bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
                            const std::vector<bool>& given, const Search& search) {
+  want(given);
+  close_by_ = false;
   kinematics.setPosition(q);
   double now = misfit(kinematics);
   const double closed = std::max(kClosed, rank_tolerance_);
   const double root = std::sqrt(static_cast<double>((position_scales_.array() > 0).count()));
   const double exact = kExact * root, rounding = kRounding * root;
+  double before = 0;  // length of the step before, when its factorization may serve again
   for (steps_ = 0; steps_ < search.most_steps && now > exact && std::isfinite(now); ++steps_) {
-    newtonStep(kinematics, given);
+    bool last = false;
+    if (before > 0) {
+      setStep(kinematics);
+      last = 2 * now * step_length_ <= exact * before;
+    }
+    if (!last) {
+      factorize(kinematics, position_scales_);
+      setStep(kinematics);
+    }
     double factor = 1, then = now;
     const int halvings = now <= closed ? kHalvingsWhenClosed : search.most_halvings;
     for (int halving = 0; halving < halvings; ++halving, factor /= 2) {
@@ -266,12 +327,15 @@ bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
     }
     if (!(then < now)) {
       kinematics.setPosition(q);
+      close_by_ = close_by_ || (!last && sound());
       break;
     }
     q = tried_;
     const bool stalled = then > search.stalled * now && then > closed;
     now = then;
-    if (stalled) break;
+    if (stalled || (last && now <= rounding)) break;
+    before = !last && factor == 1 && sound() ? step_length_ : 0;
+    close_by_ = before > 0 && before <= kCloseBy;
   }
   return now <= closed;
 }
@@ -281,7 +345,8 @@ bool LoopCompletion::solveRates(const LoopKinematics& kinematics, const Eigen::V
                                 double size, Eigen::VectorXd& unknown) {
   for (System& system : systems_) {
     setRight(kinematics, system, rates);
-    if (!solve(system) || !(misses(system) <= kConsistent * size)) return false;
+    if (!solve(system)) return false;
+    if (close_by_ ? !refine(system) : !(misses(system) <= kConsistent * size)) return false;
     for (std::size_t i = 0; i < system.group.coordinates.size(); ++i) {
       if (!system.wanted[i]) continue;
       const int coordinate = system.group.coordinates[i];
@@ -295,13 +360,24 @@ bool LoopCompletion::complete(LoopKinematics& kinematics, Motion& motion,
                               const std::vector<bool>& given, const Search& search) {
   if (!close(kinematics, motion.q, given, search)) return false;
   for (std::size_t i = 0; i < given.size(); ++i) {
-    if (given[i]) continue;
-    if (!in_loop_[i]) return false;
+    if (!given[i] && !in_loop_[i]) return false;
+  }
+  if (close_by_ && row_scales_ == position_scales_) {
+    setEntries(kinematics, row_scales_);
+    if (findRates(kinematics, motion)) return true;
+  }
+  factorize(kinematics, row_scales_);
+  return findRates(kinematics, motion);
+}
+
+// Finds velocities and accelerations by the factorizations of this position, or one close by.
+bool LoopCompletion::findRates(LoopKinematics& kinematics, Motion& motion) {
+  for (std::size_t i = 0; i < given_.size(); ++i) {
+    if (given_[i]) continue;
     motion.qd[static_cast<Eigen::Index>(i)] = 0;
     motion.qdd[static_cast<Eigen::Index>(i)] = 0;
   }
-  factorize(kinematics, given, row_scales_);
-  kinematics.setMotion(motion);
+  kinematics.setRates(motion.qd);
   double rate = largest(motion.qd);
   if (kinematics.drives()) rate = std::max(rate, largestCondition(kinematics.b()));
   if (!solveRates(kinematics, kinematics.rates(), rate, motion.qd)) return false;

@@ -70,23 +70,36 @@ class LoopCompletion {
     MultifrontalQr qr;  // of the columns to be found
     LoopRank rank;      // of these columns, where qr is no factorization
     std::vector<bool> wanted;
+    /// A coordinate to be found that the rows of a set have entries for.
+    struct Entry {
+      std::size_t local;    ///< the set, as the group counts them
+      Eigen::Index column;  ///< of its entries
+      int place;            ///< of the coordinate in the group
+      int coordinate;
+    };
+    std::vector<Entry> entries;
     bool sound = false;  // whether qr is a factorization
   };
+  void want(const std::vector<bool>& given);
   // Rows whose scale is zero count as absent.
-  void factorize(const LoopKinematics& kinematics, const std::vector<bool>& given,
-                 const Eigen::VectorXd& row_scales);
+  void setEntries(const LoopKinematics& kinematics, const Eigen::VectorXd& row_scales);
+  void factorize(const LoopKinematics& kinematics, const Eigen::VectorXd& row_scales);
   void setRight(const LoopKinematics& kinematics, const System& system,
                 const Eigen::VectorXd& conditions);
   // Finds the largest condition, with lengths divided by length().
   double largestCondition(const Eigen::VectorXd& conditions) const;
   bool solve(System& system);
   double misses(const System& system);
-  void newtonStep(const LoopKinematics& kinematics, const std::vector<bool>& given);
+  bool refine(System& system);
+  void setStep(const LoopKinematics& kinematics);
+  bool sound() const;
   bool solveRates(const LoopKinematics& kinematics, const Eigen::VectorXd& rates, double size,
                   Eigen::VectorXd& unknown);
+  bool findRates(LoopKinematics& kinematics, Motion& motion);
   double columnScale(int coordinate) const;
 
   std::vector<System> systems_;
+  std::vector<bool> given_;  // by coordinate; those of want()
   double rank_tolerance_;
   double length_;
   // By condition: the factor that makes it an angle; in position_scales_ zero where it has no
@@ -95,8 +108,12 @@ class LoopCompletion {
   std::vector<double> column_scales_;  // by coordinate
   std::vector<bool> in_loop_;          // by coordinate
   int steps_ = 0;
-  Eigen::VectorXd right_, found_, misses_;  // of the group being solved
-  Eigen::VectorXd step_, tried_;            // by coordinate
+  // Whether the factorizations are those of a position so close by that refining what they give
+  // costs less than factorizing.
+  bool close_by_ = false;
+  Eigen::VectorXd right_, found_, misses_, refined_;  // of the group being solved
+  Eigen::VectorXd step_, tried_;                      // by coordinate
+  double step_length_ = 0;  // largest entry of step_, rad or over the length
 };
 
 }  // namespace virtual_work_dynamics

@@ -15,12 +15,14 @@ constexpr Maker kMakers[] = {closureConditions};
 
 LoopState::LoopState(const Mechanism& mechanism) : links(mechanism) {
   q.setZero(static_cast<Eigen::Index>(mechanism.coordinates().size()));
-  qd = qdd = q;
+  qd = q;
 }
 
-ConditionValues::ConditionValues(Eigen::Index conditions, Eigen::Index coordinates) {
+ConditionValues::ConditionValues(Eigen::Index conditions, Eigen::Index coordinates,
+                                 std::size_t sets)
+    : frames(sets) {
   phi.setZero(conditions);
-  rates = accelerations = b = bd = phi;
+  turning = b = bd = phi;
   A.setZero(conditions, coordinates);
   unit_wrenches.resize(static_cast<std::size_t>(conditions));
 }

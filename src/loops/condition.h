@@ -34,38 +34,48 @@ struct Condition {
 struct LoopState {
   explicit LoopState(const Mechanism& mechanism);
   LinkKinematics links;
-  Eigen::VectorXd q, qd, qdd;
+  Eigen::VectorXd q, qd;
   double time = 0;  ///< s
+};
+
+/// The frames that a closure joins, in root axes.
+struct FramePair {
+  Eigen::Matrix3d R_P = Eigen::Matrix3d::Identity(), R_C = R_P;
+  Eigen::Vector3d Po = Eigen::Vector3d::Zero(), Co = Po;  ///< m
 };
 
 /// Values of all conditions; each set writes its own entries.
 struct ConditionValues {
-  ConditionValues(Eigen::Index conditions, Eigen::Index coordinates);
+  ConditionValues(Eigen::Index conditions, Eigen::Index coordinates, std::size_t sets);
   Eigen::VectorXd phi;
   Eigen::MatrixXd A;                         ///< conditions x coordinates
-  Eigen::VectorXd rates;                     ///< A qd + b
-  Eigen::VectorXd accelerations;             ///< A qdd + Ad qd + bd
+  Eigen::VectorXd turning;                   ///< Ad qd
   Eigen::VectorXd b, bd;                     ///< zero where a condition does not drive
   std::vector<ClosureWrench> unit_wrenches;  ///< of a multiplier of one; zero without a wrench
+  std::vector<FramePair> frames;             ///< by set; those of a closure
 };
 
 /// The values of one set, counted from its first condition.
 class ConditionRows {
  public:
-  ConditionRows(ConditionValues& values, Eigen::Index first) : values_(values), first_(first) {}
+  ConditionRows(ConditionValues& values, std::size_t set, Eigen::Index first)
+      : values_(values), set_(set), first_(first) {}
 
   double& phi(Eigen::Index i) { return values_.phi[first_ + i]; }
   double& A(Eigen::Index i, int coordinate) { return values_.A(first_ + i, coordinate); }
-  double& rate(Eigen::Index i) { return values_.rates[first_ + i]; }
-  double& acceleration(Eigen::Index i) { return values_.accelerations[first_ + i]; }
+  /// The entries of the set's rows for a coordinate.
+  double* column(int coordinate) { return values_.A.col(coordinate).data() + first_; }
+  double& turning(Eigen::Index i) { return values_.turning[first_ + i]; }
   double& b(Eigen::Index i) { return values_.b[first_ + i]; }
   double& bd(Eigen::Index i) { return values_.bd[first_ + i]; }
   ClosureWrench& unitWrench(Eigen::Index i) {
     return values_.unit_wrenches[static_cast<std::size_t>(first_ + i)];
   }
+  FramePair& frames() { return values_.frames[set_]; }
 
  private:
   ConditionValues& values_;
+  std::size_t set_;
   Eigen::Index first_;
 };
 
@@ -84,10 +94,10 @@ class ConditionSet {
   const std::vector<Condition>& conditions() const { return conditions_; }
   const std::vector<int>& coordinates() const { return coordinates_; }
 
-  /// Sets phi where there is one, A, and the unit wrenches of a closure, from q and time. Does not
-  /// allocate.
+  /// Sets phi where there is one, A, and the frames and unit wrenches of a closure, from q and
+  /// time. Does not allocate.
   virtual void setPosition(const LoopState& state, ConditionRows rows) const = 0;
-  /// Sets rates and accelerations, and for conditions that drive b and bd. Does not allocate.
+  /// Sets Ad qd from q, qd and time, and for conditions that drive b and bd. Does not allocate.
   virtual void setMotion(const LoopState& state, ConditionRows rows) const = 0;
 
  private:

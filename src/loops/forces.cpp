@@ -68,7 +68,6 @@ LoopForces::LoopForces(const Mechanism& mechanism, const LoopKinematics& kinemat
       unknowns_(mechanism, kinematics, scene, group, length),
       rank_tolerance_(scene.rank_tolerance),
       length_(length),
-      unit_wrenches_(static_cast<std::size_t>(unknowns_.count)),
       qr_(unknowns_.rowBlocks(), static_cast<int>(group.coordinates.size())),
       rank_(sizesOf(mechanism, kinematics, group, unknowns_, length), qr_.columns(),
             rank_tolerance_),
@@ -119,23 +118,19 @@ void LoopForces::addCosts(const LoopScene& scene) {
 void LoopForces::setEntries() {
   for (std::size_t local = 0; local < unknowns_.of_sets.size(); ++local) {
     const LoopUnknowns::OfSet& own = unknowns_.of_sets[local];
+    const Eigen::Index first = kinematics_.firstOf(own.set), multipliers = own.multipliers();
     Eigen::MatrixXd& entries = qr_.entriesOf(unknowns_.effort_rows.size() + local);
-    for (std::size_t j = 0; j < own.columns.size(); ++j) {
-      const LoopUnknowns::Column& column = own.columns[j];
-      const bool multiplies = column.condition >= 0;
-      ClosureWrench& wrench = unit_wrenches_[static_cast<std::size_t>(own.first) + j];
-      wrench =
-          multiplies ? kinematics_.unitWrench(column.condition) : kinematics_.unitEffort(own.set);
-      if (!multiplies) gatherForce(own, wrench);
-      wrench.force *= column.unit;
-      wrench.moment *= column.unit;
-      for (std::size_t k = 0; k < own.coordinates.size(); ++k) {
-        const std::size_t row = static_cast<std::size_t>(own.coordinates[k]);
-        const int i = group_.coordinates[row];
-        const double force =
-            multiplies ? kinematics_.jacobian()(column.condition, i) : gathered_[i];  // (3.1), a_ik
-        entries(index(j), index(k)) = column.unit * force / unknowns_.row_units[row];
+    if (own.effort >= 0) gatherForce(own, kinematics_.unitEffort(own.set));
+    for (std::size_t k = 0; k < own.coordinates.size(); ++k) {
+      const std::size_t row = static_cast<std::size_t>(own.coordinates[k]);
+      const int i = group_.coordinates[row];
+      const double* column = kinematics_.jacobian().col(i).data() + first;
+      double* to = entries.col(index(k)).data();
+      const double share = 1 / unknowns_.row_units[row];
+      for (Eigen::Index j = 0; j < multipliers; ++j) {
+        to[j] = own.columns[std::size_t(j)].unit * column[j] * share;  // (3.1), a_ik
       }
+      if (own.effort >= 0) to[multipliers] = own.columns.back().unit * gathered_[i] * share;
     }
   }
 }
@@ -234,9 +229,18 @@ void LoopForces::choose(const std::vector<Wrench>& tree_reactions) {
   norms_.finish(solution_.x);
 }
 
+// Whether efforts are the same in all solutions, as nothing in the null space moves them.
+bool LoopForces::effortsAreUnique() {
+  const auto unique = [&](const LoopUnknowns::Effort& effort) {
+    return qr_.nullSquare(effort.unknown) <= kNoEffort * kNoEffort;
+  };
+  return std::all_of(unknowns_.efforts.begin(), unknowns_.efforts.end(), unique);
+}
+
 // Starts with the open directions that the criteria of choose() can tell apart.
 void LoopForces::startNorms() {
   if (!sound_) return norms_.start(directions_.leftCols(direction_count_));
+  if (cost_rows_ == 0 && effortsAreUnique()) return norms_.start(directions_.leftCols(0));
   Eigen::Index count = 0;
   for (Eigen::Index i = 0; i < direction_count_; ++i) {
     const State& change = direction(i);
@@ -337,12 +341,21 @@ void LoopForces::touchAll(State& state) const {
 void LoopForces::setClosures(State& state) const {
   for (const std::size_t local : state.touched_closures) {
     const LoopUnknowns::OfSet& own = unknowns_.of_sets[local];
-    ClosureWrench sum;
-    for (Eigen::Index j = own.first; j < own.first + index(own.columns.size()); ++j) {
-      sum.force += state.x[j] * unit_wrenches_[std::size_t(j)].force;
-      sum.moment += state.x[j] * unit_wrenches_[std::size_t(j)].moment;
+    const double* x = state.x.data() + own.first;
+    ClosureWrench& sum = state.closures[local];
+    sum = {};
+    for (const LoopUnknowns::Column& column : own.columns) {
+      const double multiplier = *x++ * column.unit;
+      if (column.condition < 0) {
+        const ClosureWrench effort = kinematics_.unitEffort(own.set);
+        sum.force += multiplier * effort.force;
+        sum.moment += multiplier * effort.moment;
+        continue;
+      }
+      const ClosureWrench& unit = kinematics_.unitWrench(column.condition);
+      sum.force += multiplier * unit.force;
+      sum.moment += multiplier * unit.moment;
     }
-    state.closures[local] = sum;
   }
 }
 

@@ -88,6 +88,7 @@ class LoopForces {
   void bearLoad();
   void solveWhole(Eigen::Ref<Eigen::VectorXd> x) const;
   void choose(const std::vector<Wrench>& tree_reactions);
+  bool effortsAreUnique();
   void startNorms();
   void addOpenLoads();
   void addTurns();
@@ -101,7 +102,6 @@ class LoopForces {
   LoopGroup group_;
   LoopUnknowns unknowns_;
   double rank_tolerance_, length_;
-  std::vector<ClosureWrench> unit_wrenches_;  // by unknown
   // Factors of reactions whose squares the policy keeps small; zero for those that it ignores.
   std::vector<double> closure_costs_, joint_costs_;
   Eigen::Index cost_rows_ = 0;

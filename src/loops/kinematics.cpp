@@ -21,7 +21,10 @@ LoopKinematics::LoopKinematics(const Mechanism& mechanism, const Scene& scene)
 LoopKinematics::LoopKinematics(const Mechanism& mechanism, ConditionSets sets)
     : sets_(std::move(sets)),
       state_(mechanism),
-      values_(countOf(sets_), static_cast<Eigen::Index>(mechanism.coordinates().size())) {
+      values_(countOf(sets_), static_cast<Eigen::Index>(mechanism.coordinates().size()),
+              sets_.size()),
+      rates_(values_.phi),
+      accelerations_(values_.phi) {
   for (const auto& set : sets_) {
     if (const auto* closure = dynamic_cast<const ClosureConditions*>(set.get())) {
       closures_.push_back(closure);
@@ -51,6 +54,7 @@ LoopKinematics::Norms LoopKinematics::normsOf(std::size_t set,
 void LoopKinematics::setPosition(const Eigen::VectorXd& q) {
   if (placed_ && state_.q == q) return;
   placed_ = true;
+  moving_ = false;
   state_.q = q;
   state_.links.setPosition(q);
   for (std::size_t s = 0; s < sets_.size(); ++s) sets_[s]->setPosition(state_, rowsOf(s));
@@ -76,11 +80,39 @@ void LoopKinematics::adoptConstants() {
   placed_ = false;  // values_ are no longer those of the position
 }
 
-void LoopKinematics::setMotion(const Motion& motion) {
-  state_.qd = motion.qd;
-  state_.qdd = motion.qdd;
-  state_.links.setMotion(motion.qd, motion.qdd);
+void LoopKinematics::setVelocity(const Eigen::VectorXd& qd) {
+  if (moving_ && state_.qd == qd) return;
+  moving_ = true;
+  state_.qd = qd;
+  state_.links.setVelocity(qd);
   for (std::size_t s = 0; s < sets_.size(); ++s) sets_[s]->setMotion(state_, rowsOf(s));
+}
+
+// Adds A rates, of which the rows of a set have entries for its coordinates only.
+void LoopKinematics::addColumns(const Eigen::VectorXd& rates, Eigen::VectorXd& sums) const {
+  for (std::size_t s = 0; s < sets_.size(); ++s) {
+    const Eigen::Index first = firstOf(s), count = firstOf(s + 1) - first;
+    double* sum = sums.data() + first;
+    for (const int coordinate : sets_[s]->coordinates()) {
+      const double* column = values_.A.col(coordinate).data() + first;
+      const double rate = rates[coordinate];
+      for (Eigen::Index i = 0; i < count; ++i) sum[i] += column[i] * rate;
+    }
+  }
+}
+
+void LoopKinematics::setRates(const Eigen::VectorXd& qd) {
+  if (drives_) setVelocity(qd);
+  rates_ = values_.b;
+  addColumns(qd, rates_);  // (3.2)
+}
+
+void LoopKinematics::setMotion(const Motion& motion) {
+  setVelocity(motion.qd);
+  rates_ = values_.b;
+  addColumns(motion.qd, rates_);  // (3.2)
+  accelerations_ = values_.turning + values_.bd;
+  addColumns(motion.qdd, accelerations_);
 }
 
 ClosureWrench LoopKinematics::unitEffort(std::size_t closure) const {
@@ -90,7 +122,8 @@ ClosureWrench LoopKinematics::unitEffort(std::size_t closure) const {
 }
 
 Twist LoopKinematics::childTwist(std::size_t closure) const {
-  const LinkKinematics::Point C = links().pointOf(closures_[closure]->child());
+  const LinkKinematics::PointMotion C =
+      links().motionAt(closures_[closure]->child().link, childOrigin(closure));
   return {C.v, C.w};
 }
 

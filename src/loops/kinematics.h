@@ -50,11 +50,13 @@ class LoopKinematics {
   /// before this call they demand nothing.
   void adoptConstants();
 
+  /// Computes velocities of the conditions at the present position.
+  void setRates(const Eigen::VectorXd& qd);
+  const Eigen::VectorXd& rates() const { return rates_; }  ///< A qd + b
   /// Computes velocities and accelerations of the conditions at the present position.
   void setMotion(const Motion& motion);
-  const Eigen::VectorXd& rates() const { return values_.rates; }  ///< A qd + b
   /// A qdd + Ad qd + bd
-  const Eigen::VectorXd& accelerations() const { return values_.accelerations; }
+  const Eigen::VectorXd& accelerations() const { return accelerations_; }
   /// Whether b and its derivative bd can differ from zero.
   bool drives() const { return drives_; }
   const Eigen::VectorXd& b() const { return values_.b; }
@@ -75,10 +77,11 @@ class LoopKinematics {
   /// Adds the generalized force of a wrench on the child and its opposite on the parent.
   template <typename Vector>
   void addGeneralizedForce(std::size_t closure, const ClosureWrench& wrench, Vector&& force) const {
-    const Eigen::Vector3d at = childOrigin(closure);
     for (const PathStep& step : closures_[closure]->path()) {
       const int coordinate = links().coordinateOf(step);
-      if (coordinate >= 0) force[coordinate] += links().workOf(step, at, wrench);
+      if (coordinate < 0) continue;
+      const LinkKinematics::Displacement moved = links().movedBy(step, childOrigin(closure));
+      force[coordinate] += moved.origin.dot(wrench.force) + moved.turn.dot(wrench.moment);
     }
   }
 
@@ -88,24 +91,28 @@ class LoopKinematics {
   /// Axis of a joint; zero for fixed ones.
   const Eigen::Vector3d& axisOf(int joint) const { return links().axisOf(joint); }
 
-  /// Free axis of closure c. For this and what follows see ClosureConditions.
-  Eigen::Vector3d freeAxis(std::size_t c) const { return closures_[c]->freeAxis(links()); }
-  double freePosition(std::size_t c) const { return closures_[c]->freePosition(links()); }
-  double freeVelocity(std::size_t c) const { return closures_[c]->freeVelocity(links()); }
-  bool reversed(std::size_t c) const { return closures_[c]->reversed(links()); }
+  /// The frames that closure c joins. For this and what follows see ClosureConditions.
+  const FramePair& frames(std::size_t c) const { return values_.frames[c]; }
+  /// Axis z of the parent frame, that of the one free motion of closures that have one.
+  Eigen::Vector3d freeAxis(std::size_t c) const { return frames(c).R_P.col(2); }
+  double freePosition(std::size_t c) const { return closures_[c]->freePosition(frames(c)); }
+  /// Needs setMotion().
+  double freeVelocity(std::size_t c) const {
+    return closures_[c]->freeVelocity(links(), frames(c));
+  }
+  bool reversed(std::size_t c) const { return closures_[c]->reversed(frames(c)); }
   const std::vector<PathStep>& path(std::size_t c) const { return closures_[c]->path(); }
-  Eigen::Vector3d parentOrigin(std::size_t c) const {
-    return links().originOf(closures_[c]->parent());
-  }
-  Eigen::Vector3d childOrigin(std::size_t c) const {
-    return links().originOf(closures_[c]->child());
-  }
-  Eigen::Matrix3d childAxes(std::size_t c) const { return links().axesOf(closures_[c]->child()); }
+  const Eigen::Vector3d& parentOrigin(std::size_t c) const { return frames(c).Po; }
+  const Eigen::Vector3d& childOrigin(std::size_t c) const { return frames(c).Co; }
+  const Eigen::Matrix3d& childAxes(std::size_t c) const { return frames(c).R_C; }
+  /// Needs setMotion().
   Twist childTwist(std::size_t c) const;
 
  private:
-  ConditionRows rowsOf(std::size_t set) { return {values_, first_[set]}; }
+  ConditionRows rowsOf(std::size_t set) { return {values_, set, first_[set]}; }
   void subtractConstants();
+  void setVelocity(const Eigen::VectorXd& qd);
+  void addColumns(const Eigen::VectorXd& rates, Eigen::VectorXd& sums) const;
 
   ConditionSets sets_;
   std::vector<const ClosureConditions*> closures_;  // the first of sets_
@@ -115,9 +122,11 @@ class LoopKinematics {
   std::vector<Eigen::Index> adopting_;  // conditions that adopt a constant
   bool adopted_ = false;
   bool placed_ = false;        // whether values_ are at state_.q
+  bool moving_ = false;        // whether they are those of state_.qd
   Eigen::VectorXd constants_;  // by adopting_; of the present position until adopted
   LoopState state_;
   ConditionValues values_;
+  Eigen::VectorXd rates_, accelerations_;
 };
 
 }  // namespace virtual_work_dynamics

@@ -1,5 +1,7 @@
 #include "loops/link_kinematics.h"
 
+#include <cmath>
+
 namespace virtual_work_dynamics {
 
 namespace {
@@ -16,12 +18,32 @@ std::vector<bool> carriersOf(const Mechanism& mechanism, int link) {
 
 }  // namespace
 
-LinkKinematics::LinkKinematics(const Mechanism& mechanism) : links_(mechanism.links().size()) {
-  for (const Joint& joint : mechanism.joints()) {
-    joints_.push_back({joint.parent_link, joint.coordinate, unitOf(joint) == Unit::kMetre,
-                       joint.multiplier, joint.offset, joint.R_PK.cast<double>(),
-                       joint.p_PoKo_P.cast<double>(), joint.axis_K.cast<double>()});
+// The matrices of a turning joint come from Rodrigues' formula.
+LinkKinematics::JointConstants LinkKinematics::constantsOf(const Joint& joint) {
+  const auto& axis = joint.axis_K;
+  JointConstants constants;
+  constants.parent_link = joint.parent_link;
+  constants.coordinate = joint.coordinate;
+  constants.slides = unitOf(joint) == Unit::kMetre;
+  constants.multiplier = static_cast<double>(joint.multiplier);
+  constants.offset = static_cast<double>(joint.offset);
+  constants.p_PoKo_P = joint.p_PoKo_P.cast<double>();
+  constants.axis_P = (joint.R_PK * axis).cast<double>();
+  constants.still = joint.R_PK.cast<double>();
+  constants.across = constants.turned = Eigen::Matrix3d::Zero();
+  if (constants.slides || joint.coordinate < 0) return constants;
+  const auto along = (joint.R_PK * axis * axis.transpose()).eval();
+  constants.still = along.cast<double>();
+  constants.across = (joint.R_PK - along).cast<double>();
+  for (int i = 0; i < 3; ++i) {
+    const auto unit = decltype(joint.R_PK)::Identity().col(i).eval();
+    constants.turned.col(i) = (joint.R_PK * axis.cross(unit)).cast<double>();
   }
+  return constants;
+}
+
+LinkKinematics::LinkKinematics(const Mechanism& mechanism) : links_(mechanism.links().size()) {
+  for (const Joint& joint : mechanism.joints()) joints_.push_back(constantsOf(joint));
 }
 
 void LinkKinematics::setPosition(const Eigen::VectorXd& q) {
@@ -29,50 +51,53 @@ void LinkKinematics::setPosition(const Eigen::VectorXd& q) {
     const JointConstants& joint = joints_[k];
     const LinkState& parent = links_[static_cast<std::size_t>(joint.parent_link)];
     LinkState& link = links_[k + 1];
-    const double position =
-        joint.coordinate < 0 ? 0 : joint.multiplier * q[joint.coordinate] + joint.offset;
-    link.R.noalias() = parent.R * joint.R_PK;
-    link.z.noalias() = link.R * joint.axis_K;
     link.o = parent.o + parent.R * joint.p_PoKo_P;
+    link.z.noalias() = parent.R * joint.axis_P;
+    if (joint.coordinate < 0) {
+      link.R.noalias() = parent.R * joint.still;
+      continue;
+    }
+    const double position = joint.multiplier * q[joint.coordinate] + joint.offset;
     if (joint.slides) {
+      link.R.noalias() = parent.R * joint.still;
       link.o += position * link.z;
-    } else if (joint.coordinate >= 0) {
-      link.R = (link.R * Eigen::AngleAxisd(position, joint.axis_K).toRotationMatrix()).eval();
+    } else {
+      const Eigen::Matrix3d R_PL =
+          joint.still + std::cos(position) * joint.across + std::sin(position) * joint.turned;
+      link.R.noalias() = parent.R * R_PL;
     }
   }
 }
 
-void LinkKinematics::setMotion(const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd) {
-  for (std::size_t k = 0; k < joints_.size(); ++k) moveLink(k, qd, qdd);
+void LinkKinematics::setVelocity(const Eigen::VectorXd& qd) {
+  for (std::size_t k = 0; k < joints_.size(); ++k) moveLink(k, qd);
 }
 
-void LinkKinematics::moveLink(std::size_t k, const Eigen::VectorXd& qd,
-                              const Eigen::VectorXd& qdd) {
+void LinkKinematics::moveLink(std::size_t k, const Eigen::VectorXd& qd) {
   const JointConstants& joint = joints_[k];
   const LinkState& parent = links_[static_cast<std::size_t>(joint.parent_link)];
   LinkState& link = links_[k + 1];
-  const Eigen::Vector3d r = link.o - parent.o;
+  const Eigen::Vector3d r = link.o - parent.o, turned = parent.w.cross(r);
   link.w = parent.w;
   link.alpha = parent.alpha;
-  link.v = parent.v + parent.w.cross(r);                                          // (2.6)
-  link.a = parent.a + parent.alpha.cross(r) + parent.w.cross(parent.w.cross(r));  // (2.7)
+  link.v = parent.v + turned;                                          // (2.6)
+  link.a = parent.a + parent.alpha.cross(r) + parent.w.cross(turned);  // (2.7)
   if (joint.coordinate < 0) return;
   const Eigen::Vector3d rate = joint.multiplier * qd[joint.coordinate] * link.z;
-  const Eigen::Vector3d acceleration = joint.multiplier * qdd[joint.coordinate] * link.z;
   if (joint.slides) {
-    link.v += rate;                                     // (2.6)
-    link.a += acceleration + 2 * parent.w.cross(rate);  // (2.7)
+    link.v += rate;                      // (2.6)
+    link.a += 2 * parent.w.cross(rate);  // (2.7)
   } else {
-    link.w += rate;                                     // (2.5)
-    link.alpha += acceleration + parent.w.cross(rate);  // (2.7)
+    link.w += rate;                      // (2.5)
+    link.alpha += parent.w.cross(rate);  // (2.7)
   }
 }
 
-LinkKinematics::Point LinkKinematics::pointOf(const Frame& frame) const {
-  const LinkState& link = links_[static_cast<std::size_t>(frame.link)];
-  const Eigen::Vector3d r = link.R * frame.p_LoFo_L;
-  return {link.o + r, link.v + link.w.cross(r), link.w,
-          link.a + link.alpha.cross(r) + link.w.cross(link.w.cross(r)), link.alpha};
+LinkKinematics::PointMotion LinkKinematics::motionAt(int link, const Eigen::Vector3d& point) const {
+  const LinkState& state = links_[static_cast<std::size_t>(link)];
+  const Eigen::Vector3d r = point - state.o, turned = state.w.cross(r);
+  return {state.v + turned, state.w, state.a + state.alpha.cross(r) + state.w.cross(turned),
+          state.alpha};
 }
 
 LinkKinematics::Displacement LinkKinematics::displacementBy(const PathStep& step,
@@ -83,15 +108,6 @@ LinkKinematics::Displacement LinkKinematics::displacementBy(const PathStep& step
     return {Eigen::Vector3d::Zero(), step.sign * length * link.z};
   }
   return {step.sign * link.z, step.sign * link.z.cross(at - link.o)};
-}
-
-double LinkKinematics::workOf(const PathStep& step, const Eigen::Vector3d& at,
-                              const ClosureWrench& wrench) const {
-  const JointConstants& joint = joints_[static_cast<std::size_t>(step.joint)];
-  const LinkState& link = links_[static_cast<std::size_t>(step.joint) + 1];
-  const double along = joint.slides ? link.z.dot(wrench.force)
-                                    : link.z.dot(wrench.moment + (at - link.o).cross(wrench.force));
-  return step.sign * joint.multiplier * along;
 }
 
 std::vector<PathStep> pathBetween(const Mechanism& mechanism, int first_link, int second_link) {

@@ -22,8 +22,8 @@ class LinkKinematics {
   explicit LinkKinematics(const Mechanism& mechanism);
 
   void setPosition(const Eigen::VectorXd& q);
-  /// Computes motions of the links at the present position.
-  void setMotion(const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd);
+  /// Computes motions of the links at the present position, with accelerations for qdd = 0.
+  void setVelocity(const Eigen::VectorXd& qd);
 
   const Eigen::Matrix3d& axesOf(int link) const { return links_[static_cast<std::size_t>(link)].R; }
   const Eigen::Vector3d& originOf(int link) const {
@@ -48,11 +48,11 @@ class LinkKinematics {
     return axesOf(frame.link) * frame.R_LF.col(i);
   }
   Eigen::Matrix3d axesOf(const Frame& frame) const { return axesOf(frame.link) * frame.R_LF; }
-  /// A frame's origin and how its link moves there: m, m/s, rad/s, m/s^2, rad/s^2.
-  struct Point {
-    Eigen::Vector3d o, v, w, a, alpha;
+  /// How a link moves at one of its points: m/s, rad/s, m/s^2, rad/s^2, accelerations for qdd = 0.
+  struct PointMotion {
+    Eigen::Vector3d v, w, a, alpha;
   };
-  Point pointOf(const Frame& frame) const;
+  PointMotion motionAt(int link, const Eigen::Vector3d& point) const;
 
   /// The coordinate that moves a joint; -1 when it is fixed.
   int coordinateOf(const PathStep& step) const {
@@ -65,25 +65,33 @@ class LinkKinematics {
   };
   Displacement displacementBy(const PathStep& step, const Eigen::Vector3d& at, double length) const;
 
-  /// Generalized force, for the coordinate that moves the joint, of a wrench on the second link at
-  /// a point and its opposite on the first.
-  double workOf(const PathStep& step, const Eigen::Vector3d& at, const ClosureWrench& wrench) const;
+  /// How the coordinate that moves the joint moves the second link relative to the first: per unit
+  /// of the coordinate, the turn and the displacement of a point of the second link.
+  Displacement movedBy(const PathStep& step, const Eigen::Vector3d& at) const {
+    const JointConstants& joint = joints_[static_cast<std::size_t>(step.joint)];
+    const LinkState& link = links_[static_cast<std::size_t>(step.joint) + 1];
+    const Eigen::Vector3d along = step.sign * joint.multiplier * link.z;
+    if (joint.slides) return {Eigen::Vector3d::Zero(), along};
+    return {along, along.cross(at - link.o)};
+  }
 
  private:
   struct JointConstants {
     int parent_link, coordinate;
     bool slides;
     double multiplier, offset;
-    Eigen::Matrix3d R_PK;
-    Eigen::Vector3d p_PoKo_P, axis_K;
+    Eigen::Vector3d p_PoKo_P, axis_P;
+    // Of the child's axes in the parent's: still + cos(angle) across + sin(angle) turned.
+    Eigen::Matrix3d still, across, turned;
   };
+  static JointConstants constantsOf(const Joint& joint);
   struct LinkState {
     Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
     Eigen::Vector3d o = Eigen::Vector3d::Zero();
     Eigen::Vector3d z = Eigen::Vector3d::Zero();  // axis of its joint
     Eigen::Vector3d v = Eigen::Vector3d::Zero(), w = v, a = v, alpha = v;
   };
-  void moveLink(std::size_t k, const Eigen::VectorXd& qd, const Eigen::VectorXd& qdd);
+  void moveLink(std::size_t k, const Eigen::VectorXd& qd);
 
   std::vector<JointConstants> joints_;
   std::vector<LinkState> links_;

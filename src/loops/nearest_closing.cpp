@@ -102,13 +102,9 @@ void NearestClosing::addClosure(std::size_t c, System& system) const {
       if (coordinate < 0) continue;
       const int column = system.columns[static_cast<std::size_t>(coordinate)];
       if (column < 0) continue;
-      Vector3 v, w;
-      for (int i = 0; i < 3; ++i) {
-        const Vector3 unit = Vector3::Unit(i);
-        v[i] = links.workOf(step, at, {unit, Vector3::Zero()});
-        w[i] = links.workOf(step, at, {Vector3::Zero(), unit});
-      }
-      system.J.block<3, 1>(first, column) += scale(coordinate) * (along * (v / length_) + turn * w);
+      const LinkKinematics::Displacement moved = links.movedBy(step, at);
+      system.J.block<3, 1>(first, column) +=
+          scale(coordinate) * (along * (moved.origin / length_) + turn * moved.turn);
     }
   };
   const Matrix3 zero = Matrix3::Zero(), one = Matrix3::Identity();

@@ -46,8 +46,9 @@ void LoopForces::addTurn(std::size_t local, const PathStep& step) {
   const int coordinate = kinematics_.links().coordinateOf(step);
   if (coordinate < 0) return;
   const ClosureWrench growing = change_.closures[local];
-  const LinkKinematics::Displacement moves =
-      kinematics_.closure(group_.closures[local]).displacedBy(kinematics_.links(), step, length_);
+  const std::size_t closure = group_.closures[local];
+  const LinkKinematics::Displacement moves = kinematics_.closure(closure).displacedBy(
+      kinematics_.links(), kinematics_.frames(closure), step, length_);
   Turn turn;
   turn.local = local;
   turn.wrench.force = moves.turn.cross(growing.force);

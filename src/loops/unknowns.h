@@ -36,6 +36,11 @@ struct LoopUnknowns {
     std::vector<Column> columns;   ///< of its unknowns
     int effort = -1;               ///< into efforts; -1 when it is not actuated
     std::vector<int> coordinates;  ///< which its rows concern, as the group counts them
+
+    /// Number of its conditions, whose multipliers are the first of its unknowns.
+    Eigen::Index multipliers() const {
+      return static_cast<Eigen::Index>(columns.size()) - (effort >= 0 ? 1 : 0);
+    }
   };
 
   Eigen::Index count = 0;

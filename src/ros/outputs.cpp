@@ -298,7 +298,7 @@ class DeterminacyOutput : public Output {
   }
   void start(const ros::Publisher& topic) const override { topic.publish(message_->message()); }
   void addTo(Request& request) const override {
-    request.efforts = true;
+    request.efforts = request.determinacy = true;
     addOnce(reactions_, request.child_axes);
     addOnce(reactions_, request.root_axes);
   }
@@ -397,7 +397,7 @@ Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
 
 Request requestFor(const Outputs& outputs, const Audience& audience) {
   Request request;
-  request.efforts = false;
+  request.efforts = request.determinacy = false;
   for (const std::size_t i : audience) outputs[i]->addTo(request);
   return request;
 }

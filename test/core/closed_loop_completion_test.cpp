@@ -89,6 +89,34 @@ TEST(LoopCompletion, ConvergesQuadratically) {
   EXPECT_LE(kinematics.phi().cwiseAbs().maxCoeff(), 1e-15);
 }
 
+// From starts of every distance, so that steps by an earlier factorization and rates refined from
+// one are met; what came before leaves no trace.
+TEST(LoopCompletion, RatesDoNotDependOnTheStart) {
+  const FourBar four_bar;
+  const FourBar::Cut cut = four_bar.cut('D');
+  ClosedLoops used(cut.mechanism, cut.scene);
+  RobotBuilder random(5);
+  for (int i = 0; i < 400; ++i) {
+    const Motion expected =
+        cut.motion(four_bar.turnings(random.uniform(-3, 3), random.uniform(-5, 5), 30));
+    Motion motion = expected;
+    const double off = std::pow(10.0, random.uniform(-16, -1));
+    for (int passive : {1, 2}) motion.q[passive] += random.uniform(-off, off);
+    motion.qd.tail(2).setConstant(7);
+    motion.qdd.tail(2).setConstant(-7);
+    Motion again = motion;
+    ASSERT_TRUE(used.complete(motion));
+    EXPECT_LE((motion.q - expected.q).norm(), 10 * kClosedForm) << off;
+    EXPECT_LE((motion.qd - expected.qd).norm(), 100 * kClosedForm) << off;
+    EXPECT_LE((motion.qdd - expected.qdd).norm(), 2000 * kClosedForm) << off;
+    ClosedLoops fresh(cut.mechanism, cut.scene);
+    ASSERT_TRUE(fresh.complete(again));
+    EXPECT_EQ(again.q, motion.q);
+    EXPECT_EQ(again.qd, motion.qd);
+    EXPECT_EQ(again.qdd, motion.qdd);
+  }
+}
+
 // Where conditions are almost singular a whole step can overshoot although the loop is closed to
 // the rank's tolerance; half of it goes on.
 TEST(LoopCompletion, ClosesAsWellNearDeadCentre) {

@@ -72,6 +72,39 @@ TEST(ClosedLoopDynamics, StaticScenesIgnoreVelocitiesAndAccelerations) {
   EXPECT_EQ(still.dynamics.residuals()[0].acceleration, 0);
 }
 
+// Without the flags everything else stays the same, also where a position is singular.
+TEST(ClosedLoopDynamics, FlagsAreFoundOnRequestOnly) {
+  const SliderCrank slider_crank(1.5, true);
+  Scene scene = slider_crank.scene("joint_3");
+  scene.actuated->push_back("joint_4");
+  scene.gravity << 0, -9.81, 0;
+  Request request;
+  request.child_axes = request.root_axes = {"pin", "joint_1"};
+  ClosedLoops with(slider_crank.mechanism(), scene, request);
+  request.determinacy = false;
+  ClosedLoops without(slider_crank.mechanism(), scene, request);
+  for (const double angle : {0.7, 0.0, 0.4}) {  // singular in between
+    const Motion motion = slider_crank.motion(angle, 2, 1, 4);
+    with.compute(motion);
+    without.compute(motion);
+    EXPECT_EQ(with.results().singular(), angle == 0);
+    EXPECT_TRUE(without.effortDetermined().empty());
+    EXPECT_TRUE(without.childAxesDetermined().empty());
+    EXPECT_TRUE(without.rootAxesDetermined().empty());
+    EXPECT_EQ(without.effort(), with.effort());
+    EXPECT_EQ(without.effortExists(), with.effortExists());
+    EXPECT_EQ(without.childAxesExist(), with.childAxesExist());
+    EXPECT_EQ(without.rootAxesExist(), with.rootAxesExist());
+    EXPECT_EQ(without.rootAxesExist()[0] == kAllComponents, angle != 0);
+    for (std::size_t i = 0; i < request.child_axes.size(); ++i) {
+      EXPECT_EQ(without.childAxes()[i].force, with.childAxes()[i].force);
+      EXPECT_EQ(without.childAxes()[i].torque, with.childAxes()[i].torque);
+    }
+    EXPECT_EQ(without.determinacy().redundant_constraints,
+              with.determinacy().redundant_constraints);
+  }
+}
+
 TEST(ClosedLoopDynamics, ALoadReplacesTheAppliedWrenchesOfOneSample) {
   const FourBar four_bar;
   FourBar::Cut cut = four_bar.cut('D');

@@ -26,10 +26,7 @@ class Gear : public ConditionSet {
     rows.A(0, i_) = 1;
     rows.A(0, j_) = -ratio_;
   }
-  void setMotion(const LoopState& state, ConditionRows rows) const override {
-    rows.rate(0) = state.qd[i_] - ratio_ * state.qd[j_];
-    rows.acceleration(0) = state.qdd[i_] - ratio_ * state.qdd[j_];
-  }
+  void setMotion(const LoopState&, ConditionRows) const override {}
 
  private:
   Gear(const Mechanism& mechanism, int i, int j, double ratio, double constant, bool adopts)
@@ -63,8 +60,6 @@ class Drive : public ConditionSet {
   void setMotion(const LoopState& state, ConditionRows rows) const override {
     rows.b(0) = -law_.fd(state.time);
     rows.bd(0) = -law_.fdd(state.time);
-    rows.rate(0) = state.qd[i_] + rows.b(0);
-    rows.acceleration(0) = state.qdd[i_] + rows.bd(0);
   }
 
  private:
@@ -88,9 +83,7 @@ class Blade : public ConditionSet {
     const double s = std::sin(state.q[2]), c = std::cos(state.q[2]);
     rows.b(0) = -speed_.f(state.time);
     rows.bd(0) = -speed_.fd(state.time);
-    rows.rate(0) = -s * state.qd[0] + c * state.qd[1] + rows.b(0);
-    rows.acceleration(0) = -s * state.qdd[0] + c * state.qdd[1] -
-                           state.qd[2] * (c * state.qd[0] + s * state.qd[1]) + rows.bd(0);
+    rows.turning(0) = -state.qd[2] * (c * state.qd[0] + s * state.qd[1]);
   }
 
  private:

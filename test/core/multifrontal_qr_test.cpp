@@ -158,6 +158,9 @@ TEST(MultifrontalQr, NullVectorsAreOrthonormalAndComplete) {
     EXPECT_LE((N.transpose() * N - Eigen::MatrixXd::Identity(N.cols(), N.cols())).norm(),
               kRounding);
     EXPECT_LE((tried.M.transpose() * N).norm(), kRounding * tried.M.norm());
+    for (Eigen::Index row = 0; row < qr.rows(); ++row) {
+      EXPECT_NEAR(qr.nullSquare(row), N.row(row).squaredNorm(), kRounding);
+    }
   });
 }
 
