@@ -9,6 +9,7 @@
 
 #include "loop_examples.h"
 #include "named_loop_results.h"
+#include "tested_build.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -24,7 +25,7 @@ constexpr double kPrintedForces = 1e-9 * 245;
 class AndrewsSqueezer : public testing::Test {
  protected:
   AndrewsSqueezer() : example_("andrews_squeezer") {
-    const std::string path = std::string(VWD_SHARED_DATA) + "/reference/andrews_squeezer.json";
+    const std::string path = std::string(kSharedData) + "/reference/andrews_squeezer.json";
     if (std::filesystem::exists(path)) reference_ = YAML::LoadFile(path);
   }
 
@@ -63,17 +64,17 @@ class AndrewsSqueezer : public testing::Test {
 };
 
 TEST_F(AndrewsSqueezer, MultipliersAndMotorTorqueAtRest) {
-  if (missing()) GTEST_SKIP() << "no reference results in " VWD_SHARED_DATA;
+  if (missing()) GTEST_SKIP() << "no reference results in " << kSharedData;
   expectPublished(reference_["states"][0], kAtRest);
 }
 
 TEST_F(AndrewsSqueezer, MultipliersAndMotorTorqueInMotion) {
-  if (missing()) GTEST_SKIP() << "no reference results in " VWD_SHARED_DATA;
+  if (missing()) GTEST_SKIP() << "no reference results in " << kSharedData;
   expectPublished(reference_["states"][1], kInMotion);
 }
 
 TEST_F(AndrewsSqueezer, ForcesAtTheJointThatFourBodiesShare) {
-  if (missing()) GTEST_SKIP() << "no reference results in " VWD_SHARED_DATA;
+  if (missing()) GTEST_SKIP() << "no reference results in " << kSharedData;
   const YAML::Node printed = reference_["forces_at_shared_joint_E_at_t_0.03_N"];
   const NamedLoopResults results = this->results(reference_["states"][1]);
   const auto expect = [&](const char* key, const Eigen::Vector3d& force) {

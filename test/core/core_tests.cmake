@@ -125,7 +125,7 @@ set(core_test_files
   test/core/velocity_judge_test.cpp
   ${stability_scenes}
   src/offline/deviation_rows.cpp)  # the covariances of a motion cannot come from a file
-# Compiled for each: where its tool is, and tests of code that is all in headers.
+# Compiled for each: where its tool and its data are, and tests of code that is all in headers.
 set(core_test_files_of_build
   test/core/exact_products_test.cpp
   test/core/far_positions_test.cpp
@@ -142,9 +142,6 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 
 add_library(core_test_objects OBJECT EXCLUDE_FROM_ALL ${core_test_files})
-target_compile_definitions(core_test_objects PRIVATE
-  VWD_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}"
-  VWD_SHARED_DATA="${VWD_SHARED_DATA}")
 target_compile_options(core_test_objects PRIVATE
   $<TARGET_PROPERTY:${PROJECT_NAME}_warnings,INTERFACE_COMPILE_OPTIONS> ${checks_of_containers})
 target_include_directories(core_test_objects PRIVATE include src test/core benchmark)
@@ -153,7 +150,8 @@ target_include_directories(core_test_objects SYSTEM PRIVATE
 
 # finish_core_tests(<target> <tool>)
 function(finish_core_tests target tool)
-  target_compile_definitions(${target} PRIVATE OFFLINE_TOOL="$<TARGET_FILE:${tool}>")
+  target_compile_definitions(${target} PRIVATE OFFLINE_TOOL="$<TARGET_FILE:${tool}>"
+    VWD_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}" VWD_SHARED_DATA="${VWD_SHARED_DATA}")
   target_compile_options(${target} PRIVATE ${checks_of_containers})
   target_link_libraries(${target} ${VWD_REAL113_LIBRARIES})
   add_dependencies(${target} ${tool})

@@ -12,6 +12,7 @@
 #include "pendulum_closed_form.h"
 #include "robot_builder.h"
 #include "sample_robots.h"
+#include "tested_build.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/urdf_reader.h"
@@ -159,14 +160,14 @@ TEST(LagrangeDynamics, PendulumMatchesEquations57And58) {
 }
 
 TEST(LagrangeDynamics, ExampleArmIsTheSameByBothRoutes) {
-  const Mechanism arm = readUrdfFile(std::string(VWD_SOURCE_DIR) + "/urdf/six_axis_arm.urdf");
+  const Mechanism arm = readUrdfFile(std::string(kSourceFolder) + "/urdf/six_axis_arm.urdf");
   expectSameByBothRoutes("six_axis_arm", arm, slantedGravity());
 }
 
 class LagrangeOfSharedRobot : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(LagrangeOfSharedRobot, IsTheSameByBothRoutes) {
-  const std::string path = std::string(VWD_SHARED_DATA) + "/robots/" + GetParam() + ".urdf";
+  const std::string path = std::string(kSharedData) + "/robots/" + GetParam() + ".urdf";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   expectSameByBothRoutes(GetParam(), readUrdfFile(path), slantedGravity());
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "exact_derivatives.h"
+#include "tested_build.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/scene.h"
@@ -26,8 +27,8 @@ struct LoopExample {
   Scene scene;
 
   explicit LoopExample(const std::string& name)
-      : mechanism(readUrdfFile(std::string(VWD_SOURCE_DIR) + "/urdf/" + name + ".urdf")),
-        scene(readSceneFile(std::string(VWD_SOURCE_DIR) + "/config/" + name + "_scene.yaml")) {}
+      : mechanism(readUrdfFile(std::string(kSourceFolder) + "/urdf/" + name + ".urdf")),
+        scene(readSceneFile(std::string(kSourceFolder) + "/config/" + name + "_scene.yaml")) {}
 };
 
 /// Positions of joints by name.

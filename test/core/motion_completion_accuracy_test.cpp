@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "encoder_streams.h"
+#include "tested_build.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/motion_completion.h"
 #include "virtual_work_dynamics/urdf_reader.h"
@@ -28,7 +29,7 @@ constexpr double kEnd = 0.5;  // s at the ends, which are judged separately
 class Arm {
  public:
   Arm()
-      : mechanism_(readUrdfFile(VWD_SOURCE_DIR "/urdf/six_axis_arm.urdf")),
+      : mechanism_(readUrdfFile(std::string(kSourceFolder) + "/urdf/six_axis_arm.urdf")),
         dynamics_(mechanism_, scene()),
         workspace_(dynamics_.makeWorkspace()) {}
 

@@ -7,6 +7,7 @@
 
 #include "power_balance.h"
 #include "sample_robots.h"
+#include "tested_build.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
@@ -59,15 +60,14 @@ TEST(PowerBalance, HoldsForRandomTrees) {
 }
 
 TEST(PowerBalance, HoldsForTheExampleArm) {
-  expectBalance(
-      "the arm",
-      worstResidual(fileText(std::string(VWD_SOURCE_DIR) + "/urdf/six_axis_arm.urdf"), 3));
+  expectBalance("the arm",
+                worstResidual(fileText(std::string(kSourceFolder) + "/urdf/six_axis_arm.urdf"), 3));
 }
 
 class SharedRobot : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(SharedRobot, BalancesPower) {
-  const std::string path = std::string(VWD_SHARED_DATA) + "/robots/" + GetParam() + ".urdf";
+  const std::string path = std::string(kSharedData) + "/robots/" + GetParam() + ".urdf";
   const std::string urdf = fileText(path);
   if (urdf.empty()) GTEST_SKIP() << path << " is not there";
   expectBalance(GetParam(), worstResidual(urdf, 5));

@@ -9,6 +9,7 @@
 
 #include "newton_euler_oracle.h"
 #include "offline_tool.h"
+#include "tested_build.h"
 #include "virtual_work_dynamics/motion_csv.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
@@ -34,7 +35,7 @@ class Reference : public OfflineTool {
  protected:
   /// False, and the test skipped, when the shared folder lacks the robot.
   bool find(const std::string& robot) {
-    const std::string shared = VWD_SHARED_DATA;
+    const std::string shared = kSharedData;
     reference_ = shared + "/reference/" + robot + "/";
     urdf_ = shared + "/robots/" + robot + ".urdf";
     return std::filesystem::exists(reference_) && std::filesystem::exists(urdf_);
@@ -115,22 +116,22 @@ void expectAgreement(const NumberTable& actual, const NumberTable& expected,
 }
 
 TEST_F(Reference, Ur5InChildAxes) {
-  if (!find("ur5")) GTEST_SKIP() << "no reference results in " VWD_SHARED_DATA;
+  if (!find("ur5")) GTEST_SKIP() << "no reference results in " << kSharedData;
   expectAgreement(results("child"), reference(), {});
 }
 
 TEST_F(Reference, Ur5InRootAxes) {
-  if (!find("ur5")) GTEST_SKIP() << "no reference results in " VWD_SHARED_DATA;
+  if (!find("ur5")) GTEST_SKIP() << "no reference results in " << kSharedData;
   expectAgreement(results("root"), rootAxesReference(), {});
 }
 
 TEST_F(Reference, TiagoInChildAxes) {
-  if (!find("tiago_no_hand")) GTEST_SKIP() << "no reference results in " VWD_SHARED_DATA;
+  if (!find("tiago_no_hand")) GTEST_SKIP() << "no reference results in " << kSharedData;
   expectAgreement(results("child"), reference(), {"torso_lift_joint"});
 }
 
 TEST_F(Reference, TiagoInRootAxes) {
-  if (!find("tiago_no_hand")) GTEST_SKIP() << "no reference results in " VWD_SHARED_DATA;
+  if (!find("tiago_no_hand")) GTEST_SKIP() << "no reference results in " << kSharedData;
   expectAgreement(results("root"), rootAxesReference(), {"torso_lift_joint"});
 }
 

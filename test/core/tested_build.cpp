@@ -3,6 +3,8 @@
 namespace virtual_work_dynamics {
 
 const char* const kOfflineTool = OFFLINE_TOOL;
+const char* const kSourceFolder = VWD_SOURCE_DIR;
+const char* const kSharedData = VWD_SHARED_DATA;
 
 #if defined(__SANITIZE_ADDRESS__)
 const bool kSanitized = true;

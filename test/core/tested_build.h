@@ -7,6 +7,10 @@ namespace virtual_work_dynamics {
 /// Path of the offline tool.
 extern const char* const kOfflineTool;
 
+/// The package's folder, and that of data that is not part of it.
+extern const char* const kSourceFolder;
+extern const char* const kSharedData;
+
 /// Whether the library was compiled with sanitizers.
 extern const bool kSanitized;
 
