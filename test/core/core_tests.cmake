@@ -8,11 +8,14 @@ set(stability_scenes
   benchmark/stability/body_sweeps.cpp
   benchmark/stability/exact_results.cpp
   benchmark/stability/four_bar_sweeps.cpp
+  benchmark/stability/held_sweeps.cpp
   benchmark/stability/linkage_sweeps.cpp
   benchmark/stability/loop_judge.cpp
+  benchmark/stability/loop_scenes.cpp
   benchmark/stability/mechanism_maker.cpp
   benchmark/stability/motion_sweeps.cpp
   benchmark/stability/structure_sweeps.cpp
+  benchmark/stability/structured_loops.cpp
   benchmark/stability/sweeps.cpp
   benchmark/stability/worst_certificates.cpp)
 set(core_test_files
@@ -116,6 +119,7 @@ set(core_test_files
   test/core/stream_learner_test.cpp
   test/core/stream_smoother_test.cpp
   test/core/stream_surprise_test.cpp
+  test/core/structured_loops_test.cpp
   test/core/summation_test.cpp
   test/core/table_law_test.cpp
   test/core/trajectory_curve_test.cpp
