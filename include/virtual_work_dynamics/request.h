@@ -13,6 +13,9 @@ struct Request {
   std::vector<std::string> root_axes;   ///< reactions in root axes, (4.3)
   bool poses = false;                   ///< poses of the `root_axes` joints
   bool twists = false;                  ///< twists of the `root_axes` joints
+  /// Moments in child axes stay about the child frame's origin, whatever Scene::moments_about says:
+  /// for consumers that take the wrench's axes and point from one frame.
+  bool child_axes_about_origin = false;
 };
 
 }  // namespace virtual_work_dynamics

@@ -58,10 +58,12 @@ set(core_test_files
   test/core/lagrange_load_test.cpp
   test/core/loop_conditions_test.cpp
   test/core/loop_kinematics_test.cpp
+  test/core/loop_moment_points_test.cpp
   test/core/loop_oracles_test.cpp
   test/core/loop_rank_test.cpp
   test/core/loop_residuals_test.cpp
   test/core/model_view_test.cpp
+  test/core/moment_points_test.cpp
   test/core/motion_completion_accuracy_test.cpp
   test/core/motion_completion_test.cpp
   test/core/motion_csv_test.cpp
