@@ -64,20 +64,22 @@ void LoopVerdict::include(const LoopVerdict& other) {
   open = std::max(open, other.open);
   if (apart == 0) worst_apart = other.worst_apart;
   apart += other.apart;
+  clear = clear && other.clear;
   residual = std::max(residual, other.residual);
   completed += other.completed;
   states += other.states;
 }
 
-LoopJudge::LoopJudge(const StabilityCase& stability_case)
-    : mechanism_(stability_case.mechanism),
-      scene_(stability_case.scene),
+LoopJudge::LoopJudge(const Mechanism& mechanism, const Scene& scene)
+    : mechanism_(mechanism),
+      scene_(scene),
       names_(namesOf(mechanism_, scene_)),
       dynamics_(mechanism_, scene_, everythingOf(names_)) {
   Motion rest(dynamics_.coordinates());
   rest.q = dynamics_.assembly();
   dynamics_.compute(rest);
   for (const Pose& pose : dynamics_.poses()) size_ = std::max(size_, pose.position.norm());
+  if (size_ == 0) size_ = 1;
   const ErrorBound bound(mechanism_, withoutLoops(scene_));
   depth_ = *std::max_element(bound.depths().begin(), bound.depths().end());
 }
@@ -85,19 +87,23 @@ LoopJudge::LoopJudge(const StabilityCase& stability_case)
 LoopComponents LoopJudge::compute(const Motion& motion) {
   dynamics_.compute(motion);
   LoopComponents components;
-  const auto put = [&](const Wrench& wrench, const Determined& determined) {
+  const auto put = [&](const Wrench& wrench, const Determined& determined,
+                       const Determined& exist) {
     for (int i = 0; i < 6; ++i) {
-      components.push_back({i < 3 ? wrench.force[i] : wrench.torque[i - 3],
-                            determined[static_cast<std::size_t>(i)]});
+      const auto place = static_cast<std::size_t>(i);
+      components.push_back(
+          {i < 3 ? wrench.force[i] : wrench.torque[i - 3], determined[place], exist[place]});
     }
   };
   for (std::size_t i = 0; i < names_.size(); ++i) {
-    put(dynamics_.rootAxes()[i], dynamics_.rootAxesDetermined()[i]);
-    put(dynamics_.childAxes()[i], dynamics_.childAxesDetermined()[i]);
+    put(dynamics_.rootAxes()[i], dynamics_.rootAxesDetermined()[i], dynamics_.rootAxesExist()[i]);
+    put(dynamics_.childAxes()[i], dynamics_.childAxesDetermined()[i],
+        dynamics_.childAxesExist()[i]);
   }
   for (Eigen::Index i = 0; i < dynamics_.effort().size(); ++i) {
-    components.push_back(
-        {dynamics_.effort()[i], dynamics_.effortDetermined()[static_cast<std::size_t>(i)]});
+    const auto place = static_cast<std::size_t>(i);
+    components.push_back({dynamics_.effort()[i], dynamics_.effortDetermined()[place],
+                          dynamics_.effortExists()[place]});
   }
   return components;
 }
@@ -126,19 +132,33 @@ LoopJudge::Exact LoopJudge::exactOf(const Motion& motion) const {
     const auto effort = oracle.effort(static_cast<int>(i));
     put({effort.value, effort.freedom, joint.type != JointType::kPrismatic});
   }
+  for (const std::string& name : dynamics_.actuatedClosures()) {
+    const auto effort = oracle.closureEffort(name);
+    put({effort.value, effort.freedom, !slides(name)});
+  }
   exact.redundancy = oracle.redundancy();
   exact.free_motions = oracle.freeMotions();
   exact.least_counted = oracle.leastCounted();
   exact.largest_left_out = oracle.largestLeftOut();
-  exact.violation = oracle.residual();
+  exact.violation = oracle.relativeResidual();
   return exact;
+}
+
+bool LoopJudge::slides(const std::string& closure) const {
+  return std::any_of(scene_.closures.begin(), scene_.closures.end(), [&](const Closure& other) {
+    return other.name == closure && other.type == ClosureType::kPrismatic;
+  });
 }
 
 std::string LoopJudge::nameOf(std::size_t component) const {
   constexpr std::array<const char*, 6> kComponents = {"fx", "fy", "fz", "tx", "ty", "tz"};
   const std::size_t wrench = component / 6, in_child_axes = wrench % 2;
   if (wrench >= 2 * names_.size()) {
-    return "effort of " + mechanism_.coordinateNames()[component - 12 * names_.size()];
+    const std::size_t effort = component - 12 * names_.size();
+    const std::size_t coordinates = mechanism_.coordinates().size();
+    return "effort of " + (effort < coordinates
+                               ? mechanism_.coordinateNames()[effort]
+                               : dynamics_.actuatedClosures()[effort - coordinates]);
   }
   return kComponents[component % 6] +
          std::string(in_child_axes ? " in child axes of " : " in root axes of ") +
@@ -161,6 +181,17 @@ long double LoopJudge::loadOf(const Motion& motion) const {
   return load;
 }
 
+long double LoopJudge::largestOf(const Exact& exact, const LoopComponents& computed) const {
+  long double largest = 0;
+  for (std::size_t i = 0; i < computed.size(); ++i) {
+    const bool turns = exact.components[i].turns;
+    if (!std::isfinite(computed[i].value)) continue;
+    largest = std::max(largest,
+                       std::abs(static_cast<long double>(computed[i].value)) / (turns ? size_ : 1));
+  }
+  return largest;
+}
+
 LoopVerdict LoopJudge::compare(const Motion& motion, const LoopComponents& computed,
                                const Determinacy& found) const {
   const Exact exact = exactOf(motion);
@@ -173,8 +204,9 @@ LoopVerdict LoopJudge::compare(const Motion& motion, const LoopComponents& compu
   verdict.components = static_cast<int>(computed.size());
   verdict.states = 1;
   compareCountsAndFlags(exact, computed, found, verdict);
+  const long double largest = std::max(exact.largest, largestOf(exact, computed));
   const long double scale =
-      4 * (depth_ + found.rank + found.redundancy) * (loadOf(motion) + exact.largest);
+      4 * (depth_ + found.rank + found.redundancy) * (loadOf(motion) + largest);
   compareValues(exact, computed, scale, lossOf(exact, found), verdict);
   return verdict;
 }
@@ -182,10 +214,9 @@ LoopVerdict LoopJudge::compare(const Motion& motion, const LoopComponents& compu
 void LoopJudge::compareCountsAndFlags(const Exact& exact, const LoopComponents& computed,
                                       const Determinacy& found, LoopVerdict& verdict) const {
   const long double tolerance = scene_.redundancy.rank_tolerance;
-  const bool clear =
-      !near(exact.least_counted, tolerance) && !near(exact.largest_left_out, tolerance);
+  verdict.clear = !near(exact.least_counted, tolerance) && !near(exact.largest_left_out, tolerance);
   const auto differs = [&](const std::string& what) {
-    if (clear && verdict.apart++ == 0) verdict.worst_apart = what;
+    if (verdict.clear && verdict.apart++ == 0) verdict.worst_apart = what;
   };
   if (found.redundancy != exact.redundancy) {
     differs("redundancy of " + std::to_string(exact.redundancy));
@@ -197,10 +228,14 @@ void LoopJudge::compareCountsAndFlags(const Exact& exact, const LoopComponents& 
     const ExactComponent& right = exact.components[i];
     if (!computed[i].determined) ++verdict.open;
     // A load that a singular position does not bear leaves more open than the null space does.
-    const bool may_be_open = found.free_motions > 0 && right.determined();
+    const bool borne = found.free_motions == 0 || exact.violation <= kBorne;
+    const bool may_be_open = !borne && right.determined();
     if (computed[i].determined != right.determined() && !may_be_open &&
         !near(right.freedom, MaximalCoordinatesOracle::kFree)) {
       differs("flag of " + nameOf(i));
+    }
+    if (!computed[i].exists && borne && (exact.free_motions == 0 || right.determined())) {
+      differs("existence of " + nameOf(i));
     }
   }
 }
@@ -270,9 +305,13 @@ void LoopJudge::complete(const Motion& motion, double limit, RandomNumbers& rand
   }
 }
 
-LoopVerdict LoopJudge::judge(const Motion& motion, RandomNumbers& random) {
+LoopVerdict LoopJudge::judgeForces(const Motion& motion) {
   const LoopComponents computed = compute(motion);
-  LoopVerdict verdict = compare(motion, computed, determinacy());
+  return compare(motion, computed, determinacy());
+}
+
+LoopVerdict LoopJudge::judge(const Motion& motion, RandomNumbers& random) {
+  LoopVerdict verdict = judgeForces(motion);
   complete(motion, 4 * kEps * (depth_ + verdict.rank + verdict.redundancy), random, verdict);
   return verdict;
 }

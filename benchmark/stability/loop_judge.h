@@ -18,6 +18,7 @@ namespace virtual_work_dynamics {
 struct LoopComponent {
   double value = 0;
   bool determined = false;
+  bool exists = true;
 };
 
 /// An effort, or a component of a reaction, with all joints cut, in long double:
@@ -30,8 +31,8 @@ struct ExactComponent {
   bool determined() const { return freedom <= MaximalCoordinatesOracle::kFree; }
 };
 
-/// All efforts, then the components of the reactions of ground, joints and closures in root axes
-/// and in axes of the child.
+/// The components of the reactions of ground, joints and closures, of each in root axes and in axes
+/// of the child, then all efforts.
 using LoopComponents = std::vector<LoopComponent>;
 using ExactComponents = std::vector<ExactComponent>;
 
@@ -39,16 +40,21 @@ using ExactComponents = std::vector<ExactComponent>;
 ///
 /// An error is compared with 4 (L + n) eps condition S. Here n is the number of unknowns of the
 /// loops and L the depth of the tree; S is the largest sum of the norms of loads (ErrorBound of the
-/// tree) plus the largest force of the exact solution, moments over the size of the mechanism. The
+/// tree) plus the largest force of the exact solution, or of the one that was chosen where many are
+/// exact, moments over the size of the mechanism. The
 /// condition that the package reports counts up to ten times the exact system's. Entries that do
 /// not count for the rank are left out of the system: the largest such pivot is added to eps. A
 /// component that null vectors change by f of a newton may also be off by f S. Where a singular
 /// position does not bear its load there are no exact values, and only counts and flags are judged.
+/// Everything exists where nothing moves freely, and in singular positions what is determined of a
+/// load that is borne.
 /// Within a factor of 100 of the tolerances of rank and flags either answer is right.
 class LoopJudge {
  public:
-  explicit LoopJudge(const StabilityCase& stability_case);
+  LoopJudge(const Mechanism& mechanism, const Scene& scene);
 
+  /// Computes and compares a state.
+  LoopVerdict judgeForces(const Motion& motion);
   /// Computes, compares and completes a state.
   /// @param random gives the error of the completion's start.
   LoopVerdict judge(const Motion& motion, RandomNumbers& random);
@@ -71,8 +77,10 @@ class LoopJudge {
     Eigen::Index redundancy = 0, free_motions = 0;
   };
   Exact exactOf(const Motion& motion) const;
+  bool slides(const std::string& closure) const;
   std::string nameOf(std::size_t component) const;
   long double loadOf(const Motion& motion) const;
+  long double largestOf(const Exact& exact, const LoopComponents& computed) const;
   long double lossOf(const Exact& exact, const Determinacy& found) const;
   void compareCountsAndFlags(const Exact& exact, const LoopComponents& computed,
                              const Determinacy& found, LoopVerdict& verdict) const;

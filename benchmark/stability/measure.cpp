@@ -71,7 +71,7 @@ Motion movedByOneUlp(const Motion& motion, InputNumbers numbers, RandomNumbers& 
 }
 
 Verdict measureLoops(const StabilityCase& stability_case, std::uint32_t seed, int count) {
-  LoopJudge judge(stability_case);
+  LoopJudge judge(stability_case.mechanism, stability_case.scene);
   RandomNumbers random(seed);
   LoopVerdict loops;
   for (int n = 0; n < count; ++n) {

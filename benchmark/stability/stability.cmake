@@ -7,6 +7,7 @@ add_executable(stability
   stability/body_sweeps.cpp
   stability/exact_results.cpp
   stability/four_bar_sweeps.cpp
+  stability/held_sweeps.cpp
   stability/kdl_efforts.cpp
   stability/linkage_sweeps.cpp
   stability/loop_judge.cpp
@@ -37,6 +38,18 @@ else()
     "liborocos-kdl-dev)")
 endif()
 
+# Closed loops of random mechanisms in which much is special.
+add_executable(structured_loops
+  command_line.cpp
+  stability/exact_results.cpp
+  stability/loop_judge.cpp
+  stability/loop_scenes.cpp
+  stability/structured_loops.cpp
+  stability/structured_loops_main.cpp)
+target_include_directories(structured_loops PRIVATE . ../src ../test/core)  # the yardstick
+target_link_libraries(structured_loops
+  PRIVATE ${PROJECT_NAME} ${VWD_REAL113_LIBRARIES} Threads::Threads ${PROJECT_NAME}_warnings)
+
 if(NOT VWD_CORE_ONLY)
-  install(TARGETS stability RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  install(TARGETS stability structured_loops RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endif()

@@ -38,6 +38,9 @@ std::vector<Sweep> balanceSweeps();
 /// Sweeps of closed loops: planar four-bars and slider-cranks near singular positions, their
 /// masses, lengths, springs and rates.
 std::vector<Sweep> fourBarSweeps();
+/// Sweeps of closures that hold the one coordinate of a mechanism, which is passive, with a lever
+/// or a slope that vanishes.
+std::vector<Sweep> heldSweeps();
 /// Sweeps of closed loops in space, and of many loops.
 std::vector<Sweep> linkageSweeps();
 

@@ -17,6 +17,9 @@ struct Request {
   /// LoopResults::effort_determined and what follows it. Which results have a value at all is
   /// always found.
   bool determinacy = true;
+  /// Moments in child axes stay about the child frame's origin, whatever Scene::moments_about says:
+  /// for consumers that take the wrench's axes and point from one frame.
+  bool child_axes_about_origin = false;
 };
 
 }  // namespace virtual_work_dynamics

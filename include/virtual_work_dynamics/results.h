@@ -9,13 +9,15 @@
 
 namespace virtual_work_dynamics {
 
-/// Force and moment that the parent exerts on the child; the moment is about the joint origin O_k.
+/// Force and moment that the parent exerts on the child; the moment is about the joint origin O_k,
+/// or about the point that Scene::moments_about gives.
 struct Wrench {
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< N m
 };
 
-/// Pose of a joint frame (the child link's frame) in the root link.
+/// Pose of a joint frame (the child link's frame) in the root link. Its position is the point that
+/// the moment of the reaction is about.
 struct Pose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< m
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< R_0K
@@ -23,7 +25,9 @@ struct Pose {
 
 /// Velocity of a joint frame in root axes.
 struct Twist {
-  Eigen::Vector3d linear = Eigen::Vector3d::Zero();   ///< velocity of the point O_k, m/s
+  /// Velocity of the child link at the point that the moment of the reaction is about, O_k as a
+  /// rule, m/s.
+  Eigen::Vector3d linear = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular = Eigen::Vector3d::Zero();  ///< rad/s
 };
 

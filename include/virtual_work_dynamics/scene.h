@@ -21,6 +21,22 @@ struct AppliedWrench {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< moment about `at`, N m
 };
 
+/// Frame of a joint or closure.
+enum class JointFrame {
+  kParent,  ///< fixed on the parent link: a joint's at its position zero, a closure's parent frame
+  kChild    ///< fixed on the child link: the child link's own, a closure's child frame
+};
+
+/// The point about which the moment of a reaction is reported instead of the child frame's origin.
+/// Its axes stay as requested.
+struct MomentPoint {
+  std::string name;  ///< a joint, fixed ones too, or a closure; each once
+  /// What the point is fixed on: a frame of the joint or closure, or the frame of any link.
+  JointFrame frame = JointFrame::kChild;
+  std::optional<std::string> link;               ///< none: `frame` counts
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< the point in that frame, m
+};
+
 /// Spring, damping, friction and rotor inertia between a joint's actuator and the mechanism. They
 /// are part of the effort that the actuator must deliver and of no reaction. Every number except
 /// `rest` is at least zero.
@@ -129,6 +145,8 @@ struct Scene {
   std::vector<std::string> reaction_names;
   /// False: the component of a reaction along the joint axis is reported as zero.
   bool include_active = true;
+  /// Moments that are reported about points of their own, of reactions that are asked for.
+  std::vector<MomentPoint> moments_about;
   bool strict_inertia = false;  ///< impossible inertias are an error rather than a doubt
   std::vector<AppliedWrench> applied_wrenches;
   std::vector<JointTerms> joints;  ///< terms of some joints, each once

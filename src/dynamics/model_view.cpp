@@ -276,6 +276,7 @@ ModelView modelView(const Mechanism& mechanism, const Scene& scene,
   Request request;
   request.efforts = false;
   request.child_axes = reactions;
+  request.child_axes_about_origin = true;  // where arrows are drawn
   const Dynamics dynamics(mechanism, moving, request);
   Motion motion(dynamics.coordinates());
   motion.q = startOf(mechanism, dynamics);

@@ -70,10 +70,12 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& of, const Scene& scene, const Re
     reach.emplace_back(mechanism, scene, loops, groups, springs, i, wanted);
   }
   close(scene);
+  const MomentPoints points(mechanism, scene);
   child_axes = std::make_unique<LoopReactions>(mechanism, scene, loops, groups, wanted.child_axes,
+                                               wanted.child_axes_about_origin ? nullptr : &points,
                                                Axes::kLink);
   root_axes = std::make_unique<LoopReactions>(mechanism, scene, loops, groups, wanted.root_axes,
-                                              Axes::kRoot);
+                                              &points, Axes::kRoot);
   first_pass = std::make_unique<InverseDynamics>(mechanism, openTreeScene(scene, springs),
                                                  effortRequest(mechanism, loops, groups));
   for (const std::string& name : first_pass->request().root_axes) {

@@ -1,5 +1,7 @@
 #include "loops/cut_tree.h"
 
+#include <algorithm>
+
 namespace virtual_work_dynamics {
 
 Scene withoutLoops(const Scene& scene) {
@@ -11,6 +13,12 @@ Scene withoutLoops(const Scene& scene) {
   tree.redundancy = {};
   tree.reactions = ReactionSelection::kNone;
   tree.reaction_names.clear();
+  const auto ofClosure = [&](const MomentPoint& point) {
+    return std::any_of(scene.closures.begin(), scene.closures.end(),
+                       [&](const Closure& closure) { return closure.name == point.name; });
+  };
+  std::vector<MomentPoint>& points = tree.moments_about;
+  points.erase(std::remove_if(points.begin(), points.end(), ofClosure), points.end());
   return tree;
 }
 
@@ -37,6 +45,7 @@ Scene withSprings(const Scene& scene, const PointSprings& springs) {
 Scene openTreeScene(const Scene& scene, const PointSprings& springs) {
   Scene tree = withSprings(scene, springs);
   tree.include_active = true;
+  tree.moments_about.clear();  // reactions of the open tree are about the joints' origins
   return tree;
 }
 
@@ -61,6 +70,7 @@ bool isClosure(const Mechanism& mechanism, const std::string& name) {
 Request treeRequest(const Mechanism& mechanism, const Request& request) {
   Request tree;
   tree.efforts = request.efforts;
+  tree.child_axes_about_origin = request.child_axes_about_origin;
   tree.child_axes = withoutClosures(mechanism, request.child_axes);
   tree.root_axes = withoutClosures(mechanism, request.root_axes);
   return tree;

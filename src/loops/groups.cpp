@@ -7,6 +7,10 @@ namespace virtual_work_dynamics {
 
 namespace {
 
+// Of the distance of its origins from the root, the least that counts as the size of a loop: with
+// the default tolerance of the rank, some ten rounding errors of their positions are then no gap.
+constexpr double kLeastShare = 1e-4;
+
 int rootOf(const std::vector<int>& leaders, int i) {
   while (leaders[static_cast<std::size_t>(i)] != i) i = leaders[static_cast<std::size_t>(i)];
   return i;
@@ -76,7 +80,7 @@ std::vector<LoopGroup> loopGroups(const Mechanism& mechanism, const LoopKinemati
 }
 
 double loopLength(const std::vector<LoopGroup>& groups, const LoopKinematics& kinematics) {
-  double longest = 0;
+  double longest = 0, farthest = 0;
   for (const LoopGroup& group : groups) {
     std::vector<Eigen::Vector3d> origins;
     for (const LoopGroup::CrossedJoint& crossed : group.joints) {
@@ -87,10 +91,11 @@ double loopLength(const std::vector<LoopGroup>& groups, const LoopKinematics& ki
       origins.push_back(kinematics.childOrigin(c));
     }
     for (const Eigen::Vector3d& a : origins) {
+      farthest = std::max(farthest, a.norm());
       for (const Eigen::Vector3d& b : origins) longest = std::max(longest, (a - b).norm());
     }
   }
-  return longest > 0 ? longest : 1;
+  return farthest > 0 ? std::max(longest, kLeastShare * farthest) : 1;
 }
 
 }  // namespace virtual_work_dynamics

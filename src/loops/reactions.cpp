@@ -18,12 +18,12 @@ namespace {
 // sums of squares.
 constexpr double kLeastSpan = 1e-6;
 
-void addSquares(const ClosureWrench& wrench, const LoopForces& forces,
+// Adds the squares of a change's components; moments are divided by `length`.
+void addSquares(const ClosureWrench& wrench, double least, double length,
                 std::array<double, 6>& sums) {
-  const double least = forces.leastChange();
   for (int i = 0; i < 3; ++i) {
     const double force = wrench.force[i] / least;
-    const double moment = wrench.moment[i] / (forces.length() * least);
+    const double moment = wrench.moment[i] / (length * least);
     sums[static_cast<std::size_t>(i)] += force * force;
     sums[static_cast<std::size_t>(i) + 3] += moment * moment;
   }
@@ -33,7 +33,8 @@ void addSquares(const ClosureWrench& wrench, const LoopForces& forces,
 
 LoopReactions::LoopReactions(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
                              const std::vector<LoopGroup>& groups,
-                             const std::vector<std::string>& names, Axes axes)
+                             const std::vector<std::string>& names, const MomentPoints* points,
+                             Axes axes)
     : child_axes_(axes == Axes::kLink) {
   std::unordered_map<std::string, std::size_t> closures;
   for (const Closure& closure : scene.closures) closures.emplace(closure.name, closures.size());
@@ -51,6 +52,7 @@ LoopReactions::LoopReactions(const Mechanism& mechanism, const Scene& scene, con
     } else {
       failAtUnknown(mechanism, scene, name, entryOf("reactions", i));
     }
+    if (points) setPoint(*points, items_.back());
   }
   addChanges(groups);
   freedoms_.resize(names.size());
@@ -80,6 +82,14 @@ LoopReactions::Item LoopReactions::itemOfJoint(const Mechanism& mechanism, const
   return item;
 }
 
+void LoopReactions::setPoint(const MomentPoints& points, Item& item) {
+  const LinkPoint* const point = item.closure >= 0
+                                     ? points.ofClosure(static_cast<std::size_t>(item.closure))
+                                     : points.ofJoint(item.joint);
+  if (!point) return;
+  item.point = {point->link, Eigen::Matrix3d::Identity(), point->p_LoPo_L.cast<double>()};
+}
+
 void LoopReactions::addChanges(const std::vector<LoopGroup>& groups) {
   changes_.resize(groups.size());
   changes_of_.resize(groups.size());
@@ -103,17 +113,35 @@ void LoopReactions::addChanges(const std::vector<LoopGroup>& groups) {
   }
 }
 
-// Turns a wrench in root axes into the one that is reported.
+Eigen::Vector3d LoopReactions::originOf(const LoopKinematics& kinematics, const Item& item) {
+  return item.closure >= 0 ? kinematics.childOrigin(static_cast<std::size_t>(item.closure))
+                           : kinematics.originOf(item.joint + 1);
+}
+
+// The vector to the child frame's origin from the point that an item's moment is about, root axes.
+Eigen::Vector3d LoopReactions::leverOf(const LoopKinematics& kinematics, const Item& item) {
+  return originOf(kinematics, item) - kinematics.links().originOf(*item.point);
+}
+
+// Takes away what is not reported of a wrench in root axes, about the child frame's origin.
+ClosureWrench LoopReactions::borne(const LoopKinematics& kinematics, const Item& item,
+                                   ClosureWrench wrench) {
+  if (!item.drops_active) return wrench;
+  const Eigen::Vector3d axis = item.closure >= 0
+                                   ? kinematics.freeAxis(static_cast<std::size_t>(item.closure))
+                                   : kinematics.axisOf(item.joint);
+  Eigen::Vector3d& active = activePart(item.active, wrench);
+  active -= axis.dot(active) * axis;
+  return wrench;
+}
+
+// Turns a wrench in root axes, about the child frame's origin, into the one that is reported.
 ClosureWrench LoopReactions::reported(const LoopKinematics& kinematics, const Item& item,
                                       ClosureWrench wrench) const {
   const bool of_closure = item.closure >= 0;
   const std::size_t c = static_cast<std::size_t>(item.closure);
-  if (item.drops_active) {
-    const Eigen::Vector3d axis =
-        of_closure ? kinematics.freeAxis(c) : kinematics.axisOf(item.joint);
-    Eigen::Vector3d& active = activePart(item.active, wrench);
-    active -= axis.dot(active) * axis;
-  }
+  wrench = borne(kinematics, item, wrench);
+  if (item.point) wrench.moment += leverOf(kinematics, item).cross(wrench.force);
   if (!child_axes_) return wrench;
   const Eigen::Matrix3d R =
       of_closure ? kinematics.childAxes(c) : kinematics.axesOf(item.joint + 1);
@@ -140,10 +168,13 @@ void LoopReactions::setPoses(const LoopKinematics& kinematics, const std::vector
   std::size_t of_tree = 0;
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const std::size_t c = static_cast<std::size_t>(items_[i].closure);
-    poses[i] = items_[i].closure < 0
-                   ? tree[of_tree++]
-                   : Pose{kinematics.childOrigin(c),
-                          Eigen::Quaterniond(kinematics.childAxes(c)).normalized()};
+    if (items_[i].closure < 0) {
+      poses[i] = tree[of_tree++];
+      continue;
+    }
+    poses[i] = {
+        items_[i].point ? kinematics.links().originOf(*items_[i].point) : kinematics.childOrigin(c),
+        Eigen::Quaterniond(kinematics.childAxes(c)).normalized()};
   }
 }
 
@@ -152,7 +183,13 @@ void LoopReactions::setTwists(const LoopKinematics& kinematics, const std::vecto
   std::size_t of_tree = 0;
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const std::size_t c = static_cast<std::size_t>(items_[i].closure);
-    twists[i] = items_[i].closure < 0 ? tree[of_tree++] : kinematics.childTwist(c);
+    if (items_[i].closure < 0) {
+      twists[i] = tree[of_tree++];
+      continue;
+    }
+    twists[i] = kinematics.childTwist(c);
+    if (!items_[i].point) continue;
+    twists[i].linear += leverOf(kinematics, items_[i]).cross(twists[i].angular);
   }
 }
 
@@ -160,33 +197,25 @@ void LoopReactions::reset() {
   for (auto& freedom : freedoms_) freedom.fill(0);
 }
 
-// Calls visit(item, wrench) for each item that the change touches.
+// Calls visit(item, wrench) for each item that the change touches, with the change of its wrench in
+// root axes, about the child frame's origin.
 template <typename Visit>
-void LoopReactions::visitChanged(const LoopKinematics& kinematics, std::size_t group,
-                                 const LoopForces& forces, const LoopForces::State& change,
-                                 Visit visit) {
+void LoopReactions::visitChanged(std::size_t group, const LoopForces& forces,
+                                 const LoopForces::State& change, Visit visit) {
   ++calls_;
   for (const std::size_t closure : change.touched_closures) {
     for (const std::size_t i : changes_of_[group][closure]) {
       Change& item = changes_[group][i];
       if (item.counted == calls_) continue;
       item.counted = calls_;
-      visit(item.item, reported(kinematics, items_[item.item],
-                                item.crossed ? forces.jointWrench(*item.crossed, change)
-                                             : change.closures[item.closure]));
+      visit(item.item, item.crossed ? forces.jointWrench(*item.crossed, change)
+                                    : change.closures[item.closure]);
     }
   }
 }
 
-void LoopReactions::addChange(const LoopKinematics& kinematics, std::size_t group,
-                              const LoopForces& forces, const LoopForces::State& change) {
-  visitChanged(kinematics, group, forces, change,
-               [&](std::size_t item, const ClosureWrench& wrench) {
-                 addSquares(wrench, forces, freedoms_[item]);
-               });
-}
-
-// Calls visit(item, wrench) with the unit effort of each joint of the group that moves freely.
+// Calls visit(item, wrench) as visitChanged() does, with the unit effort of each joint of the group
+// that moves freely.
 template <typename Visit>
 void LoopReactions::visitUnborne(const LoopKinematics& kinematics, std::size_t group,
                                  const LoopForces& forces, Visit visit) {
@@ -200,21 +229,38 @@ void LoopReactions::visitUnborne(const LoopKinematics& kinematics, std::size_t g
     ClosureWrench wrench;
     activePart(item.active, wrench) =
         effortScaleOf(item.active, forces.length()) * kinematics.axisOf(item.joint);
-    visit(change.item, reported(kinematics, item, wrench));
+    visit(change.item, wrench);
   }
+}
+
+// Rounding errors of a force make errors of its moment that grow with the lever, so that changes of
+// the moment count relative to that.
+void LoopReactions::addChangeOf(const LoopKinematics& kinematics, std::size_t item,
+                                const LoopForces& forces, const ClosureWrench& wrench) {
+  double length = forces.length();
+  if (items_[item].point) length = std::max(length, leverOf(kinematics, items_[item]).norm());
+  addSquares(reported(kinematics, items_[item], wrench), forces.leastChange(), length,
+             freedoms_[item]);
+}
+
+void LoopReactions::addChange(const LoopKinematics& kinematics, std::size_t group,
+                              const LoopForces& forces, const LoopForces::State& change) {
+  visitChanged(group, forces, change, [&](std::size_t item, const ClosureWrench& wrench) {
+    addChangeOf(kinematics, item, forces, wrench);
+  });
 }
 
 void LoopReactions::addUnborne(const LoopKinematics& kinematics, std::size_t group,
                                const LoopForces& forces) {
   visitUnborne(kinematics, group, forces, [&](std::size_t item, const ClosureWrench& wrench) {
-    addSquares(wrench, forces, freedoms_[item]);
+    addChangeOf(kinematics, item, forces, wrench);
   });
 }
 
 void LoopReactions::addUnborneSpan(const LoopKinematics& kinematics, std::size_t group,
                                    const LoopForces& forces) {
   visitUnborne(kinematics, group, forces, [&](std::size_t item, const ClosureWrench& wrench) {
-    addSpanOf(item, forces, wrench);
+    addSpanOf(kinematics, item, forces, wrench);
   });
 }
 
@@ -224,16 +270,18 @@ void LoopReactions::resetSpans() {
 
 void LoopReactions::addSpan(const LoopKinematics& kinematics, std::size_t group,
                             const LoopForces& forces, const LoopForces::State& change) {
-  visitChanged(
-      kinematics, group, forces, change,
-      [&](std::size_t item, const ClosureWrench& wrench) { addSpanOf(item, forces, wrench); });
+  visitChanged(group, forces, change, [&](std::size_t item, const ClosureWrench& wrench) {
+    addSpanOf(kinematics, item, forces, wrench);
+  });
 }
 
-void LoopReactions::addSpanOf(std::size_t item, const LoopForces& forces,
-                              const ClosureWrench& wrench) {
+// The dimension depends neither on axes nor on the point of moments.
+void LoopReactions::addSpanOf(const LoopKinematics& kinematics, std::size_t item,
+                              const LoopForces& forces, const ClosureWrench& wrench) {
+  const ClosureWrench change = borne(kinematics, items_[item], wrench);
   const double scale = std::min(1.0, kLeastSpan / (10 * forces.leastChange()));
   Eigen::Matrix<double, 6, 1> entries;
-  entries << scale * wrench.force, scale / forces.length() * wrench.moment;
+  entries << scale * change.force, scale / forces.length() * change.moment;
   spans_[item] += entries * entries.transpose();
 }
 

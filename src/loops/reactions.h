@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "loops/forces.h"
 #include "loops/kinematics.h"
+#include "scene/moment_points.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/results.h"
 #include "virtual_work_dynamics/scene.h"
@@ -16,18 +18,20 @@ namespace virtual_work_dynamics {
 class LoopReactions {
  public:
   /// @param groups must outlive it and its copies
+  /// @param points of moments; none: all moments are about the child frames' origins
   /// @param axes those in which reactions are reported
   /// @throws SceneError for a name that is neither a joint nor a closure, or that is given twice.
   LoopReactions(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
                 const std::vector<LoopGroup>& groups, const std::vector<std::string>& names,
-                Axes axes);
+                const MomentPoints* points, Axes axes);
 
   /// Sets the reactions.
   /// @param tree those of joints and ground, in the order of treeRequest()
   /// @param closures by closure
   void setValues(const LoopKinematics& kinematics, const std::vector<Wrench>& tree,
                  const std::vector<ClosureWrench>& closures, std::vector<Wrench>& values) const;
-  /// Sets the poses of the joints' frames and of the closures' child frames.
+  /// Sets the poses of the joints' frames and of the closures' child frames, at the points of their
+  /// moments.
   /// @param tree those of joints and ground, in the order of treeRequest()
   void setPoses(const LoopKinematics& kinematics, const std::vector<Pose>& tree,
                 std::vector<Pose>& poses) const;
@@ -64,6 +68,7 @@ class LoopReactions {
     int closure = -1;             ///< -1 for what the tree has
     Unit active = Unit::kRadian;  ///< what its motion about or along its axis measures
     bool drops_active = false;
+    std::optional<LinkKinematics::Frame> point;  ///< of the moment, where it is not the origin
   };
   /// An item that a group of loops can change.
   struct Change {
@@ -73,15 +78,23 @@ class LoopReactions {
     std::size_t counted = 0;                 ///< number of the change that was visited last
   };
   template <typename Visit>
-  void visitChanged(const LoopKinematics& kinematics, std::size_t group, const LoopForces& forces,
-                    const LoopForces::State& change, Visit visit);
+  void visitChanged(std::size_t group, const LoopForces& forces, const LoopForces::State& change,
+                    Visit visit);
+  static void setPoint(const MomentPoints& points, Item& item);
   static Item itemOfClosure(const Scene& scene, const LoopScene& loops, std::size_t closure);
   static Item itemOfJoint(const Mechanism& mechanism, const Scene& scene, const std::string& name);
+  static Eigen::Vector3d originOf(const LoopKinematics& kinematics, const Item& item);
+  static Eigen::Vector3d leverOf(const LoopKinematics& kinematics, const Item& item);
   template <typename Visit>
   void visitUnborne(const LoopKinematics& kinematics, std::size_t group, const LoopForces& forces,
                     Visit visit);
-  void addSpanOf(std::size_t item, const LoopForces& forces, const ClosureWrench& wrench);
+  void addSpanOf(const LoopKinematics& kinematics, std::size_t item, const LoopForces& forces,
+                 const ClosureWrench& wrench);
   void addChanges(const std::vector<LoopGroup>& groups);
+  static ClosureWrench borne(const LoopKinematics& kinematics, const Item& item,
+                             ClosureWrench wrench);
+  void addChangeOf(const LoopKinematics& kinematics, std::size_t item, const LoopForces& forces,
+                   const ClosureWrench& wrench);
   ClosureWrench reported(const LoopKinematics& kinematics, const Item& item,
                          ClosureWrench wrench) const;
 

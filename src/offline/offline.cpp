@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "offline/certified_rows.h"
 #include "offline/check_report.h"
 #include "offline/completed_motion.h"
@@ -111,6 +112,24 @@ void printReactions(const Request& request) {
   std::cout << std::flush;  // before an error goes to the other stream
 }
 
+std::string placeOf(const MomentPoint& point) {
+  const std::string frame =
+      point.link ? "link " + printable(*point.link)
+                 : std::string(point.frame == JointFrame::kParent ? "parent" : "child") + " frame";
+  return printable(point.name) + ": " + frame + " at " + numberText(point.at.x()) + " " +
+         numberText(point.at.y()) + " " + numberText(point.at.z());
+}
+
+// Of reactions that are asked for.
+void printMomentPoints(const Scene& scene, const Request& request) {
+  const Names& asked = request.child_axes.empty() ? request.root_axes : request.child_axes;
+  Names places;
+  for (const MomentPoint& point : scene.moments_about) {
+    if (std::count(asked.begin(), asked.end(), point.name) > 0) places.push_back(placeOf(point));
+  }
+  if (!places.empty()) printNames(std::cout, "moments about", places);
+}
+
 void printMotion(const MotionFile& motion) {
   const std::vector<double>& times = motion.table.times;
   const auto extremes = std::minmax_element(times.begin(), times.end());
@@ -152,6 +171,7 @@ void check(const Arguments& arguments, const Mechanism& mechanism) {
     std::cout << "warning: " << doubt << "\n";
   }
   printReactions(dynamics.request());
+  printMomentPoints(scene, dynamics.request());
   if (!arguments.motion.empty()) checkMotion(arguments, mechanism, scene, dynamics);
   std::cout << "The robot can run.\n" << std::flush;
 }

@@ -398,6 +398,7 @@ Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
 Request requestFor(const Outputs& outputs, const Audience& audience) {
   Request request;
   request.efforts = request.determinacy = false;
+  request.child_axes_about_origin = true;  // a WrenchStamped is about the origin of its frame
   for (const std::size_t i : audience) outputs[i]->addTo(request);
   return request;
 }

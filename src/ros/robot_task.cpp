@@ -57,7 +57,10 @@ Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const s
     throw UrdfError("parameter " + key + ": robot " + inQuotes(mechanism.name()) +
                     " has no joint that moves");
   }
-  return Dynamics(mechanism, scene);
+  Request request;
+  request.child_axes = request.root_axes = requestedReactions(mechanism, scene);
+  request.child_axes_about_origin = true;  // see requestFor()
+  return Dynamics(mechanism, scene, request);
 }
 
 }  // namespace

@@ -12,12 +12,13 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-const Names kSceneKeys = {"gravity",        "motion",           "reactions", "include_active",
-                          "strict_inertia", "applied_wrenches", "joints",    "use_urdf_dynamics",
-                          "tolerances"};
+const Names kSceneKeys = {
+    "gravity",        "motion",           "reactions", "include_active",    "moments_about",
+    "strict_inertia", "applied_wrenches", "joints",    "use_urdf_dynamics", "tolerances"};
 // Bytes, beyond those of the most values that a scene may have.
 constexpr std::size_t kLongestScene = std::size_t{64} << 20;
 const Names kWrenchKeys = {"link", "at", "axes", "force", "torque"};
+const Names kMomentKeys = {"name", "frame", "link", "at"};
 const Names kToleranceKeys = {"mass", "inertia"};
 const Names kJointKeys = {"name",    "stiffness",        "rest",         "damping",
                           "coulomb", "coulomb_velocity", "rotor_inertia"};
@@ -48,6 +49,26 @@ AppliedWrench readAppliedWrench(const YAML::Node& node, const std::string& where
   });
   if (wrench.link.empty()) failAt(where, "names no link");
   return wrench;
+}
+
+MomentPoint readMomentPoint(const YAML::Node& node, const std::string& where) {
+  MomentPoint point;
+  bool has_frame = false;
+  readMap(node, where, kMomentKeys, [&](const auto& key, const auto& value, const auto& path) {
+    if (key == "name") point.name = scalarText(value, path, "the name of a joint or closure");
+    if (key == "frame") {
+      const bool parent = readWord(value, path, {"parent", "child"}) == 0;
+      point.frame = parent ? JointFrame::kParent : JointFrame::kChild;
+      has_frame = true;
+    }
+    if (key == "link") point.link = scalarText(value, path, "a link's name");
+    if (key == "at") point.at = readVector3(value, path);
+  });
+  if (point.name.empty()) failAt(where, "names no joint or closure");
+  if (has_frame && point.link) {
+    failAt(where, "has both frame and link; one of them says where the point is fixed");
+  }
+  return point;
 }
 
 JointTerms readJointTerms(const YAML::Node& node, const std::string& where) {
@@ -95,6 +116,7 @@ void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
   if (key == "motion") scene.static_motion = readWord(value, key, {"full", "static"}) == 1;
   if (key == "reactions") readReactions(value, scene);
   if (key == "include_active") scene.include_active = readBool(value, key);
+  if (key == "moments_about") scene.moments_about = readList(value, key, readMomentPoint);
   if (key == "strict_inertia") scene.strict_inertia = readBool(value, key);
   if (key == "applied_wrenches") scene.applied_wrenches = readList(value, key, readAppliedWrench);
   if (key == "joints") scene.joints = readList(value, key, readJointTerms);

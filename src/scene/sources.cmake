@@ -5,6 +5,7 @@ vwd_core(
   joint_terms.cpp
   load.cpp
   lookup.cpp
+  moment_points.cpp
   resolved_loops.cpp
   scene.cpp
   scene_reader.cpp

@@ -4,6 +4,7 @@
 
 #include "scene/input_checks.h"
 #include "scene/joint_terms.h"
+#include "scene/moment_points.h"
 #include "tree/exact_products.h"
 #include "tree/plan_reduction.h"
 #include "virtual_work_dynamics/error.h"
@@ -107,6 +108,7 @@ class Compiler {
     makeBodies();
     addInertias();
     addOutputs();
+    addMovedMoments();
     addApplied();
     addActuators();
     // Departs from (3.6): gravity, a vector, becomes an acceleration of the root link.
@@ -229,6 +231,42 @@ class Compiler {
   void addOutputs() {
     for (const int link : child_axes_links_) plan_.child_axes.push_back(output(link));
     for (const int link : root_axes_links_) plan_.root_axes.push_back(output(link));
+  }
+
+  void addMovedMoments() {
+    const MomentPoints points(mechanism_, scene_);
+    const auto add = [&](const std::vector<int>& links, bool in_root_axes) {
+      for (std::size_t i = 0; i < links.size(); ++i) {
+        const LinkPoint* point = links[i] > 0 ? points.ofJoint(links[i] - 1) : nullptr;
+        if (!point) continue;
+        const Placement& place = places_[point->link];
+        MovedMoment<Real> moved;
+        moved.output = static_cast<int>(i);
+        moved.in_root_axes = in_root_axes;
+        moved.p_ZoPo_Z = plain(exactProduct(place.p_ZoLo_Z, place.R_ZL, point->p_LoPo_L));
+        moved.steps_begin = static_cast<int>(plan_.point_steps.size());
+        addPointSteps(place.body, places_[links[i]].body);
+        moved.steps_end = static_cast<int>(plan_.point_steps.size());
+        plan_.moved.push_back(moved);
+      }
+    };
+    if (!request_.child_axes_about_origin) add(child_axes_links_, false);
+    add(root_axes_links_, true);
+  }
+
+  // The way between two bodies leads through the last body that carries both.
+  void addPointSteps(int from, int to) {
+    std::vector<PointStep> down;
+    while (from != to) {
+      int& later = from > to ? from : to;
+      if (&later == &to) {
+        down.push_back({to, true});
+      } else {
+        plan_.point_steps.push_back({from, false});
+      }
+      later = plan_.bodies[later].parent;
+    }
+    plan_.point_steps.insert(plan_.point_steps.end(), down.rbegin(), down.rend());
   }
 
   void addApplied() {

@@ -32,6 +32,7 @@ struct PlanUse {
   bool geared_angles = false;  ///< some joint that turns is not moved one to one
   int wrenches = 0;  ///< number of the bodies' wrenches and of the partial sums behind them
   std::vector<Carry> carries;
+  std::vector<PointStep> point_steps;
   std::vector<int> zero_efforts;  ///< coordinates that no wrench reaches
   LeftOut left_out;
 };
@@ -45,6 +46,7 @@ struct Plan : PlanUse {
   std::vector<JointPosition<T>> slides;
   std::vector<ReactionOutput<T>> child_axes;
   std::vector<ReactionOutput<T>> root_axes;
+  std::vector<MovedMoment<T>> moved;
   std::vector<AppliedOutside<T>> applied;
   std::vector<ActuatorTerms<T>> actuators;
 };

@@ -39,6 +39,7 @@ class Reduction {
 
   void run() {
     markWrenches();
+    markPointSteps();
     markPoses();
     markMotions();
     noteOmissions();
@@ -90,6 +91,20 @@ class Reduction {
     }
   }
 
+  // The moment of a wrench that is zero is zero about every point.
+  void markPointSteps() {
+    std::vector<MovedMoment<Real>> kept;
+    for (const MovedMoment<Real>& moved : plan_.moved) {
+      const auto& outputs = moved.in_root_axes ? plan_.root_axes : plan_.child_axes;
+      if (outputs[moved.output].body < 0) continue;
+      kept.push_back(moved);
+      for (int i = moved.steps_begin; i < moved.steps_end; ++i) {
+        bodies_[plan_.point_steps[i].body].bears_point = true;
+      }
+    }
+    plan_.moved = std::move(kept);
+  }
+
   void needPose(int body) {
     plan_.any_pose = true;
     // Where a pose is needed already, those of the ancestors are.
@@ -115,7 +130,7 @@ class Reduction {
   }
 
   static bool used(const Body<Real>& body) {
-    return body.wrench_needed || body.motion_needed || body.pose_needed;
+    return body.wrench_needed || body.motion_needed || body.pose_needed || body.bears_point;
   }
 
   void noteOmissions() {
@@ -153,6 +168,7 @@ class Reduction {
         if (output.body >= 0) output.body = renumbered[output.body];
       }
     }
+    for (PointStep& step : plan_.point_steps) step.body = renumbered[step.body];
     for (auto& applied : plan_.applied) {
       if (applied.body >= 0) applied.body = renumbered[applied.body];
     }
@@ -183,7 +199,7 @@ class Reduction {
   // The position of a joint matters to its body's pose, to what its wrench adds to its parent's,
   // and to the gamma that arrives from its parent.
   bool positionMatters(const Body<Real>& body) const {
-    if (body.pose_needed) return true;
+    if (body.pose_needed || body.bears_point) return true;
     if (body.wrench_needed && bodies_[body.parent].wrench_needed) return true;
     if (!body.motion_needed) return false;
     if (!body.parent_rests) return true;

@@ -63,6 +63,12 @@ ReactionOutput<T> rounded(const ReactionOutput<Real>& from) {
 }
 
 template <typename T>
+MovedMoment<T> rounded(const MovedMoment<Real>& from) {
+  return {from.output, from.in_root_axes, from.steps_begin, from.steps_end,
+          rounded<T>(from.p_ZoPo_Z)};
+}
+
+template <typename T>
 AppliedOutside<T> rounded(const AppliedOutside<Real>& from) {
   return {from.body, from.in_root_axes, rounded<T>(from.R_ZL), rounded<T>(from.p_ZoA_Z),
           rounded<T>(from.given)};
@@ -93,6 +99,7 @@ Plan<T> roundPlan(const Plan<Real>& from) {
   plan.slides = roundedAll<T>(from.slides);
   plan.child_axes = roundedAll<T>(from.child_axes);
   plan.root_axes = roundedAll<T>(from.root_axes);
+  plan.moved = roundedAll<T>(from.moved);
   plan.applied = roundedAll<T>(from.applied);
   plan.actuators = roundedAll<T>(from.actuators);
   return plan;
@@ -106,6 +113,8 @@ PlanView<T> viewOf(const Plan<T>& plan) {
   view.slides = plan.slides.data();
   view.child_axes = plan.child_axes.data();
   view.root_axes = plan.root_axes.data();
+  view.moved = plan.moved.data();
+  view.point_steps = plan.point_steps.data();
   view.applied = plan.applied.data();
   view.actuators = plan.actuators.data();
   view.carries = plan.carries.data();
@@ -115,6 +124,7 @@ PlanView<T> viewOf(const Plan<T>& plan) {
   view.slide_count = static_cast<int>(plan.slides.size());
   view.child_axes_count = static_cast<int>(plan.child_axes.size());
   view.root_axes_count = static_cast<int>(plan.root_axes.size());
+  view.moved_count = static_cast<int>(plan.moved.size());
   view.applied_count = static_cast<int>(plan.applied.size());
   view.actuator_count = static_cast<int>(plan.actuators.size());
   view.zero_effort_count = static_cast<int>(plan.zero_efforts.size());

@@ -41,6 +41,7 @@ struct BodyUse {
   bool motion_needed = false;
   bool wrench_needed = false;
   bool pose_needed = false;      ///< R_0Z and p_0
+  bool bears_point = false;      ///< its position says where the point of a moment is
   bool wrench_outlives = false;  ///< the sum of (3.8) is read again after the sweep
   bool has_inertia = false;
 
@@ -135,6 +136,22 @@ struct ReactionOutput {
   int row[3] = {0, 1, 2};
   T sign[3] = {T(1), T(1), T(1)};
   bool drop_active = false;  ///< the component along the joint axis is reported as zero
+};
+
+/// A step on the way from the body that a point is fixed on to the one whose reaction is reported.
+struct PointStep {
+  int body = 0;
+  bool down = false;  ///< from its parent to the body; else from the body to its parent
+};
+
+/// A reaction whose moment is reported about a point other than O_k.
+template <typename T>
+struct MovedMoment {
+  int output = -1;            ///< index into Plan::root_axes or Plan::child_axes
+  bool in_root_axes = false;  ///< which of them
+  int steps_begin = 0;        ///< range of Plan::point_steps
+  int steps_end = 0;          ///<
+  Vec3<T> p_ZoPo_Z{};         ///< the point in the body that it is fixed on, m
 };
 
 /// Where an applied wrench acts; its force and torque live with the caller.

@@ -8,11 +8,14 @@ set(stability_scenes
   benchmark/stability/body_sweeps.cpp
   benchmark/stability/exact_results.cpp
   benchmark/stability/four_bar_sweeps.cpp
+  benchmark/stability/held_sweeps.cpp
   benchmark/stability/linkage_sweeps.cpp
   benchmark/stability/loop_judge.cpp
+  benchmark/stability/loop_scenes.cpp
   benchmark/stability/mechanism_maker.cpp
   benchmark/stability/motion_sweeps.cpp
   benchmark/stability/structure_sweeps.cpp
+  benchmark/stability/structured_loops.cpp
   benchmark/stability/sweeps.cpp
   benchmark/stability/worst_certificates.cpp)
 set(core_test_files
@@ -55,10 +58,12 @@ set(core_test_files
   test/core/lagrange_load_test.cpp
   test/core/loop_conditions_test.cpp
   test/core/loop_kinematics_test.cpp
+  test/core/loop_moment_points_test.cpp
   test/core/loop_oracles_test.cpp
   test/core/loop_rank_test.cpp
   test/core/loop_residuals_test.cpp
   test/core/model_view_test.cpp
+  test/core/moment_points_test.cpp
   test/core/motion_completion_accuracy_test.cpp
   test/core/motion_completion_test.cpp
   test/core/motion_csv_test.cpp
@@ -116,6 +121,7 @@ set(core_test_files
   test/core/stream_learner_test.cpp
   test/core/stream_smoother_test.cpp
   test/core/stream_surprise_test.cpp
+  test/core/structured_loops_test.cpp
   test/core/summation_test.cpp
   test/core/table_law_test.cpp
   test/core/trajectory_curve_test.cpp

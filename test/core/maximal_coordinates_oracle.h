@@ -53,6 +53,11 @@ class MaximalCoordinates {
                        mechanism.linkIndex(closure.child.link), frame.o, frame.R});
     }
     for (const Cut& cut : cuts_) length_ = std::max(length_, (cut.o - bodies_.origin(0)).norm());
+    for (std::size_t i = 0; i < mechanism.links().size(); ++i) {
+      length_ =
+          std::max(length_, (bodies_.centreOfMass(static_cast<int>(i)) - bodies_.origin(0)).norm());
+    }
+    if (length_ == 0) length_ = 1;
     addBalances();
     for (std::size_t c = 0; c < scene.closures.size(); ++c) addFreeDirections(c);
     addPassiveCoordinates(motion);
@@ -69,6 +74,11 @@ class MaximalCoordinates {
   Real largestLeftOut() const { return largest_left_out_; }
   /// The largest violation of an equation by the solution, relative to the largest load or 1 N.
   Real residual() const { return violation(x_); }
+  /// That violation relative to the largest load however small it is; 0 without loads.
+  Real relativeResidual() const {
+    const Real load = b_.cwiseAbs().maxCoeff();
+    return load == 0 ? Real(0) : (G_ * x_ - b_).cwiseAbs().maxCoeff() / load;
+  }
 
   struct Reaction {
     Vector6 wrench;  ///< force, moment; one of many solutions where it is not determined
@@ -80,6 +90,15 @@ class MaximalCoordinates {
   /// The reaction in axes of the child link or of a closure's child frame.
   Reaction childAxes(const std::string& name) const {
     return reaction(name, cuts_[indexOf(name)].R.transpose());
+  }
+
+  /// The reaction in root axes, or in child axes, with its moment about another point, root axes.
+  Reaction rootAxesAbout(const std::string& name, const Vector3l& point) const {
+    return reaction(name, Matrix3l::Identity(), cuts_[indexOf(name)].o - point);
+  }
+  Reaction childAxesAbout(const std::string& name, const Vector3l& point) const {
+    const Cut& cut = cuts_[indexOf(name)];
+    return reaction(name, cut.R.transpose(), cut.o - point);
   }
 
   /// Whether a component in root axes is determined by the criterion of M. Wojtyra, "Joint reaction
@@ -321,7 +340,9 @@ class MaximalCoordinates {
     return {row.dot(x_) + terms, free <= kFree, free / row.norm()};
   }
 
-  Reaction reaction(const std::string& name, const Matrix3l& axes) const {
+  // `lever` leads to the point of the unknown moment from that of the moment that is wanted.
+  Reaction reaction(const std::string& name, const Matrix3l& axes,
+                    const Vector3l& lever = Vector3l::Zero()) const {
     const Eigen::Index first = at(indexOf(name));
     Reaction reaction;
     for (int i = 0; i < 6; ++i) {
@@ -329,6 +350,10 @@ class MaximalCoordinates {
       Vector row = Vector::Zero(G_.cols());
       row.template segment<3>(first + (moment ? 3 : 0)) =
           axes.row(i % 3).transpose().template cast<Real>();
+      if (moment) {
+        const Vector3l axis = axes.row(i % 3).transpose();
+        row.template segment<3>(first) = (axis.cross(lever) / length_).template cast<Real>();
+      }
       reaction.wrench[i] = row.dot(x_) * static_cast<Real>(moment ? length_ : 1);
       reaction.freedom[static_cast<std::size_t>(i)] = freedom(row);
       reaction.determined[static_cast<std::size_t>(i)] = freedom(row) <= kFree;

@@ -15,6 +15,10 @@ constexpr double kRounding = 2e-15;
 // digits.
 constexpr double kFormalisms = 1e-12;
 
+constexpr char kPoints[] =
+    "moments_about: [{name: wrist, frame: parent, at: [0, 0, 0.1]}, "
+    "{name: pin, link: base, at: [0.1, 0, 0.2]}]\n";
+
 std::string motionOfAll(std::initializer_list<State> states) {
   std::string text = kAllColumns;
   double time = 0;
@@ -82,9 +86,44 @@ TEST_F(OfflineLoopChecks, SingularPositionsAreNotCertified) {
   EXPECT_TRUE(std::isnan(table.rows.at(1).back()));
 }
 
+// The pin is at (0.5, 0, 0) in the base, whose axes are the root's.
+TEST_F(OfflineLoopChecks, MomentsAreAboutThePointsOfTheScene) {
+  const std::string options = "--reactions wrist,pin";
+  const NumberTable plain = results(pinned("0.5"), options);
+  const NumberTable moved = results(pinned("0.5") + kPoints, options);
+  ASSERT_EQ(moved.header, plain.header);
+  const auto place = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::find(plain.header.begin(), plain.header.end(), name) -
+                                    plain.header.begin());
+  };
+  for (std::size_t i = 0; i < plain.rows.size(); ++i) {
+    const std::vector<double>&a = plain.rows[i], &b = moved.rows[i];
+    const double lever_x = 0.5 - 0.1, lever_z = 0 - 0.2;
+    const double fx = a[place("reaction.pin.fx")], fz = a[place("reaction.pin.fz")];
+    EXPECT_NEAR(b[place("reaction.pin.ty")],
+                a[place("reaction.pin.ty")] + lever_z * fx - lever_x * fz, kFormalisms);
+    EXPECT_EQ(b[place("reaction.pin.fx")], fx);
+    EXPECT_EQ(b[place("effort.drive")], a[place("effort.drive")]);
+    EXPECT_NE(b[place("reaction.wrist.ty")], a[place("reaction.wrist.ty")]);
+  }
+}
+
+TEST_F(OfflineLoopChecks, PointsOfMomentsAreListed) {
+  write("s.yaml", pinned("0.5") + kPoints);
+  const Run listed = run("--urdf l.urdf --scene s.yaml --check");
+  EXPECT_EQ(listed.exit_code, 0) << listed.err;
+  EXPECT_NE(listed.out.find("moments about: wrist: parent frame at 0 0 0.1, "
+                            "pin: link base at 0.1 0 0.2\n"),
+            std::string::npos)
+      << listed.out;
+  const Run others = run("--urdf l.urdf --scene s.yaml --reactions drive --check");
+  EXPECT_EQ(others.out.find("moments about"), std::string::npos) << others.out;
+}
+
 TEST_F(OfflineLoopChecks, LagrangesEquationsGiveTheSame) {
-  for (const std::string& scene : {pinned("0.5"), sprung(pinned("0.5", "pin")),
-                                   sprung(pinned("0.5")) + "include_active: false\n"}) {
+  for (const std::string& scene :
+       {pinned("0.5"), sprung(pinned("0.5", "pin")),
+        sprung(pinned("0.5")) + "include_active: false\n", pinned("0.5") + kPoints}) {
     for (const std::string axes : {"root", "child"}) {
       const std::string options = "--reactions ground,drive,elbow,wrist,pin --axes " + axes;
       const NumberTable one = results(scene, options);

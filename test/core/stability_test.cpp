@@ -82,7 +82,7 @@ TEST(Stability, ErrorsAndCertificatesStayWithinTheirBoundsAtTheEndsOfEveryScene)
 constexpr std::size_t kMostJoints = 25;
 
 LoopVerdict judgeLoops(const StabilityCase& stability_case) {
-  LoopJudge judge(stability_case);
+  LoopJudge judge(stability_case.mechanism, stability_case.scene);
   RandomNumbers random(kSeed);
   LoopVerdict verdict;
   for (int n = 0; n < kStates; ++n) {
@@ -175,7 +175,7 @@ class LoopStabilityJudge : public ::testing::Test {
   }
 
   const StabilityCase case_ = loopSweeps().front().make(0.1);
-  LoopJudge judge_{case_};
+  LoopJudge judge_{case_.mechanism, case_.scene};
   Motion motion_;
   LoopComponents good_;
   Determinacy found_;
@@ -197,6 +197,14 @@ TEST_F(LoopStabilityJudge, FindsAWrongFlagOfEveryNumber) {
   for (std::size_t i = 0; i < good_.size(); ++i) {
     LoopComponents wrong = good_;
     wrong[i].determined = !wrong[i].determined;
+    EXPECT_EQ(judged(wrong).apart, 1) << i;
+  }
+}
+
+TEST_F(LoopStabilityJudge, FindsEveryNumberThatDoesNotExist) {
+  for (std::size_t i = 0; i < good_.size(); ++i) {
+    LoopComponents wrong = good_;
+    wrong[i].exists = false;
     EXPECT_EQ(judged(wrong).apart, 1) << i;
   }
 }

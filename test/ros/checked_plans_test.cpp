@@ -137,6 +137,8 @@ Scene busyScene() {
   scene.include_active = false;
   scene.reactions = ReactionSelection::kNamed;
   scene.reaction_names = {kGround, "joint_3", "joint_5", "joint_8"};
+  scene.moments_about = {{"joint_3", JointFrame::kParent, std::nullopt, {0.1, 0.2, -0.1}},
+                         {"joint_8", JointFrame::kChild, "link_2", {0, 30, 0}}};
   scene.applied_wrenches.resize(1);
   scene.applied_wrenches[0].link = "link_5";
   scene.applied_wrenches[0].at << 0.1, -0.2, 0.3;

@@ -100,6 +100,10 @@ TEST(LoopCrossCheck, SoundResultsDifferByRoundingErrorsOfTheTree) {
       expectSound(example, violating, named.name);
       LoopExample other = example;
       other.scene.include_active = false;
+      other.scene.moments_about = {{other.mechanism.coordinateNames().back(),
+                                    JointFrame::kChild,
+                                    other.mechanism.link(0).name,
+                                    {0.3, -0.2, 5}}};
       other.scene.static_motion = true;
       expectSound(other, motion, named.name);
     }

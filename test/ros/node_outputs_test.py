@@ -3,6 +3,7 @@
 import socket
 
 from geometry_msgs.msg import WrenchStamped
+from numpy import cross
 import rosgraph
 from sensor_msgs.msg import JointState, MultiDOFJointState
 from trajectory_msgs.msg import JointTrajectory
@@ -147,6 +148,29 @@ class Outputs(NodeTest):
                 torque = torque - axis @ torque * axis
             self.assertClose(vector(wrench.force), force, EXACT, 'force of ' + name)
             self.assertClose(vector(wrench.torque), torque, EXACT, 'torque of ' + name)
+
+    def test_moments_about_points_of_the_scene(self):
+        place = (0.1, 0, 0.2)
+        reactions, elbow = self.start(
+            'reactions', 'reaction/elbow', twist=True,
+            scene={'moments_about': [{'name': 'elbow', 'link': 'stand', 'at': list(place)}]})
+        # A WrenchStamped is about the origin of its frame.
+        self.assertEqual(elbow.header.frame_id, 'forearm')
+        self.assertWrench(elbow, self.bodies, 'elbow', STATE, EXACT)
+        # The other message says by its transform which point its moment is about.
+        index = reactions.joint_names.index('elbow')
+        expected = self.bodies.reaction('elbow', *STATE)
+        lever = expected.pose[:3, 3] - place
+        wrench, twist = reactions.wrench[index], reactions.twist[index]
+        self.assertClose(vector(reactions.transforms[index].translation), place, EXACT, 'point')
+        self.assertClose(vector(wrench.force), expected.force, EXACT, 'force')
+        self.assertClose(vector(wrench.torque), expected.torque + cross(lever, expected.force),
+                         EXACT, 'torque')
+        self.assertClose(vector(twist.linear), expected.linear + cross(lever, expected.angular),
+                         EXACT, 'velocity')
+        shoulder = self.bodies.reaction('shoulder', *STATE)
+        other = reactions.joint_names.index('shoulder')
+        self.assertClose(vector(reactions.wrench[other].torque), shoulder.torque, EXACT, 'shoulder')
 
     def test_no_reactions(self):
         effort, = self.start('effort', scene={'reactions': 'none'})

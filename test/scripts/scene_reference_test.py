@@ -19,6 +19,7 @@ PAGE = "doc/scene_file.md"
 # Lists of keys in the reader, and the maps of a scene that have them.
 MAPS = {
     "kSceneKeys": ("",),
+    "kMomentKeys": ("moments_about",),
     "kWrenchKeys": ("applied_wrenches",),
     "kJointKeys": ("joints",),
     "kToleranceKeys": ("tolerances",),
@@ -30,7 +31,8 @@ MAPS = {
 # Lists of {name, <quantity>} that readNamedNumbers() reads.
 NAMED_NUMBERS = {"position": "assembly", "stiffness": "redundancy.stiffness",
                  "weight": "redundancy.effort_weights"}
-STRUCTS = {"": "Scene", "applied_wrenches": "AppliedWrench", "joints": "JointTerms",
+STRUCTS = {"": "Scene", "moments_about": "MomentPoint", "applied_wrenches": "AppliedWrench",
+           "joints": "JointTerms",
            "tolerances": "Tolerances",
            "closures.parent": "LinkFrame", "closures.child": "LinkFrame", "springs": "PointSpring",
            "redundancy": "Redundancy"}
@@ -38,7 +40,8 @@ STRUCTS = {"": "Scene", "applied_wrenches": "AppliedWrench", "joints": "JointTer
 MEMBERS = {"motion": "static_motion"}
 VALUES = {"motion": {False: "full", True: "static"}}
 # Which tables of the page stand for which maps: the heading, or the line before a table in it.
-TABLES = {"Top level": [""], "applied_wrenches": ["applied_wrenches"], "joints": ["joints"],
+TABLES = {"Top level": [""], "moments_about": ["moments_about"],
+          "applied_wrenches": ["applied_wrenches"], "joints": ["joints"],
           "tolerances": ["tolerances"],
           "closures": ["closures", ("closures.parent", "closures.child")], "springs": ["springs"],
           "assembly": ["assembly"],

@@ -22,12 +22,14 @@ struct PlanView {
   const JointPosition<R>* slides;
   const ReactionOutput<R>* child_axes;
   const ReactionOutput<R>* root_axes;
+  const MovedMoment<R>* moved;
+  const PointStep* point_steps;
   const AppliedOutside<R>* applied;
   const ActuatorTerms<R>* actuators;
   const Carry* carries;
   const int* zero_efforts;
-  int body_count, angle_count, slide_count, child_axes_count, root_axes_count, applied_count,
-      actuator_count, zero_effort_count, slots, wrench_count;
+  int body_count, angle_count, slide_count, child_axes_count, root_axes_count, moved_count,
+      applied_count, actuator_count, zero_effort_count, slots, wrench_count;
   bool static_motion, any_pose, geared_angles;
   PlainWrench<R> root_wrench;
 };

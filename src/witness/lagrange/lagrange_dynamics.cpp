@@ -13,11 +13,35 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// Takes the component along a joint's axis away; the axis of a fixed joint is zero.
 template <typename Real>
-void dropActive(const Triple<Real>& axis, Triple<Real>& v) {
-  const Real active = dot(axis, v);
-  for (std::size_t i = 0; i < 3; ++i) v[i] -= active * axis[i];
+struct RealWrench {
+  Triple<Real> force, torque;
+};
+
+template <typename Real>
+Triple<Real> times(Real factor, const Triple<Real>& v) {
+  return {factor * v[0], factor * v[1], factor * v[2]};
+}
+
+template <typename Real>
+Triple<Real> cross(const Triple<Real>& a, const Triple<Real>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+// Takes the force along a joint's axis, or the moment about it, away; the axis of a fixed joint is
+// zero. `lever` leads to O_k, on the axis, from the point that the moment is about.
+template <typename Real>
+void dropActive(JointType type, const Triple<Real>& axis, const Triple<Real>& lever,
+                RealWrench<Real>& wrench) {
+  if (type == JointType::kPrismatic) {
+    const Triple<Real> active = times(-dot(axis, wrench.force), axis);
+    wrench.force = wrench.force + active;
+    wrench.torque = wrench.torque + cross(lever, active);
+  } else {
+    const Real about_point = dot(axis, wrench.torque);
+    const Real about_axis = about_point - dot(axis, cross(lever, wrench.force));
+    wrench.torque = wrench.torque + times(-about_axis, axis);
+  }
 }
 
 template <typename Real>
@@ -52,12 +76,9 @@ struct LagrangeDynamics<Real>::Impl {
   void move(const Motion& motion);
   Real effortOf(const typename LagrangePlan<Real>::Coordinate& coordinate);
   void displace(const typename LagrangePlan<Real>::Reaction& reaction, Triple<Real>& force);
+  Triple<Real> leverOf(const typename LagrangePlan<Real>::Reaction& reaction) const;
   void rotate(const typename LagrangePlan<Real>::Reaction& reaction, Triple<Real>& torque);
   void output();
-
-  struct RealWrench {
-    Triple<Real> force, torque;
-  };
 
   Request request;
   LagrangePlan<Real> plan;
@@ -71,7 +92,7 @@ struct LagrangeDynamics<Real>::Impl {
   std::vector<Origin<Real, 1>> origins_1;
   std::vector<Orientation<Real, 3>> axes_3;
   std::vector<Origin<Real, 3>> origins_3;
-  std::vector<RealWrench> reactions;  // in child axes
+  std::vector<RealWrench<Real>> reactions;  // in child axes
   Eigen::VectorXd effort;
   std::vector<Wrench> child_axes, root_axes;
 };
@@ -146,14 +167,32 @@ void LagrangeDynamics<Real>::Impl::displace(const typename LagrangePlan<Real>::R
   }
 }
 
+// The vector to O_k from the point that the moment of a reaction is about, in child axes.
+template <typename Real>
+Triple<Real> LagrangeDynamics<Real>::Impl::leverOf(
+    const typename LagrangePlan<Real>::Reaction& reaction) const {
+  if (!reaction.moved) return {};
+  const auto at = axes[reaction.point_link].R * reaction.point;
+  Triple<Real> lever;
+  for (std::size_t i = 0; i < 3; ++i) {
+    lever[i] =
+        (origins[reaction.link].o[i].value - origins[reaction.point_link].o[i].value) - at[i].value;
+  }
+  return transposed(values(axes[reaction.link]), lever);
+}
+
 // The moment of a reaction by (4.2), with rotations at the place of displace()'s displacements: a
-// rotation before a joint that slides would be about another point than O_k.
+// rotation before a joint that slides would be about another point than O_k. Where the moment is
+// about a point of its own, they are about the point of the child link that is there at the
+// instant: virtual work asks for displacements, not for how the point moves.
 template <typename Real>
 void LagrangeDynamics<Real>::Impl::rotate(const typename LagrangePlan<Real>::Reaction& reaction,
                                           Triple<Real>& torque) {
   const int own = reaction.link;
   axes_3[own] = composed(axes[own], fictitiousRotation<Real>());
-  origins_3[own] = composed(axes_3[own], origins[own], Triple<Real>{});
+  const Triple<Real> lever = leverOf(reaction);
+  const Origin<Real, 0> centre = composed(axes[own], origins[own], times(Real(-1), lever));
+  origins_3[own] = composed(axes_3[own], centre, lever);
   torque = linkForce<Real>(plan.links[own], plan.gravity, axes_3[own], origins_3[own]);
   for (const int link : reaction.links) {
     const auto& joint = plan.joints[link - 1];
@@ -183,11 +222,11 @@ void LagrangeDynamics<Real>::Impl::take(const Load& load) {
 template <typename Real>
 void LagrangeDynamics<Real>::Impl::output() {
   for (std::size_t i = 0; i < plan.child_axes.size(); ++i) {
-    const RealWrench& wrench = reactions[plan.child_axes[i]];
+    const RealWrench<Real>& wrench = reactions[plan.child_axes[i]];
     child_axes[i] = {toDouble(wrench.force), toDouble(wrench.torque)};
   }
   for (std::size_t i = 0; i < plan.root_axes.size(); ++i) {
-    const RealWrench& wrench = reactions[plan.root_axes[i]];
+    const RealWrench<Real>& wrench = reactions[plan.root_axes[i]];
     const Matrix<Real> R_0K = values(axes[plan.reactions[plan.root_axes[i]].link]);
     root_axes[i] = {toDouble(R_0K * wrench.force), toDouble(R_0K * wrench.torque)};  // (4.3)
   }
@@ -236,7 +275,7 @@ void LagrangeDynamics<Real>::compute(const Motion& motion, const Load& load) {
     impl.rotate(reaction, wrench.torque);
     if (reaction.drop_active) {
       const auto& joint = impl.plan.joints[reaction.link - 1];
-      dropActive(joint.axis_K, joint.type == JointType::kPrismatic ? wrench.force : wrench.torque);
+      dropActive(joint.type, joint.axis_K, impl.leverOf(reaction), wrench);
     }
   }
   impl.output();

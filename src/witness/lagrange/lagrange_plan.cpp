@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scene/input_checks.h"
+#include "scene/moment_points.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -114,6 +115,13 @@ typename LagrangePlan<Real>::Reaction makeReaction(int link, const Scene& scene,
   return reaction;
 }
 
+template <typename Reaction>
+void moveTo(const LinkPoint& point, Reaction& reaction) {
+  reaction.moved = true;
+  reaction.point_link = point.link;
+  for (int i = 0; i < 3; ++i) reaction.point[i] = point.p_LoPo_L[i];
+}
+
 }  // namespace
 
 template <typename Real>
@@ -131,21 +139,25 @@ LagrangePlan<Real>::LagrangePlan(const Mechanism& mechanism, const Scene& scene,
   const std::vector<ResolvedJointTerms> terms = resolveJointTerms(mechanism, scene);
   if (request.efforts) addCoordinates(terms, matters, *this);
 
-  std::vector<int> reaction_of(links.size(), -1);
-  const auto indices = [&](const std::vector<std::string>& names) {
+  const MomentPoints points(mechanism, scene);
+  std::vector<int> reaction_of[2];  // about O_k, about points of their own; by child link
+  for (std::vector<int>& of : reaction_of) of.assign(links.size(), -1);
+  const auto indices = [&](const std::vector<std::string>& names, bool about_origin) {
     std::vector<int> result = linksOf(mechanism, names);
     for (int& entry : result) {
-      int& index = reaction_of[entry];
+      const LinkPoint* point = about_origin || entry == 0 ? nullptr : points.ofJoint(entry - 1);
+      int& index = reaction_of[point ? 1 : 0][entry];
       if (index < 0) {
         index = static_cast<int>(reactions.size());
         reactions.push_back(makeReaction(entry, scene, matters, *this));
+        if (point) moveTo(*point, reactions.back());
       }
       entry = index;
     }
     return result;
   };
-  child_axes = indices(request.child_axes);
-  root_axes = indices(request.root_axes);
+  child_axes = indices(request.child_axes, request.child_axes_about_origin);
+  root_axes = indices(request.root_axes, false);
 }
 
 template struct LagrangePlan<double>;

@@ -1,0 +1,95 @@
+#include "stability/loop_scenes.h"
+
+#ifdef VWD_HAS_REAL113
+
+#include <algorithm>
+
+#include "base/number_text.h"
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+// Within this factor of the rank's tolerance either answer may be the right one.
+constexpr long double kUnclear = 100;
+
+bool isUnclear(const MaximalCoordinatesOracle& oracle, long double tolerance) {
+  const auto near = [&](long double pivot) {
+    return pivot > tolerance / kUnclear && pivot < tolerance * kUnclear;
+  };
+  return near(oracle.leastCounted()) || near(oracle.largestLeftOut());
+}
+
+SceneVerdict judgeRefusal(const ClosedCase& loops, const std::string& reason) {
+  SceneVerdict verdict;
+  const double tolerance = loops.scene.redundancy.rank_tolerance;
+  const MaximalCoordinatesOracle oracle(loops.mechanism, loops.scene, loops.motion, tolerance);
+  if (oracle.freeMotions() > 0) {
+    verdict.refused = 1;
+  } else if (isUnclear(oracle, tolerance)) {
+    verdict.unclear = 1;
+  } else {
+    verdict.wrong.push_back("refused: " + reason);
+  }
+  return verdict;
+}
+
+SceneVerdict judgeCase(const ClosedCase& loops) {
+  LoopVerdict found;
+  try {
+    LoopJudge judge(loops.mechanism, loops.scene);
+    found = judge.judgeForces(loops.motion);
+  } catch (const SceneError& error) {
+    return judgeRefusal(loops, error.what());
+  }
+  SceneVerdict verdict;
+  verdict.singular = found.free_motions > 0;
+  verdict.unclear = !found.clear;
+  verdict.components = found.components;
+  verdict.open = found.open;
+  verdict.condition = found.condition;
+  if (found.clear) verdict.over_bound = found.errors.over_bound;
+  if (found.apart > 0) {
+    verdict.wrong.push_back(std::to_string(found.apart) + " wrong: " + found.worst_apart);
+  } else if (!(verdict.over_bound <= 1)) {
+    verdict.wrong.push_back(numberText(verdict.over_bound) + " times the bound: " +
+                            found.errors.worst + ", condition " + numberText(found.condition));
+  }
+  return verdict;
+}
+
+}  // namespace
+
+void SceneVerdict::include(const SceneVerdict& other) {
+  scenes += other.scenes;
+  refused += other.refused;
+  singular += other.singular;
+  unclear += other.unclear;
+  components += other.components;
+  open += other.open;
+  over_bound = std::max(over_bound, other.over_bound);
+  condition = std::max(condition, other.condition);
+  wrong.insert(wrong.end(), other.wrong.begin(), other.wrong.end());
+}
+
+ClosedCase structuredScene(std::uint32_t seed, std::size_t index) {
+  // Seeds of neighbours must not lie close to each other: 32-bit numbers that are mixed.
+  std::uint32_t mixed = seed * 2654435761u + static_cast<std::uint32_t>(index);
+  mixed = (mixed ^ (mixed >> 16)) * 0x7feb352du;
+  mixed = (mixed ^ (mixed >> 15)) * 0x846ca68bu;
+  return StructuredLoops(mixed ^ (mixed >> 16)).next();
+}
+
+SceneVerdict judgeScene(std::uint32_t seed, std::size_t index) {
+  const ClosedCase loops = structuredScene(seed, index);
+  SceneVerdict verdict = judgeCase(loops);
+  verdict.scenes = 1;
+  for (std::string& line : verdict.wrong) {
+    line = "scene " + std::to_string(index) + " (" + loops.kind + "): " + line;
+  }
+  return verdict;
+}
+
+}  // namespace virtual_work_dynamics
+
+#endif  // VWD_HAS_REAL113
