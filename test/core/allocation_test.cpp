@@ -243,13 +243,15 @@ TEST_F(BusyLinkage, PassiveJointsDoNotAllocate) {
 }
 
 TEST(PassiveJoints, OfAPoseDoNotAllocate) {
-  const LoopExample example("stewart_gough");
-  const Dynamics dynamics(example.mechanism, example.scene, {false, {}, {}, false, false});
+  const std::string source = VWD_SOURCE_DIR;
+  const Mechanism mechanism = readUrdfFile(source + "/urdf/stewart_gough.urdf");
+  const Scene scene = readSceneFile(source + "/config/stewart_gough_scene.yaml");
+  const Dynamics dynamics(mechanism, scene, {false, {}, {}, false, false});
   Dynamics::Workspace workspace = dynamics.makeWorkspace();
   Given given;
-  given.coordinates.assign(example.mechanism.coordinates().size(), false);
-  given.links = {example.mechanism.linkIndex("platform")};
-  PassiveJoints passive(example.mechanism, dynamics, given);
+  given.coordinates.assign(mechanism.coordinates().size(), false);
+  given.links = {mechanism.linkIndex("platform")};
+  PassiveJoints passive(mechanism, dynamics, given);
   Motion motion(dynamics.coordinates()), driven(7);
   driven.q << platformPose(0.4L).p.cast<double>(),
       Eigen::Quaternion<long double>(platformPose(0.4L).R).cast<double>().coeffs();

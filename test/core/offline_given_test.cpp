@@ -290,7 +290,7 @@ TEST_F(OfflineGiven, PosesMoveTheLegsOfAPlatform) {
     motion += "\n";
   }
   write("m.csv", motion);
-  const std::string source = VWD_SOURCE_DIR;
+  const std::string source = kSourceFolder;
   const Run result = run("--urdf " + source + "/urdf/stewart_gough.urdf --scene " + source +
                          "/config/stewart_gough_scene.yaml --motion m.csv --positions");
   ASSERT_EQ(result.exit_code, 0) << result.err;
