@@ -31,6 +31,7 @@ MAY_INCLUDE = {
 KNOWS_ROS = {"ros", "programs"}
 HEADERS_WITHOUT_SOURCE = {
     "error": "base",
+    "given": "scene",
     "motion": "motion",
     "motion_covariance": "motion",
     "noise_settings": "motion",

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "virtual_work_dynamics/given.h"
 #include "virtual_work_dynamics/load.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
@@ -16,6 +17,7 @@
 namespace virtual_work_dynamics {
 
 struct LoopSolvers;
+class GivenLoops;
 
 /// Inverse dynamics of a mechanism with closures (3.1)-(3.4): the tree by InverseDynamics, its
 /// loops by multipliers, tau_tree = S^T tau + A^T lambda, and the reactions by (3.8) with the
@@ -42,13 +44,28 @@ class ClosedLoopDynamics {
   const Request& request() const;
   /// The assembled position that the scene's start leads to.
   const Eigen::VectorXd& assembly() const;
+  /// The longest way of a coordinate from the scene's start to the assembly, rad or over the size
+  /// of the loops.
+  double assemblyWay() const;
   /// Says in a line each which coordinates are assembled more than 1.5 rad, or the size of the
   /// loops, from their start: perhaps on another branch.
   std::vector<std::string> assemblyDoubts() const;
   /// Whether each generalized coordinate is actuated.
   const std::vector<bool>& actuated() const;
+  /// What motions give, as the scene says: the actuated coordinates unless it says otherwise.
+  const Given& given() const;
   /// Names of the actuated closures, whose efforts come after those of the coordinates.
   const std::vector<std::string>& actuatedClosures() const;
+
+  /// What is wrong with a choice of what motions give, found in a regular position.
+  struct GivenFinding {
+    Eigen::Index freedom = 0;               ///< how many more coordinates would have to be given
+    std::vector<std::string> undetermined;  ///< coordinates that would not follow
+    std::vector<std::string> follow;        ///< what is given although it follows from the rest
+  };
+  /// Judges what motions give. Allocates.
+  /// @throws SceneError when no joint moves a link whose pose is given.
+  GivenFinding judge(const Given& given) const;
 
   /// The tree that is left when closures and springs are cut. What these exert becomes applied
   /// wrenches after the scene's own, with the values of LoopResults::tree_wrenches, so that
@@ -76,10 +93,16 @@ class ClosedLoopDynamics {
   /// be closed, the search ends as soon as it makes no more progress. Throws what complete()
   /// throws.
   bool completeFromCloseBy(Motion& motion, Workspace& workspace) const;
-  /// Completes a motion that gives other coordinates than the actuated ones. Throws what complete()
+  /// Complete a motion that gives other coordinates than the actuated ones. Throw what complete()
   /// throws.
   /// @throws MotionError unless `given` has one entry for each coordinate.
   bool complete(Motion& motion, const std::vector<bool>& given, Workspace& workspace) const;
+  bool completeFromCloseBy(Motion& motion, const std::vector<bool>& given,
+                           Workspace& workspace) const;
+  /// Whether a position lets the coordinates that are given determine the others: a singular one
+  /// does not. Throws what complete() throws.
+  bool determine(const Eigen::VectorXd& q, const std::vector<bool>& given,
+                 Workspace& workspace) const;
 
   /// Computes efforts and reactions of one sample into the workspace. Does not allocate.
   /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is
@@ -90,7 +113,10 @@ class ClosedLoopDynamics {
   void compute(const Motion& motion, const Load& load, Workspace& workspace) const;
 
  private:
+  friend class Dynamics;
   struct Impl;
+  void requireGiven(const std::vector<bool>& given) const;
+  std::unique_ptr<GivenLoops> givenLoops(const Given& given) const;
   std::unique_ptr<const Impl> impl_;
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "virtual_work_dynamics/closed_loop_dynamics.h"
+#include "virtual_work_dynamics/given.h"
 #include "virtual_work_dynamics/instruction_set.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/load.h"
@@ -28,7 +29,8 @@ class Dynamics {
 
   /// Compiles mechanism, scene and request into a plan. `request` names joints, closures and
   /// "ground".
-  /// @throws SceneError as InverseDynamics and ClosedLoopDynamics do; Error when the instruction
+  /// @throws SceneError as InverseDynamics and ClosedLoopDynamics do, and when what the scene says
+  ///   motions give does not determine the rest, or is too much; Error when the instruction
   ///   set is not supported.
   Dynamics(const Mechanism& mechanism, const Scene& scene, const Request& request,
            InstructionSet instruction_set = chosenInstructionSet());
@@ -50,11 +52,18 @@ class Dynamics {
   const std::vector<std::string>& closureNames() const;
   /// Whether each generalized coordinate is actuated; in an open chain all are.
   const std::vector<bool>& actuated() const;
+  /// What motions give, as the scene says. Unless it says anything, these are the actuated
+  /// coordinates, and all where a closure is actuated.
+  const Given& given() const;
+  /// See ClosedLoopDynamics::judge(); in an open chain nothing is wrong. Allocates.
+  ClosedLoopDynamics::GivenFinding judge(const Given& given) const;
   /// Whether the closures determine the motion of passive joints from that of the actuated ones:
   /// there are closures, and none of them is actuated.
   bool closuresDetermine() const;
   /// The position in which the loops are assembled; zero in an open chain.
   const Eigen::VectorXd& assembly() const;
+  /// See ClosedLoopDynamics::assemblyWay(); 0 in an open chain.
+  double assemblyWay() const;
   /// See ClosedLoopDynamics::assemblyDoubts(); none in an open chain.
   std::vector<std::string> assemblyDoubts() const;
 
@@ -85,9 +94,15 @@ class Dynamics {
   bool complete(Motion& motion, Workspace& workspace) const;
   /// Completes from a position close by; see ClosedLoopDynamics::completeFromCloseBy().
   bool completeFromCloseBy(Motion& motion, Workspace& workspace) const;
+  bool completeFromCloseBy(Motion& motion, const std::vector<bool>& given,
+                           Workspace& workspace) const;
   /// Why a motion could not be completed, in one line: the closure that stays open furthest at its
-  /// position, or that the position is singular. Allocates.
+  /// position, that the position is singular, or that the rates contradict the closures. Allocates.
   /// @param motion as complete() left it
+  /// @param given the coordinates that it was completed from; the actuated ones if they are left
+  /// out
+  std::string whyOpen(const Motion& motion, const std::vector<bool>& given,
+                      Workspace& workspace) const;
   std::string whyOpen(const Motion& motion, Workspace& workspace) const;
 
   /// Computes efforts and reactions of one sample into the workspace. Does not allocate. Costs less
@@ -102,7 +117,9 @@ class Dynamics {
  private:
   friend class SampleRows;
   friend class Deviations;
+  friend class PassiveJoints;
   struct Impl;
+  std::unique_ptr<GivenLoops> givenLoops(const Given& given) const;
   std::unique_ptr<const Impl> impl_;
 };
 

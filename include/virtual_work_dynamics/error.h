@@ -24,6 +24,24 @@ class SceneError : public Error {
   using Error::Error;
 };
 
+/// The loops of a scene cannot be closed from where its joints start.
+class AssemblyError : public SceneError {
+ public:
+  using SceneError::SceneError;
+};
+
+/// What motions are said to give is too little or too much.
+class GivenError : public SceneError {
+ public:
+  explicit GivenError(const std::string& problem)
+      : SceneError("given: " + problem), problem_(problem) {}
+  /// What is wrong, without the key of the scene.
+  const std::string& problem() const { return problem_; }
+
+ private:
+  std::string problem_;
+};
+
 /// A motion has a wrong size, times in a wrong order or unusable values.
 class MotionError : public Error {
  public:

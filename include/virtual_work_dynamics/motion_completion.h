@@ -23,6 +23,9 @@ struct CompletionSettings {
   /// Whether positions stay as given: with closed loops smoothed ones would not close them, and a
   /// row that cannot be closed would take others with it.
   bool keep_positions = false;
+  /// Whether other columns than those of generalized coordinates are estimated, too. Their
+  /// positions are taken as they are.
+  bool other_columns = false;
   /// Told now and then how many of how many steps are done; may be empty.
   std::function<void(std::size_t done, std::size_t total)> progress;
 };
@@ -52,7 +55,8 @@ struct CompletionReport {
 /// any case (unwrapPositions()). Allocates.
 /// @param motion a table whose columns are generalized coordinates of `mechanism`.
 /// @param report receives what was found when not null.
-/// @throws MotionError for a joint that is not a generalized coordinate, shapes that disagree, too
+/// @throws MotionError for a joint that is not a generalized coordinate, unless the settings allow
+///   that, shapes that disagree, too
 ///   few rows (accelerations need three, velocities two), or times that do not increase, naming the
 ///   row counted from 1.
 MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion,

@@ -159,13 +159,17 @@ struct Scene {
   /// Joints, and closures with one free axis, that carry effort; the others are passive. None:
   /// every joint of the tree is actuated, and no closure.
   std::optional<std::vector<std::string>> actuated;
-  /// Positions of joints from which the loops are assembled; other joints start at 0. Actuated
-  /// joints stay where they start.
+  /// What motions give, from which the closures determine the rest: joints, closures with one free
+  /// axis, and "pose.<link>" for poses of links; see Given. None: the actuated joints.
+  std::optional<std::vector<std::string>> given;
+  /// Positions of joints from which the loops are assembled; other joints start at 0. Joints that
+  /// motions give stay where they start.
   std::vector<NamedNumber> assembly;
   Redundancy redundancy;
 };
 
-/// Whether a scene has closures, springs or passive joints, which only ClosedLoopDynamics knows.
+/// Whether a scene has closures, springs or passive joints, or says what motions give, which only
+/// ClosedLoopDynamics knows.
 bool needsClosedLoops(const Scene& scene);
 
 /// Names of the reactions that the scene asks for: "ground" first, then joints in depth-first

@@ -22,6 +22,7 @@ struct Dynamics::Impl {
   Load own_load;  // values in the scene
   std::vector<std::string> effort_names, closure_names;
   std::vector<bool> actuated;
+  Given given;
   Eigen::VectorXd assembly;
 };
 

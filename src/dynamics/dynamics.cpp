@@ -5,7 +5,9 @@
 #include "base/number_text.h"
 #include "base/printable.h"
 #include "dynamics/compiled_dynamics.h"
+#include "dynamics/given_joints.h"
 #include "loops/cut_tree.h"
+#include "loops/given_loops.h"
 #include "scene/input_checks.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -33,6 +35,7 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
       effort_names(mechanism.coordinateNames()),
       actuated(mechanism.coordinates().size(), true),
       assembly(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(actuated.size()))) {
+  given.coordinates = actuated;
   if (!needsClosedLoops(scene)) {
     chain.emplace(mechanism, scene, request, instruction_set);
     return;
@@ -44,6 +47,11 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
   tree = loops->tree();
   tree_request = virtual_work_dynamics::treeRequest(mechanism, request);
   actuated = loops->actuated();
+  given = loops->given();
+  // The axes of actuated closures would have to be given, too.
+  if (!scene.given && !loops->actuatedClosures().empty()) {
+    given.coordinates.assign(actuated.size(), true);
+  }
   assembly = loops->assembly();
   const std::vector<std::string>& closures = loops->actuatedClosures();
   effort_names.insert(effort_names.end(), closures.begin(), closures.end());
@@ -52,7 +60,11 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
 
 Dynamics::Dynamics(const Mechanism& mechanism, const Scene& scene, const Request& request,
                    InstructionSet instruction_set)
-    : impl_(new Impl(mechanism, scene, request, instruction_set)) {}
+    : impl_(new Impl(mechanism, scene, request, instruction_set)) {
+  if (!scene.given) return;
+  const auto problem = GivenJoints(mechanism, *this).problem(given());
+  if (problem) throw GivenError(*problem);
+}
 
 Dynamics::Dynamics(const Mechanism& mechanism, const Scene& scene)
     : Dynamics(mechanism, scene, everything(mechanism, scene)) {}
@@ -85,12 +97,28 @@ const std::vector<bool>& Dynamics::actuated() const {
   return impl_->actuated;
 }
 
+const Given& Dynamics::given() const {
+  return impl_->given;
+}
+
+ClosedLoopDynamics::GivenFinding Dynamics::judge(const Given& given) const {
+  return impl_->loops ? impl_->loops->judge(given) : ClosedLoopDynamics::GivenFinding();
+}
+
+std::unique_ptr<GivenLoops> Dynamics::givenLoops(const Given& given) const {
+  return impl_->loops->givenLoops(given);
+}
+
 bool Dynamics::closuresDetermine() const {
   return !impl_->closure_names.empty() && impl_->loops->actuatedClosures().empty();
 }
 
 const Eigen::VectorXd& Dynamics::assembly() const {
   return impl_->assembly;
+}
+
+double Dynamics::assemblyWay() const {
+  return impl_->loops ? impl_->loops->assemblyWay() : 0;
 }
 
 std::vector<std::string> Dynamics::assemblyDoubts() const {
@@ -125,21 +153,33 @@ bool Dynamics::complete(Motion& motion, Workspace& workspace) const {
 }
 
 bool Dynamics::completeFromCloseBy(Motion& motion, Workspace& workspace) const {
+  return completeFromCloseBy(motion, impl_->actuated, workspace);
+}
+
+bool Dynamics::completeFromCloseBy(Motion& motion, const std::vector<bool>& given,
+                                   Workspace& workspace) const {
   Workspace::Impl& memory = workspace.memoryFor(*impl_);
-  if (impl_->loops) return impl_->loops->completeFromCloseBy(motion, *memory.loops);
+  if (impl_->loops) return impl_->loops->completeFromCloseBy(motion, given, *memory.loops);
   requireLengths(motion, coordinates());
   return true;
 }
 
 std::string Dynamics::whyOpen(const Motion& motion, Workspace& workspace) const {
+  return whyOpen(motion, impl_->actuated, workspace);
+}
+
+std::string Dynamics::whyOpen(const Motion& motion, const std::vector<bool>& given,
+                              Workspace& workspace) const {
   compute(motion, workspace);
   const LoopResults& found = workspace.results().loops;
   const auto worst = std::max_element(
       found.relative_residuals.begin(), found.relative_residuals.end(),
       [](const auto& one, const auto& other) { return one.position < other.position; });
   if (worst == found.relative_residuals.end() || worst->position <= kClosed) {
-    return "the position is singular: the closures do not determine how the passive joints move; "
-           "give the motion of all joints";
+    if (impl_->loops->determine(motion.q, given, *workspace.memoryFor(*impl_).loops)) {
+      return kContradiction;
+    }
+    return kSingularPosition;
   }
   const auto closure = static_cast<std::size_t>(worst - found.relative_residuals.begin());
   return "the loops cannot be closed: closure " + inQuotes(impl_->closure_names[closure]) +

@@ -1,5 +1,7 @@
 #include "dynamics/given_joints.h"
 
+#include <algorithm>
+
 #include "base/printable.h"
 
 namespace virtual_work_dynamics {
@@ -20,32 +22,46 @@ std::string listed(const std::vector<std::string>& names) {
 }  // namespace
 
 GivenJoints::GivenJoints(const Mechanism& mechanism, const Dynamics& dynamics)
-    : names_(mechanism.coordinateNames()),
-      actuated_(dynamics.actuated()),
-      closures_determine_(dynamics.closuresDetermine()) {}
+    : dynamics_(dynamics), names_(mechanism.coordinateNames()) {}
 
-std::optional<std::string> GivenJoints::problem(const std::vector<bool>& given) const {
-  std::vector<std::string> actuated_missing, passive_given, passive_missing;
-  for (std::size_t i = 0; i < names_.size(); ++i) {
-    if (!actuated_[i]) (given[i] ? passive_given : passive_missing).push_back(names_[i]);
-    if (actuated_[i] && !given[i]) actuated_missing.push_back(names_[i]);
-  }
-  if (!actuated_missing.empty()) return "the joints " + listed(actuated_missing) + " are missing";
-  if (passive_missing.empty()) return std::nullopt;
-  if (!closures_determine_) {
-    return "the passive joints " + listed(passive_missing) +
-           " are missing: where a closure is actuated, all joints must be given";
-  }
-  if (passive_given.empty()) return std::nullopt;
-  return "the passive joints " + listed(passive_given) + " are given, but not " +
-         listed(passive_missing) + ": give all joints, or the actuated ones only";
+bool GivenJoints::givesAll(const Given& given) {
+  return std::count(given.coordinates.begin(), given.coordinates.end(), false) == 0;
 }
 
-bool GivenJoints::givesPassive(const std::vector<bool>& given) const {
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    if (given[i] && !actuated_[i]) return true;
+std::vector<bool> GivenJoints::resting(const Dynamics& dynamics) {
+  return givesAll(dynamics.given()) ? dynamics.actuated() : dynamics.given().coordinates;
+}
+
+std::optional<std::string> GivenJoints::problem(const Given& given) const {
+  const bool drives = given.drivenNumbers() > 0;
+  if (givesAll(given) && !drives) return std::nullopt;
+  // More actuators than degrees of freedom are no mistake.
+  if (dynamics_.closuresDetermine() && given.coordinates == dynamics_.actuated() && !drives) {
+    return std::nullopt;
   }
-  return false;
+  const ClosedLoopDynamics::GivenFinding finding = dynamics_.judge(given);
+  if (finding.freedom > 0) return tooLittle(finding, given);
+  if (finding.follow.empty()) return std::nullopt;
+  if (finding.follow.size() == 1) {
+    return "too much is given: " + listed(finding.follow) +
+           " follows from the rest; leave it out, or give all joints and nothing else";
+  }
+  return "too much is given: each of " + listed(finding.follow) +
+         " follows from the rest; leave one out, or give all joints and nothing else";
+}
+
+std::string GivenJoints::tooLittle(const ClosedLoopDynamics::GivenFinding& finding,
+                                   const Given& given) const {
+  std::vector<std::string> missing;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    const bool open = std::find(finding.undetermined.begin(), finding.undetermined.end(),
+                                names_[i]) != finding.undetermined.end();
+    if (open && dynamics_.actuated()[i] && !given.coordinates[i]) missing.push_back(names_[i]);
+  }
+  return "too little is given: the motion of " + listed(finding.undetermined) +
+         " does not follow from it; " + std::to_string(finding.freedom) +
+         (finding.freedom == 1 ? " more is" : " more are") + " needed" +
+         (missing.empty() ? "" : ", such as the actuated " + listed(missing));
 }
 
 }  // namespace virtual_work_dynamics

@@ -5,26 +5,32 @@
 #include <vector>
 
 #include "virtual_work_dynamics/dynamics.h"
+#include "virtual_work_dynamics/given.h"
 #include "virtual_work_dynamics/mechanism.h"
 
 namespace virtual_work_dynamics {
 
-/// Which coordinates a motion must give: all of them, or the actuated ones, from which the closures
-/// determine the others.
+/// What a motion must give: all coordinates, the actuated ones, or others from which the closures
+/// determine the rest, and no more than these.
 class GivenJoints {
  public:
+  /// @param dynamics must outlive it
   GivenJoints(const Mechanism& mechanism, const Dynamics& dynamics);
 
-  /// What is wrong with a motion that gives these coordinates, in one line without a line end, or
-  /// nothing.
-  std::optional<std::string> problem(const std::vector<bool>& given) const;
-  /// Whether one of the given coordinates is passive.
-  bool givesPassive(const std::vector<bool>& given) const;
+  /// What is wrong with a motion that gives that, in one line without a line end, or nothing.
+  /// Allocates.
+  std::optional<std::string> problem(const Given& given) const;
+  /// Whether all coordinates are given.
+  static bool givesAll(const Given& given);
+  /// The coordinates that a trajectory may leave out because they rest then: those that motions
+  /// give, or the actuated ones where motions give all.
+  static std::vector<bool> resting(const Dynamics& dynamics);
 
  private:
-  std::vector<std::string> names_;
-  std::vector<bool> actuated_;
-  bool closures_determine_;
+  std::string tooLittle(const ClosedLoopDynamics::GivenFinding& finding, const Given& given) const;
+
+  const Dynamics& dynamics_;
+  std::vector<std::string> names_;  // of coordinates
 };
 
 }  // namespace virtual_work_dynamics

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loops/given_loops.h"
 #include "scene/input_checks.h"
 
 namespace virtual_work_dynamics {
@@ -34,61 +35,114 @@ constexpr int PassiveJoints::kHalvings;
 constexpr int PassiveJoints::kMostSearches;
 
 PassiveJoints::PassiveJoints(const Mechanism& mechanism, const Dynamics& dynamics)
-    : completed_(dynamics.coordinates()),
-      before_(dynamics.assembly()),
-      closed_(before_),
-      previous_(before_),
-      missed_(before_) {
+    : PassiveJoints(mechanism, dynamics, dynamics.given()) {}
+
+PassiveJoints::PassiveJoints(const Mechanism& mechanism, const Dynamics& dynamics,
+                             const Given& given)
+    : given_(given),
+      coordinates_(dynamics.coordinates()),
+      completed_(coordinates_),
+      driven_(static_cast<Eigen::Index>(given.drivenNumbers())),
+      position_(dynamics.assembly()),
+      missed_(position_) {
   const std::vector<bool> is_mimicked = mimicked(mechanism);
   for (std::size_t i = 0; i < mechanism.coordinates().size(); ++i) {
     const Joint& joint = mechanism.joints()[static_cast<std::size_t>(mechanism.coordinates()[i])];
     const auto index = static_cast<Eigen::Index>(i);
     if (joint.type != JointType::kPrismatic) turning_.push_back(index);
-    if (!dynamics.actuated()[i]) continue;
-    given_.push_back(index);
+    if (!given.coordinates[i]) continue;
+    fixed_.push_back(index);
     wraps_.push_back(joint.type == JointType::kContinuous && !is_mimicked[i]);
   }
+  if (driven_.q.size() > 0 && dynamics.closed()) driven_loops_ = dynamics.givenLoops(given);
+  for (Eigen::Index i = 0; i < driven_.q.size(); ++i) {
+    const auto closure = static_cast<std::size_t>(i);
+    fixed_.push_back(coordinates_ + i);
+    wraps_.push_back(driven_loops_ && closure < given.closures.size() &&
+                     driven_loops_->turns(closure));
+  }
+  closed_.setZero(coordinates_ + driven_.q.size());
+  moveTo(position_);
+  before_ = found_ = closed_;
   targets_.fill(closed_);
+}
+
+PassiveJoints::~PassiveJoints() = default;
+PassiveJoints::PassiveJoints(PassiveJoints&&) noexcept = default;
+PassiveJoints& PassiveJoints::operator=(PassiveJoints&&) noexcept = default;
+
+void PassiveJoints::moveTo(const Eigen::VectorXd& position) {
+  position_ = position;
+  closed_.head(coordinates_) = position;
+  if (driven_loops_) {
+    driven_loops_->getDriven(position, closed_.tail(closed_.size() - coordinates_));
+  }
+  previous_ = closed_;
 }
 
 bool PassiveJoints::complete(Motion& motion, const Dynamics& dynamics,
                              Dynamics::Workspace& workspace) {
-  requireLengths(motion, dynamics.coordinates());
+  return complete(motion, Motion(), dynamics, workspace);
+}
+
+bool PassiveJoints::complete(Motion& motion, const Motion& driven, const Dynamics& dynamics,
+                             Dynamics::Workspace& workspace) {
+  requireLengths(motion, coordinates_);
+  requireLengths(driven, driven_.q.size());
   if (!dynamics.closed()) return true;
   before_ = closed_;
-  setNearest(motion);
+  setNearest(motion, driven);
   searches_ = failures_ = 0;
   bool closes = follow(motion, kHalvings, dynamics, workspace);
   // Searches from where the way ends, as the caller wants to know how far the loops stay open at
   // the position itself. Where they close after all, the way there led through a gap.
   if (givenUp()) closes = search(motion, targets_[kHalvings], dynamics, workspace);
-  closed_ = closes ? completed_.q : before_;
+  closed_ = closes ? found_ : before_;
+  position_ = closed_.head(coordinates_);
   if (!closes || givenUp()) previous_ = closed_;
   // Given positions stay as they are, with their whole turns.
-  for (const Eigen::Index i : given_) completed_.q[i] = motion.q[i];
+  for (const Eigen::Index i : fixed_) {
+    if (i < coordinates_) completed_.q[i] = motion.q[i];
+  }
   motion = completed_;
   return closes;
 }
 
+std::string PassiveJoints::whyOpen(const Dynamics& dynamics, Dynamics::Workspace& workspace) const {
+  if (!driven_loops_) return dynamics.whyOpen(completed_, given_.coordinates, workspace);
+  return driven_loops_->whyOpen(completed_.q);
+}
+
 // Takes the given positions without the whole turns by which drivers wrap: the way back over a
-// whole turn may pass singular positions.
-void PassiveJoints::setNearest(const Motion& motion) {
+// whole turn may pass singular positions. A quaternion and its opposite are the same orientation.
+void PassiveJoints::setNearest(const Motion& motion, const Motion& driven) {
+  driven_ = driven;
+  for (std::size_t k = 0; k < given_.links.size(); ++k) {
+    const auto first = static_cast<Eigen::Index>(given_.closures.size() + Given::kPoseNumbers * k);
+    if (driven.q.segment<4>(first + 3).dot(closed_.segment<4>(coordinates_ + first + 3)) >= 0) {
+      continue;
+    }
+    for (Eigen::VectorXd* numbers : {&driven_.q, &driven_.qd, &driven_.qdd}) {
+      numbers->segment<4>(first + 3) *= -1;
+    }
+  }
   Eigen::VectorXd& nearest = targets_[kHalvings];
   nearest = closed_;
-  for (std::size_t i = 0; i < given_.size(); ++i) {
-    double& position = nearest[given_[i]];
-    const double turns = wraps_[i] ? std::round((motion.q[given_[i]] - position) / kTurn) : 0;
-    position = motion.q[given_[i]] - kTurn * turns;
+  for (std::size_t i = 0; i < fixed_.size(); ++i) {
+    const Eigen::Index place = fixed_[i];
+    const double wanted = place < coordinates_ ? motion.q[place] : driven_.q[place - coordinates_];
+    const double turns = wraps_[i] ? std::round((wanted - nearest[place]) / kTurn) : 0;
+    nearest[place] = wanted - kTurn * turns;
   }
 }
 
-// Moves the given joints to the target and takes the passive joints along.
+// Moves what is given to the target and takes the other joints along.
 bool PassiveJoints::follow(const Motion& motion, int halvings, const Dynamics& dynamics,
                            Dynamics::Workspace& workspace) {
   const auto place = static_cast<std::size_t>(halvings);
   if (givenUp()) return false;
   const bool closes = search(motion, targets_[place], dynamics, workspace);
-  if (halvings > 0 && (!closes || turnsFar(closed_, completed_.q))) {
+  if (halvings > 0 && (!closes || turnsFar(closed_, found_))) {
     targets_[place - 1] = (closed_ + targets_[place]) / 2;
     follow(motion, halvings - 1, dynamics, workspace);  // a position in between may be singular
     targets_[place - 1] = targets_[place];
@@ -96,7 +150,7 @@ bool PassiveJoints::follow(const Motion& motion, int halvings, const Dynamics& d
   }
   if (closes) {
     previous_ = closed_;
-    closed_ = completed_.q;
+    closed_ = found_;
   }
   if (!closes) ++failures_;
   return closes;
@@ -108,26 +162,33 @@ bool PassiveJoints::follow(const Motion& motion, int halvings, const Dynamics& d
 bool PassiveJoints::search(const Motion& motion, const Eigen::VectorXd& target,
                            const Dynamics& dynamics, Dynamics::Workspace& workspace) {
   ++searches_;
-  start(motion, target, 0);
-  if (dynamics.completeFromCloseBy(completed_, workspace)) return true;
+  if (searchFrom(0, motion, target, dynamics, workspace)) return true;
   double along = 0, square = 0;
-  for (const Eigen::Index i : given_) {
+  for (const Eigen::Index i : fixed_) {
     const double step = closed_[i] - previous_[i];
     along += step * (target[i] - closed_[i]);
     square += step * step;
   }
   if (square == 0 || !(std::abs(along) <= kFurthest * square)) return false;
   missed_.swap(completed_.q);
-  start(motion, target, along / square);
-  if (dynamics.completeFromCloseBy(completed_, workspace)) return true;
+  if (searchFrom(along / square, motion, target, dynamics, workspace)) return true;
   completed_.q.swap(missed_);  // the better start for telling what stays open
   return false;
 }
 
-void PassiveJoints::start(const Motion& motion, const Eigen::VectorXd& target, double further) {
-  completed_ = motion;
-  completed_.q = closed_ + further * (closed_ - previous_);
-  for (const Eigen::Index i : given_) completed_.q[i] = target[i];
+bool PassiveJoints::searchFrom(double further, const Motion& motion, const Eigen::VectorXd& target,
+                               const Dynamics& dynamics, Dynamics::Workspace& workspace) {
+  found_ = closed_ + further * (closed_ - previous_);
+  for (const Eigen::Index i : fixed_) found_[i] = target[i];
+  completed_.q = found_.head(coordinates_);
+  completed_.qd = motion.qd;
+  completed_.qdd = motion.qdd;
+  driven_.q = found_.tail(driven_.q.size());
+  const bool closes = driven_loops_
+                          ? driven_loops_->complete(completed_, driven_)
+                          : dynamics.completeFromCloseBy(completed_, given_.coordinates, workspace);
+  found_.head(coordinates_) = completed_.q;
+  return closes;
 }
 
 bool PassiveJoints::givenUp() const {

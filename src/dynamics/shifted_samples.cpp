@@ -124,9 +124,9 @@ bool ShiftedLoops::computeSample(std::size_t sample) {
 std::vector<bool> independentCoordinates(const ClosedLoopDynamics& dynamics) {
   ClosedLoopDynamics::Workspace workspace = dynamics.makeWorkspace();
   std::vector<bool> given(dynamics.actuated().size(), true);
-  for (const bool actuated : {false, true}) {
+  for (const bool preferred : {false, true}) {
     for (std::size_t i = given.size(); i-- > 0;) {
-      if (dynamics.actuated()[i] != actuated) continue;
+      if (dynamics.given().coordinates[i] != preferred) continue;
       // At rest the rates are found if and only if what is not given is determined.
       given[i] = false;
       Motion motion(dynamics.coordinates());

@@ -105,7 +105,7 @@ class ShiftedLoops : public ShiftedSamples {
   std::vector<bool> known_;
 };
 
-/// Chooses coordinates whose motion determines that of all others at the assembly, actuated ones
+/// Chooses coordinates whose motion determines that of all others at the assembly, given ones
 /// first. Allocates.
 std::vector<bool> independentCoordinates(const ClosedLoopDynamics& dynamics);
 

@@ -5,6 +5,7 @@ vwd_core(
   effort_doubts.cpp
   given_joints.cpp
   model_view.cpp
+  motion_start.cpp
   passive_joints.cpp
   shifted_samples.cpp
   sample_rows.cpp)

@@ -55,8 +55,8 @@ std::string names(const Mechanism& mechanism, const std::vector<std::size_t>& co
   if (largest.directions > largest.lengths / length * kMatters) {
     open += " and " + numberText(largest.directions) + " rad";
   }
-  throw SceneError(kinematics.set(worst).place() +
-                   " cannot be assembled from the given start: it stays open by " + open);
+  throw AssemblyError(kinematics.set(worst).place() +
+                      " cannot be assembled from the given start: it stays open by " + open);
 }
 
 // Finds the coordinates that no actuated joint and no closure holds at the present position.
@@ -114,7 +114,7 @@ Eigen::VectorXd closedPosition(const LoopScene& loops, LoopCompletion& completio
                                LoopKinematics& kinematics) {
   kinematics.setPosition(loops.start);
   NearestClosing nearest(kinematics, completion.groups(), completion.scales(), completion.length());
-  const std::vector<bool>& given = loops.actuated;
+  const std::vector<bool>& given = loops.given.coordinates;
   Eigen::VectorXd q = loops.start;
   if (closeNear(completion, kinematics, nearest, q, given)) return q;
   const Eigen::VectorXd open = q;
@@ -124,7 +124,7 @@ Eigen::VectorXd closedPosition(const LoopScene& loops, LoopCompletion& completio
     if (completion.rank(kinematics, given) < completion.rank(kinematics, none)) return q;
     if (moveGiven(completion, kinematics, q, loops.start, given)) return q;
   }
-  // Zero, where actuated coordinates start that the scene does not place, is no wish of the user's.
+  // Zero, where given coordinates start that the scene does not place, is no wish of the user's.
   std::vector<bool> placed = given;
   for (std::size_t i = 0; i < placed.size(); ++i) placed[i] = given[i] && loops.placed[i];
   q = loops.start;

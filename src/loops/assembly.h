@@ -17,10 +17,10 @@ namespace virtual_work_dynamics {
 constexpr double kCoincide = 1e-9;
 
 /// Closes the loops at the solution nearest to the scene's start, whichever of a closure's links is
-/// the parent, and leaves `kinematics` there. Actuated coordinates stay where they start whenever
-/// the loops can be closed so; otherwise they move when there are more of them than degrees of
-/// freedom.
-/// @throws SceneError naming the closure that stays open furthest, and by how much.
+/// the parent, and leaves `kinematics` there. Coordinates that motions give, usually the actuated
+/// ones, stay where they start whenever the loops can be closed so; otherwise they move when there
+/// are more of them than degrees of freedom.
+/// @throws AssemblyError naming the closure that stays open furthest, and by how much.
 Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopCompletion& completion,
                          LoopKinematics& kinematics);
 

@@ -6,6 +6,7 @@
 #include "loops/assembly.h"
 #include "loops/compiled_loops.h"
 #include "loops/cut_tree.h"
+#include "loops/given_loops.h"
 #include "scene/input_checks.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -63,6 +64,7 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& of, const Scene& scene, const Re
       closures(scene.closures.size()),
       kinematics(mechanism, scene),
       groups(loopGroups(mechanism, kinematics)) {
+  for (const Closure& closure : scene.closures) closure_names.push_back(closure.name);
   for (const std::size_t c : loops.actuated_closures) {
     actuated_closures.push_back(scene.closures[c].name);
   }
@@ -94,6 +96,7 @@ void ClosedLoopDynamics::Impl::close(const Scene& scene) {
   assembly = assemble(scene, loops, completion, kinematics);
   length = loops.length.value_or(loopLength(groups, kinematics));
   LoopSolvers solvers(mechanism, loops, groups, kinematics, length, closures);
+  way = solvers.completion.largest(assembly - loops.start);
   requireHeld(mechanism, loops, assembly, solvers.completion, solvers.kinematics, solvers.forces);
   requireSprings(solvers);
 }
@@ -162,12 +165,66 @@ const Eigen::VectorXd& ClosedLoopDynamics::assembly() const {
   return impl_->assembly;
 }
 
+double ClosedLoopDynamics::assemblyWay() const {
+  return impl_->way;
+}
+
 std::vector<std::string> ClosedLoopDynamics::assemblyDoubts() const {
   return farFromStart(impl_->mechanism, impl_->loops.start, impl_->assembly, impl_->length);
 }
 
 const std::vector<bool>& ClosedLoopDynamics::actuated() const {
   return impl_->loops.actuated;
+}
+
+const Given& ClosedLoopDynamics::given() const {
+  return impl_->loops.given;
+}
+
+std::unique_ptr<GivenLoops> ClosedLoopDynamics::givenLoops(const Given& given) const {
+  return std::make_unique<GivenLoops>(impl_->mechanism, impl_->kinematics, impl_->closure_names,
+                                      given, impl_->loops.rank_tolerance, impl_->length);
+}
+
+ClosedLoopDynamics::GivenFinding ClosedLoopDynamics::judge(const Given& given) const {
+  requireGiven(given.coordinates);
+  Workspace workspace = makeWorkspace();
+  LoopSolvers& solvers = workspace.solversOf(*impl_);
+  const Eigen::VectorXd regular =
+      positionBeside(impl_->assembly, impl_->mechanism, solvers.completion, solvers.kinematics);
+  const std::vector<std::string>& names = impl_->mechanism.coordinateNames();
+  const std::unique_ptr<GivenLoops> loops = givenLoops(given);
+  GivenFinding finding;
+  finding.freedom = loops->freedom(regular, given.coordinates);
+  if (finding.freedom > 0) {
+    for (const std::size_t i : loops->undetermined(regular)) {
+      finding.undetermined.push_back(names[i]);
+    }
+    return finding;
+  }
+  const auto followsWhenLeft = [&](const Given& rest) {
+    return givenLoops(rest)->freedom(regular, rest.coordinates) == 0;
+  };
+  Given rest = given;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!given.coordinates[i]) continue;
+    rest.coordinates[i] = false;
+    if (loops->freedom(regular, rest.coordinates) == 0) finding.follow.push_back(names[i]);
+    rest.coordinates[i] = true;
+  }
+  for (std::size_t i = 0; i < given.closures.size(); ++i) {
+    rest.closures.erase(rest.closures.begin() + static_cast<std::ptrdiff_t>(i));
+    if (followsWhenLeft(rest)) finding.follow.push_back(impl_->closure_names[given.closures[i]]);
+    rest.closures = given.closures;
+  }
+  for (std::size_t i = 0; i < given.links.size(); ++i) {
+    rest.links.erase(rest.links.begin() + static_cast<std::ptrdiff_t>(i));
+    if (followsWhenLeft(rest)) {
+      finding.follow.push_back("pose." + impl_->mechanism.link(given.links[i]).name);
+    }
+    rest.links = given.links;
+  }
+  return finding;
 }
 
 const std::vector<std::string>& ClosedLoopDynamics::actuatedClosures() const {
@@ -193,9 +250,15 @@ bool ClosedLoopDynamics::complete(Motion& motion, Workspace& workspace) const {
 }
 
 bool ClosedLoopDynamics::completeFromCloseBy(Motion& motion, Workspace& workspace) const {
+  return completeFromCloseBy(motion, impl_->loops.actuated, workspace);
+}
+
+bool ClosedLoopDynamics::completeFromCloseBy(Motion& motion, const std::vector<bool>& given,
+                                             Workspace& workspace) const {
   LoopSolvers& solvers = workspace.solversOf(*impl_);
   requireLengths(motion, coordinates());
-  return solvers.completion.complete(solvers.kinematics, motion, impl_->loops.actuated,
+  requireGiven(given);
+  return solvers.completion.complete(solvers.kinematics, motion, given,
                                      LoopCompletion::kFromCloseBy);
 }
 
@@ -203,12 +266,23 @@ bool ClosedLoopDynamics::complete(Motion& motion, const std::vector<bool>& given
                                   Workspace& workspace) const {
   LoopSolvers& solvers = workspace.solversOf(*impl_);
   requireLengths(motion, coordinates());
-  if (given.size() != impl_->loops.actuated.size()) {
-    throw MotionError("motion: 'given' has " + std::to_string(given.size()) +
-                      " entries, the mechanism has " + std::to_string(coordinates()) +
-                      " coordinates");
-  }
+  requireGiven(given);
   return solvers.completion.complete(solvers.kinematics, motion, given);
+}
+
+void ClosedLoopDynamics::requireGiven(const std::vector<bool>& given) const {
+  if (given.size() == impl_->loops.actuated.size()) return;
+  throw MotionError("motion: 'given' has " + std::to_string(given.size()) +
+                    " entries, the mechanism has " + std::to_string(coordinates()) +
+                    " coordinates");
+}
+
+bool ClosedLoopDynamics::determine(const Eigen::VectorXd& q, const std::vector<bool>& given,
+                                   Workspace& workspace) const {
+  LoopSolvers& solvers = workspace.solversOf(*impl_);
+  requireGiven(given);
+  solvers.kinematics.setPosition(q);
+  return solvers.completion.determine(solvers.kinematics, given);
 }
 
 void ClosedLoopDynamics::compute(const Motion& motion, Workspace& workspace) const {

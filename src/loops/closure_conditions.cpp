@@ -12,6 +12,17 @@
 
 namespace virtual_work_dynamics {
 
+std::vector<int> coordinatesOn(const Mechanism& mechanism, const std::vector<PathStep>& path) {
+  std::vector<int> coordinates;
+  for (const PathStep& step : path) {
+    const int coordinate = mechanism.joint(step.joint).coordinate;
+    if (coordinate >= 0) coordinates.push_back(coordinate);
+  }
+  std::sort(coordinates.begin(), coordinates.end());
+  coordinates.erase(std::unique(coordinates.begin(), coordinates.end()), coordinates.end());
+  return coordinates;
+}
+
 namespace {
 
 using Kind = ClosureDemand::Kind;
@@ -58,18 +69,6 @@ std::vector<Condition> rowsOf(const Closure& closure) {
     rows.push_back(row);
   }
   return rows;
-}
-
-// Finds the coordinates that move the links relative to each other, ascending.
-std::vector<int> coordinatesOn(const Mechanism& mechanism, const std::vector<PathStep>& path) {
-  std::vector<int> coordinates;
-  for (const PathStep& step : path) {
-    const int coordinate = mechanism.joint(step.joint).coordinate;
-    if (coordinate >= 0) coordinates.push_back(coordinate);
-  }
-  std::sort(coordinates.begin(), coordinates.end());
-  coordinates.erase(std::unique(coordinates.begin(), coordinates.end()), coordinates.end());
-  return coordinates;
 }
 
 std::shared_ptr<const ConditionSet> makeSet(const Mechanism& mechanism, const Closure& closure) {

@@ -60,6 +60,9 @@ class ClosureConditions : public ConditionSet {
   double length_;
 };
 
+/// The coordinates that move the links of a path relative to each other, ascending.
+std::vector<int> coordinatesOn(const Mechanism& mechanism, const std::vector<PathStep>& path);
+
 /// Makes the conditions of all closures of a scene, one set for each.
 /// @throws SceneError naming the closure: unknown link, both frames on one link, or on links that
 ///   no joint moves relative to each other.

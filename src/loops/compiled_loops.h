@@ -53,12 +53,13 @@ struct ClosedLoopDynamics::Impl {
   Load own_load;             // values of the scene's own wrenches
   bool reacts;               // whether reactions are requested
   std::size_t closures;
-  std::vector<std::string> actuated_closures;
+  std::vector<std::string> closure_names, actuated_closures;
   LoopKinematics kinematics;  // at the assembly
   std::vector<LoopGroup> groups;
   std::vector<SpringReach> reach;  // by spring
   double length = 1;
   Eigen::VectorXd assembly;
+  double way = 0;  // from the scene's start, rad or over the length
   std::unique_ptr<LoopReactions> child_axes, root_axes;  // to be copied
   // The first pass gives efforts of the tree without closures, the second reactions with them.
   std::unique_ptr<InverseDynamics> first_pass, second_pass;

@@ -200,6 +200,17 @@ Eigen::Index LoopCompletion::rank(const LoopKinematics& kinematics,
   return sum;
 }
 
+bool LoopCompletion::determine(const LoopKinematics& kinematics, const std::vector<bool>& given) {
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (!given[i] && !in_loop_[i]) return false;
+  }
+  want(given);
+  factorize(kinematics, row_scales_);
+  right_.setZero();
+  return std::all_of(systems_.begin(), systems_.end(),
+                     [this](System& system) { return solve(system); });
+}
+
 void LoopCompletion::setRight(const LoopKinematics& kinematics, const System& system,
                               const Eigen::VectorXd& conditions) {
   double* right = right_.data();

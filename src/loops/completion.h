@@ -60,6 +60,9 @@ class LoopCompletion {
   /// Rank of the conditions' Jacobian for the coordinates that are not given, summed over all
   /// groups.
   Eigen::Index rank(const LoopKinematics& kinematics, const std::vector<bool>& given);
+  /// Whether the conditions determine the coordinates that are not given at the present position,
+  /// as complete() demands it.
+  bool determine(const LoopKinematics& kinematics, const std::vector<bool>& given);
 
  private:
   // The Jacobian of one group's conditions, with lengths divided by length().

@@ -9,6 +9,7 @@
 #include "loops/closure_wrench.h"
 #include "loops/link_kinematics.h"
 #include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/scene.h"
 
 namespace virtual_work_dynamics {
@@ -36,6 +37,7 @@ struct LoopState {
   LinkKinematics links;
   Eigen::VectorXd q, qd;
   double time = 0;  ///< s
+  Motion driven;    ///< numbers that conditions drive by, see Given; empty where none does
 };
 
 /// The frames that a closure joins, in root axes.
@@ -93,6 +95,10 @@ class ConditionSet {
   const std::string& place() const { return place_; }
   const std::vector<Condition>& conditions() const { return conditions_; }
   const std::vector<int>& coordinates() const { return coordinates_; }
+
+  /// The joints whose levers tell how large its rows are where nothing cancels; null: its entries
+  /// tell.
+  virtual const std::vector<PathStep>* levers() const { return nullptr; }
 
   /// Sets phi where there is one, A, and the frames and unit wrenches of a closure, from q and
   /// time. Does not allocate.

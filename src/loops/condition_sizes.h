@@ -20,8 +20,8 @@ class ConditionSizes {
   ConditionSizes(const Mechanism& mechanism, const LoopKinematics& kinematics,
                  const LoopGroup& group, double length);
 
-  /// Size of a row of one of the group's sets. Zero when the set is not a closure's: its rows have
-  /// the size that their entries show.
+  /// Size of a row of one of the group's sets. Zero when the set has no levers: its rows have the
+  /// size that their entries show.
   /// @param local index into LoopGroup::sets
   /// @param unit of the condition, or of the motion that an effort works on
   double ofRow(std::size_t local, Unit unit) const;
@@ -30,7 +30,10 @@ class ConditionSizes {
   struct Sizes {
     double force, moment;  // of a unit force; of a unit moment over the length, times the length
   };
-  std::vector<Sizes> sizes_;  // by closure of the group; its closures are the first of its sets
+  // `extent` of the path, m
+  static Sizes sizesOf(const Mechanism& mechanism, const std::vector<PathStep>& path, double extent,
+                       double length);
+  std::vector<Sizes> sizes_;  // by set of the group; its closures are the first
 };
 
 }  // namespace virtual_work_dynamics

@@ -9,6 +9,7 @@ Scene withoutLoops(const Scene& scene) {
   tree.closures.clear();
   tree.springs.clear();
   tree.actuated.reset();
+  tree.given.reset();
   tree.assembly.clear();
   tree.redundancy = {};
   tree.reactions = ReactionSelection::kNone;

@@ -23,6 +23,7 @@ class LoopKinematics {
   /// Takes the sets as they are; those of closures must come first.
   LoopKinematics(const Mechanism& mechanism, ConditionSets sets);
 
+  const ConditionSets& conditionSets() const { return sets_; }
   std::size_t sets() const { return sets_.size(); }
   std::size_t closures() const { return closures_.size(); }
   const ConditionSet& set(std::size_t set) const { return *sets_[set]; }
@@ -41,9 +42,15 @@ class LoopKinematics {
     placed_ = placed_ && state_.time == time;
     state_.time = time;
   }
+  /// The numbers that conditions drive by, to be set. They hold from the next position on.
+  Motion& driven() {
+    placed_ = false;
+    return state_.driven;
+  }
   /// Computes poses of links, conditions and their Jacobian at a position. Costs nothing when they
   /// are at that position already.
   void setPosition(const Eigen::VectorXd& q);
+  const Eigen::VectorXd& position() const { return state_.q; }
   const Eigen::VectorXd& phi() const { return values_.phi; }  ///< m or rad; 0 where there is none
   const Eigen::MatrixXd& jacobian() const { return values_.A; }  ///< conditions x coordinates
   /// Makes the present position meet the conditions that adopt their constant from the assembly;

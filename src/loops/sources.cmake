@@ -7,7 +7,9 @@ vwd_core(
   condition.cpp
   condition_sizes.cpp
   cut_tree.cpp
+  driven_conditions.cpp
   forces.cpp
+  given_loops.cpp
   groups.cpp
   kinematics.cpp
   link_kinematics.cpp

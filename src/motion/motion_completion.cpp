@@ -17,9 +17,9 @@
 namespace virtual_work_dynamics {
 namespace {
 
-void checkShapes(const Mechanism& mechanism, const MotionTable& motion) {
+void checkShapes(const Mechanism& mechanism, const MotionTable& motion, bool other_columns) {
   for (const std::string& name : motion.joints) {
-    if (mechanism.coordinateIndex(name) < 0) {
+    if (mechanism.coordinateIndex(name) < 0 && !other_columns) {
       throw MotionError("motion: " + inQuotes(name) +
                         " is not a generalized coordinate of the robot" +
                         nameHelp(name, mechanism.coordinateNames()));
@@ -134,7 +134,7 @@ std::size_t firstTimeThatDoesNotIncrease(const std::vector<double>& times) {
 MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion,
                            const CompletionSettings& settings, CompletionReport* report) {
   if (report != nullptr) *report = CompletionReport();
-  checkShapes(mechanism, motion);
+  checkShapes(mechanism, motion, settings.other_columns);
   unwrapPositions(mechanism, motion);
   const bool complete = motion.hasVelocities() && motion.hasAccelerations();
   if (complete || motion.positions.size() == 0) return motion;

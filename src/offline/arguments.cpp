@@ -27,8 +27,10 @@ Input
                         velocity.<joint>, acceleration.<joint> in any order (s, rad or m); lines
                         that start with # are comments. Missing accelerations, or velocities, are
                         estimated by a smoother that finds the noise of the recording. Where the
-                        scene closes loops, the columns are of all joints, or of the actuated joints,
-                        which move the others. - reads standard input.
+                        scene closes loops, the columns are of all joints, or of as many as move the
+                        others: the actuated ones, or any other choice, free axes of closures
+                        (position.<closure>) and poses of links (position.pose.<link>.x, y, z, qx,
+                        qy, qz, qw, in axes of the root link) included. - reads standard input.
   --scene FILE          scene file (YAML); the options below override it
 
 How missing derivatives are estimated
@@ -59,6 +61,9 @@ What is computed
                         standard deviations of the results by the error of the estimated motion; and,
                         where the scene has tolerances, tolerance.effort.<joint>,
                         tolerance.<name>.{fx,...,tz}: by the errors of masses and inertias
+  --positions           adds the columns position.<joint>, velocity.<joint> and acceleration.<joint>
+                        of all joints: the motion that the results belong to, which can be read as a
+                        motion again
   --deviation-warn X    notes efforts whose deviation is more than X times the effort, both as rms of
                         all rows, and the cause (default: 0.1)
   --loop-tolerance X    how far the motion may violate closed loops, relative to the loops' size
@@ -258,6 +263,7 @@ const std::map<std::string, bool Arguments::*>& switches() {
       {"--explain", &Arguments::explain},
       {"--help", &Arguments::help},
       {"--no-efforts", &Arguments::no_efforts},
+      {"--positions", &Arguments::positions},
       {"--version", &Arguments::version},
   };
   return options;

@@ -42,6 +42,7 @@ struct Arguments {
   Method method = Method::kVirtualWork;
   bool certificates = false;
   bool deviations = false;
+  bool positions = false;
   std::optional<double> deviation_warn;  ///< over the effort's rms; none: kDeviationWarn
   int threads = 1;
   std::optional<double> loop_tolerance;  ///< relative; none: kLoopTolerance

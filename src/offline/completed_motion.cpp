@@ -2,17 +2,13 @@
 
 #include <iostream>
 #include <sstream>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
-#include "base/nearest_name.h"
 #include "base/printable.h"
 #include "dynamics/given_joints.h"
 #include "dynamics/sample_rows.h"
-#include "offline/arguments.h"
 #include "virtual_work_dynamics/error.h"
-#include "virtual_work_dynamics/unwrap.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -23,47 +19,6 @@ std::string joined(const Names& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
   return text;
-}
-
-using NameSet = std::unordered_set<std::string>;
-
-NameSet setOf(const Names& names) {
-  return NameSet(names.begin(), names.end());
-}
-
-void checkRest(const Mechanism& mechanism, const RecordingOptions& options) {
-  for (const auto& [name, position] : options.rest) {
-    if (mechanism.coordinateIndex(name) >= 0) continue;
-    throw UsageError("--rest: robot " + inQuotes(mechanism.name()) + " has no joint " +
-                     inQuotes(name) + " that moves by itself" +
-                     nameHelp(name, mechanism.coordinateNames()));
-  }
-}
-
-// Chooses all coordinates, or the actuated ones when no passive joint is given; joints that rest
-// may be missing.
-JointChoice choiceOf(const std::string& path, const Mechanism& mechanism, const Dynamics& dynamics,
-                     const RecordingOptions& options) {
-  checkRest(mechanism, options);
-  return [&path, &mechanism, &dynamics, &options](const Names& header) {
-    const Names& all = mechanism.coordinateNames();
-    const NameSet has_columns = setOf(header);
-    NameSet rests;
-    for (const auto& joint : options.rest) rests.insert(joint.first);
-    const GivenJoints rule(mechanism, dynamics);
-    // The file's reader names missing actuated joints.
-    std::vector<bool> given = dynamics.actuated();
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (has_columns.count(all[i]) + rests.count(all[i]) > 0) given[i] = true;
-    }
-    if (const auto problem = rule.problem(given)) throw FileError(path + ": " + *problem);
-    Names wanted;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      const bool missing = rests.count(all[i]) > 0 && has_columns.count(all[i]) == 0;
-      if (given[i] && !missing) wanted.push_back(all[i]);
-    }
-    return wanted;
-  };
 }
 
 // Widens the covariances, like the table.
@@ -96,6 +51,33 @@ void widen(const Mechanism& mechanism, MotionTable& table) {
   table.joints = all;
 }
 
+// Takes the last columns off a table that has velocities and accelerations.
+MotionTable takenFrom(MotionTable& table, std::size_t count) {
+  MotionTable taken;
+  if (count == 0) return taken;
+  const auto columns = static_cast<Eigen::Index>(count);
+  const std::size_t kept = table.joints.size() - count;
+  const auto take = [&](Eigen::MatrixXd& from, Eigen::MatrixXd& to) {
+    to = from.rightCols(columns);
+    from = from.leftCols(from.cols() - columns).eval();
+  };
+  take(table.positions, taken.positions);
+  take(table.velocities, taken.velocities);
+  take(table.accelerations, taken.accelerations);
+  taken.joints.assign(table.joints.begin() + static_cast<std::ptrdiff_t>(kept), table.joints.end());
+  table.joints.resize(kept);
+  table.covariances.clear();
+  return taken;
+}
+
+Names notGiven(const Mechanism& mechanism, const Given& given) {
+  Names names;
+  for (std::size_t i = 0; i < given.coordinates.size(); ++i) {
+    if (!given.coordinates[i]) names.push_back(mechanism.coordinateNames()[i]);
+  }
+  return names;
+}
+
 struct Level {
   const char* name;
   const char* unit;
@@ -108,36 +90,27 @@ constexpr Level kLevels[] = {{"positions", "m or rad", &ClosureResidual::positio
 
 }  // namespace
 
-CompletedMotion::CompletedMotion(const std::string& path, const Mechanism& mechanism,
+CompletedMotion::CompletedMotion(RecordedMotion recorded, const Mechanism& mechanism,
                                  const Scene& scene, const Dynamics& dynamics, double tolerance,
                                  const RecordingOptions& options)
     : closures_(dynamics.closureNames()),
       tolerance_(tolerance),
-      file_(readMotion(path, mechanism, choiceOf(path, mechanism, dynamics, options))),
+      file_(std::move(recorded.file)),
       row_(dynamics.coordinates()),
-      passive_(mechanism, dynamics) {
-  const Names wrapped = unwrapPositions(mechanism, file_.table);
-  if (!wrapped.empty()) {
-    std::cerr << "note: " << printable(path)
-              << ": whole turns that a driver left out are added to the positions of "
-              << joined(wrapped) << "\n";
-  }
-  std::vector<std::pair<std::string, double>> resting;
-  const NameSet given = setOf(file_.table.joints);
-  for (const auto& joint : options.rest) {
-    if (given.count(joint.first) == 0) resting.push_back(joint);
-  }
-  positions_follow_ =
-      file_.table.joints.size() + resting.size() < mechanism.coordinateNames().size();
-  if (dynamics.closuresDetermine() && !scene.static_motion) {
+      driven_row_(static_cast<Eigen::Index>(recorded.drivenNumbers())),
+      passive_(mechanism, dynamics, recorded.given) {
+  positions_follow_ = !GivenJoints::givesAll(recorded.given);
+  if ((dynamics.closuresDetermine() || positions_follow_) && !scene.static_motion) {
     velocities_follow_ = positions_follow_ || !file_.table.hasVelocities();
     accelerations_follow_ = positions_follow_ || !file_.table.hasAccelerations();
   }
   CompletionSettings completion = options.completion;
   completion.keep_positions = dynamics.closed();
+  completion.other_columns = recorded.drivenNumbers() > 0;
   completeDerivatives(mechanism, scene, completion, file_);
-  if (positions_follow_ || !resting.empty()) widen(mechanism, file_.table);
-  for (const auto& [name, position] : resting) {
+  driven_ = takenFrom(file_.table, recorded.drivenNumbers());
+  if (positions_follow_ || !recorded.resting.empty()) widen(mechanism, file_.table);
+  for (const auto& [name, position] : recorded.resting) {
     file_.table.positions.col(mechanism.coordinateIndex(name)).setConstant(position);
   }
   Names follow;
@@ -145,8 +118,11 @@ CompletedMotion::CompletedMotion(const std::string& path, const Mechanism& mecha
   if (velocities_follow_) follow.push_back("velocities");
   if (accelerations_follow_) follow.push_back("accelerations");
   if (!follow.empty()) {
-    std::cerr << "note: " << printable(path)
-              << ": of passive joints, computed from the closures: " << joined(follow) << "\n";
+    const bool all = !positions_follow_ || (recorded.drivenNumbers() == 0 &&
+                                            recorded.given.coordinates == dynamics.actuated());
+    std::cerr << "note: " << printable(file_.path) << ": of "
+              << (all ? "passive joints" : joined(notGiven(mechanism, recorded.given)))
+              << ", computed from the closures: " << joined(follow) << "\n";
   }
 }
 
@@ -155,9 +131,14 @@ void CompletedMotion::complete(std::size_t row, const Dynamics& dynamics,
   if (!completes()) return;
   MotionTable& table = file_.table;
   takeRow(table, row, row_);
-  const bool closes = positions_follow_ ? passive_.complete(row_, dynamics, workspace)
+  takeRow(driven_, row, driven_row_);
+  const bool closes = positions_follow_ ? passive_.complete(row_, driven_row_, dynamics, workspace)
                                         : dynamics.complete(row_, workspace);
-  if (!closes) throw FileError(file_.at(row) + ": " + dynamics.whyOpen(row_, workspace));
+  if (!closes) {
+    throw FileError(file_.at(row) + ": " +
+                    (positions_follow_ ? passive_.whyOpen(dynamics, workspace)
+                                       : dynamics.whyOpen(row_, workspace)));
+  }
   const auto index = static_cast<Eigen::Index>(row);
   if (positions_follow_) table.positions.row(index) = row_.q;
   if (velocities_follow_) table.velocities.row(index) = row_.qd;

@@ -5,21 +5,24 @@
 #include <string>
 
 #include "offline/motion_file.h"
+#include "offline/recorded_motion.h"
 #include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/passive_joints.h"
 
 namespace virtual_work_dynamics {
 
 /// The recorded motion of all coordinates of a mechanism. A file that gives all joints is taken as
-/// it is and checked against the loops, if there are any. One that gives only the actuated joints
-/// is completed by the closures, row by row.
+/// it is and checked against the loops, if there are any. One that gives only what determines the
+/// others is completed by the closures, row by row.
 class CompletedMotion {
  public:
-  /// Reads the file. Derivatives that it lacks are estimated for the joints that it gives, and
-  /// follow from the closures for the others.
+  /// Derivatives that the recorded motion lacks are estimated for what it gives, and follow from
+  /// the closures for the other joints.
+  /// @param scene as startedBy() the motion
+  /// @param dynamics of that scene
   /// @param tolerance for relative residuals of the loops
-  /// @throws FileError naming joints that are missing.
-  CompletedMotion(const std::string& path, const Mechanism& mechanism, const Scene& scene,
+  /// @throws FileError as completeDerivatives().
+  CompletedMotion(RecordedMotion recorded, const Mechanism& mechanism, const Scene& scene,
                   const Dynamics& dynamics, double tolerance, const RecordingOptions& options);
 
   /// The motion of all coordinates; rows that are not completed yet lack what follows from the
@@ -42,9 +45,10 @@ class CompletedMotion {
   std::vector<std::string> closures_;
   double tolerance_;
   MotionFile file_;
-  // Whether the passive joints' positions, velocities and accelerations follow from the closures.
+  MotionTable driven_;  // numbers that are given besides coordinates
+  // Whether the other joints' positions, velocities and accelerations follow from the closures.
   bool positions_follow_ = false, velocities_follow_ = false, accelerations_follow_ = false;
-  Motion row_;
+  Motion row_, driven_row_;
   PassiveJoints passive_;
 };
 

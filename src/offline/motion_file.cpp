@@ -110,7 +110,9 @@ void warnOfDegrees(const Mechanism& mechanism, const MotionFile& motion) {
   constexpr double kFar = 5;
   const MotionTable& table = motion.table;
   for (std::size_t i = 0; i < table.joints.size(); ++i) {
-    const Joint& joint = mechanism.joint(mechanism.jointIndex(table.joints[i]));
+    const int index = mechanism.jointIndex(table.joints[i]);
+    if (index < 0) continue;
+    const Joint& joint = mechanism.joint(index);
     if (joint.type != JointType::kRevolute || !(joint.lower < joint.upper)) continue;
     const double limit = std::max(std::abs(joint.lower), std::abs(joint.upper));
     const double most = table.positions.col(static_cast<Eigen::Index>(i)).cwiseAbs().maxCoeff();
@@ -150,11 +152,11 @@ void describe(const Mechanism& mechanism, const MotionFile& motion,
       std::cerr << "warning: " << printable(motion.path) << ": "
                 << velocityProblem(joints[i], quality.velocity_ratio) << "\n";
     }
-    const Joint& joint = mechanism.joint(mechanism.jointIndex(joints[i]));
+    const int index = mechanism.jointIndex(joints[i]);
+    const char* unit = index < 0 ? "m or rad" : symbolOf(unitOf(mechanism.joint(index)));
     warnOfFarPositions(motion, joints[i], report.jumps[i], report.left_out[i]);
     std::cerr << "note: " << printable(motion.path) << ": " << shortened(joints[i]) << ": "
-              << (report.still[i] ? std::string("does not move")
-                                  : streamText(quality, symbolOf(unitOf(joint))))
+              << (report.still[i] ? std::string("does not move") : streamText(quality, unit))
               << "\n";
   }
   std::cerr << "note: " << printable(motion.path) << ": " << report.one_sided << " of "

@@ -5,9 +5,12 @@
 #include <iostream>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "base/number_text.h"
 #include "base/printable.h"
+#include "dynamics/given_joints.h"
+#include "dynamics/motion_start.h"
 #include "offline/certified_rows.h"
 #include "offline/check_report.h"
 #include "offline/completed_motion.h"
@@ -16,6 +19,7 @@
 #include "offline/lagrange_rows.h"
 #include "offline/loop_report.h"
 #include "offline/output_file.h"
+#include "offline/recorded_motion.h"
 #include "offline/result_writer.h"
 #include "offline/rows.h"
 #include "virtual_work_dynamics/dynamics.h"
@@ -139,13 +143,33 @@ void printMotion(const MotionFile& motion) {
               numberText(*extremes.second) + " s"});
 }
 
+// Reads the motion and starts the scene's loops by it.
+RecordedMotion readStart(const Arguments& arguments, const Mechanism& mechanism, Scene& scene) {
+  RecordedMotion recorded =
+      readRecordedMotion(arguments.motion, mechanism, scene, arguments.recording);
+  if (!needsClosedLoops(scene)) return recorded;
+  try {
+    scene = startedBy(mechanism, scene, recorded.start(mechanism));
+  } catch (const GivenError& error) {
+    throw FileError(arguments.motion + ": " + error.problem());
+  } catch (const AssemblyError& error) {
+    if (!GivenJoints::givesAll(recorded.given)) {
+      throw AssemblyError(prefixOf(arguments) + error.what());
+    }
+    throw FileError(recorded.file.at(0) + ": " + error.what());
+  } catch (const SceneError& error) {
+    throw SceneError(prefixOf(arguments) + error.what());
+  }
+  return recorded;
+}
+
 double toleranceOf(const Arguments& arguments) {
   return arguments.loop_tolerance.value_or(kLoopTolerance);
 }
 
-void checkMotion(const Arguments& arguments, const Mechanism& mechanism, const Scene& scene,
-                 const Dynamics& dynamics) {
-  CompletedMotion motion(arguments.motion, mechanism, scene, dynamics, toleranceOf(arguments),
+void checkMotion(const Arguments& arguments, RecordedMotion recorded, const Mechanism& mechanism,
+                 const Scene& scene, const Dynamics& dynamics) {
+  CompletedMotion motion(std::move(recorded), mechanism, scene, dynamics, toleranceOf(arguments),
                          arguments.recording);
   Conditions conditions;
   if (dynamics.closed()) {
@@ -162,8 +186,10 @@ void check(const Arguments& arguments, const Mechanism& mechanism) {
   printMechanism(std::cout, mechanism);
   printDoubts(std::cout, mechanism);
   std::cout << std::flush;
-  const Scene scene = loadScene(arguments);
+  Scene scene = loadScene(arguments);
   refuseByLoops(arguments, needsClosedLoops(scene));
+  std::optional<RecordedMotion> recorded;
+  if (!arguments.motion.empty()) recorded = readStart(arguments, mechanism, scene);
   const Dynamics dynamics =
       dynamicsOf(mechanism, scene, requestOf(mechanism, scene, arguments), arguments);
   if (dynamics.closed()) printLoops(std::cout, mechanism, scene, dynamics);
@@ -172,7 +198,7 @@ void check(const Arguments& arguments, const Mechanism& mechanism) {
   }
   printReactions(dynamics.request());
   printMomentPoints(scene, dynamics.request());
-  if (!arguments.motion.empty()) checkMotion(arguments, mechanism, scene, dynamics);
+  if (recorded) checkMotion(arguments, std::move(*recorded), mechanism, scene, dynamics);
   std::cout << "The robot can run.\n" << std::flush;
 }
 
@@ -185,8 +211,12 @@ void explain(const Arguments& arguments, const Mechanism& mechanism) {
   std::cout << std::flush;
 }
 
-void compute(const Arguments& arguments, const Mechanism& mechanism, const Scene& scene) {
+void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene) {
   const Request written = requestOf(mechanism, scene, arguments);
+  RecordedMotion recorded = readStart(arguments, mechanism, scene);
+  if (arguments.deviations && recorded.drivenNumbers() > 0) {
+    throw UsageError("--deviations: the motion gives more than joints, whose errors are not known");
+  }
   const Dynamics dynamics =
       dynamicsOf(mechanism, scene, computedFor(written, arguments), arguments);
   for (const std::string& doubt : dynamics.assemblyDoubts()) {
@@ -199,7 +229,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, const Scene
   Columns columns = columnsOf(dynamics, written, arguments);
   RecordingOptions recording = arguments.recording;
   recording.completion.covariances = arguments.deviations;
-  CompletedMotion motion(arguments.motion, mechanism, scene, dynamics, toleranceOf(arguments),
+  CompletedMotion motion(std::move(recorded), mechanism, scene, dynamics, toleranceOf(arguments),
                          recording);
   std::optional<DeviationRows> deviations;
   if (arguments.deviations) {
@@ -207,12 +237,16 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, const Scene
     const Names more = deviations->columns(columns);
     columns.more.insert(columns.more.end(), more.begin(), more.end());
   }
+  if (arguments.positions) {
+    const Names motion_columns = motionColumns(mechanism.coordinateNames());
+    columns.more.insert(columns.more.end(), motion_columns.begin(), motion_columns.end());
+  }
   const std::string header = resultHeader(columns);
   OutputFile file(arguments.output);
   ResultWriter writer(file, header);
   std::string warning;
   {
-    Rows rows(motion.file(), columns, arguments.child_axes, dynamics.closed(),
+    Rows rows(motion.file(), columns, arguments.child_axes, dynamics.closed(), arguments.positions,
               certified ? &*certified : nullptr, deviations ? &*deviations : nullptr, writer);
     Computation(dynamics, motion, arguments.threads)
         .run([&](std::size_t row, const Motion& at, const Results& results) {

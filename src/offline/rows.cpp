@@ -26,6 +26,14 @@ std::vector<std::string> loopColumns(const Columns& results,
   return columns;
 }
 
+std::vector<std::string> motionColumns(const std::vector<std::string>& joints) {
+  std::vector<std::string> columns;
+  for (const char* kind : {"position.", "velocity.", "acceleration."}) {
+    for (const std::string& joint : joints) columns.push_back(kind + joint);
+  }
+  return columns;
+}
+
 void Conditions::note(std::size_t row, const Results& results) {
   const double condition = results.loops.determinacy.condition;
   if (results.singular()) return;
@@ -45,11 +53,13 @@ std::string Conditions::worst(const MotionFile& file) const {
 }
 
 Rows::Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool loops,
-           CertifiedRows* certified, DeviationRows* deviations, ResultWriter& writer)
+           bool positions, CertifiedRows* certified, DeviationRows* deviations,
+           ResultWriter& writer)
     : file_(file),
       columns_(columns),
       child_axes_(child_axes),
       loops_(loops),
+      positions_(positions),
       certified_(certified),
       deviations_(deviations),
       writer_(writer),
@@ -68,6 +78,11 @@ void Rows::write(std::size_t row, const Motion& motion, const Results& results) 
   }
   if (certified_) certified_->check(motion, results, file_.lines[row], more_);
   if (deviations_) deviations_->add(row, motion, results, more_);
+  if (positions_) {
+    for (const Eigen::VectorXd* values : {&motion.q, &motion.qd, &motion.qdd}) {
+      more_.insert(more_.end(), values->data(), values->data() + values->size());
+    }
+  }
   writer_.writeRow(file_.table.times[row], effort_, reactions_, more_);
   progress_.update(row + 1, file_.table.times.size());
 }

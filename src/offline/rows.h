@@ -21,6 +21,9 @@ namespace virtual_work_dynamics {
 std::vector<std::string> loopColumns(const Columns& results,
                                      const std::vector<std::string>& closures);
 
+/// Names of the columns of the motion of all joints.
+std::vector<std::string> motionColumns(const std::vector<std::string>& joints);
+
 /// How close rows come to singular positions.
 class Conditions {
  public:
@@ -43,9 +46,10 @@ class Rows {
  public:
   /// @param child_axes whether reactions are in child link axes rather than root axes
   /// @param loops whether the columns include loopColumns()
+  /// @param positions whether the columns end with motionColumns()
   /// @param certified null when no certificates are asked for
   /// @param deviations null when no deviations are asked for
-  Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool loops,
+  Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool loops, bool positions,
        CertifiedRows* certified, DeviationRows* deviations, ResultWriter& writer);
 
   void write(std::size_t row, const Motion& motion, const Results& results);
@@ -60,7 +64,7 @@ class Rows {
 
   const MotionFile& file_;
   const Columns& columns_;
-  const bool child_axes_, loops_;
+  const bool child_axes_, loops_, positions_;
   CertifiedRows* certified_;
   DeviationRows* deviations_;
   ResultWriter& writer_;

@@ -11,6 +11,7 @@ foreach(file
     motion_file.cpp
     offline.cpp
     output_file.cpp
+    recorded_motion.cpp
     result_writer.cpp
     rows.cpp
     watched_file.cpp)

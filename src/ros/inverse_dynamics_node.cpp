@@ -34,11 +34,11 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       late_threshold_(parameters.late_threshold),
       checks_{parameters.self_check.cross_check_rate > 0, parameters.self_check.certificates},
       joint_states_(task_.mechanism),
-      trajectories_(task_.mechanism, task_.scene.static_motion, task_.passive(),
+      trajectories_(task_.mechanism, task_.scene.static_motion, task_.following(),
                     parameters.trajectory_sampling),
       estimator_(task_.mechanism, task_.estimator),
       loops_(task_.everything, task_.reactions.size(), parameters.loop_limits),
-      completer_(task_.mechanism, task_.everything, task_.scene.static_motion),
+      completer_(task_.mechanism, task_.scene, task_.everything, parameters.loop_limits.tolerance),
       samples_(task_.everything.coordinates(), task_.scene.static_motion, completer_,
                {counters_, certificates_, loops_}),
       played_(parameters.trajectory_rate),
@@ -63,7 +63,7 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
   if (task_.everything.closed()) estimator_.waitFor(completer_.needed());
   covariance_.coordinates.resize(task_.mechanism.coordinates().size());
   for (const auto& [coordinate, position] : task_.rest) estimator_.setRest(coordinate, position);
-  loops_.setPassiveGiven(completer_.passiveGiven());
+  loops_.setPassiveGiven(completer_.allGiven());
   if (!task_.closure_frames.transforms.empty()) {
     closure_frames_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
     closure_frames_.publish(task_.closure_frames);
@@ -201,6 +201,9 @@ void InverseDynamicsNode::evaluate(ros::Time receipt) {
                : std::string("not finite")) +
              " at stamp " + stampText(stamp_ns));
     return;
+  }
+  if (const auto open = completer_.openStates()) {
+    ROS_WARN("%s: %s", joint_state_subscriber_.getTopic().c_str(), open->c_str());
   }
   publishSample(plan);
   if (!sim_time_ && ros::Time::now() - receipt > late_threshold_) counters_.late.add();
@@ -372,8 +375,9 @@ void InverseDynamicsNode::watchJoints(Clock::time_point now) {
   const std::vector<std::string> in_vain = joint_watch_.notNeeded(true);
   if (!in_vain.empty()) {
     ROS_WARN(
-        "%s: passive joints %s are given, but not %s: they are ignored, and the motion of all "
-        "passive joints follows from the closures",
+        "%s: joints %s are given, but not %s: they are ignored, and the motion of both follows "
+        "from "
+        "the closures",
         joint_state_subscriber_.getTopic().c_str(), shortList(in_vain).c_str(),
         shortList(joint_watch_.notNeeded(false)).c_str());
   }

@@ -154,6 +154,14 @@ LoopLimits readLoopLimits(PrivateParameters& parameters) {
   return limits;
 }
 
+double readStartPatience(PrivateParameters& parameters, double fallback) {
+  const double patience = parameters.number("start_patience", fallback);
+  if (!(patience >= 0)) {
+    throw parameterError("start_patience", numberText(patience) + " s is less than 0");
+  }
+  return patience;
+}
+
 double readDeviationWarn(PrivateParameters& parameters, double fallback) {
   const double warn = parameters.number("deviation_warn", fallback);
   if (!(warn > 0)) throw parameterError("deviation_warn", numberText(warn) + " is not positive");
@@ -190,6 +198,7 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   result.late_threshold = readPeriod(parameters, "late_threshold", result.late_threshold);
   result.self_check = readSelfCheck(parameters);
   result.loop_limits = readLoopLimits(parameters);
+  result.start_patience = readStartPatience(parameters, result.start_patience);
   result.deviation_warn = readDeviationWarn(parameters, result.deviation_warn);
   result.marker_rate = readMarkerRate(parameters, result.marker_rate);
   result.scene_given = parameters.has("scene");

@@ -55,6 +55,8 @@ parameters
   ~deviation_warn            WARN where an effort's deviation exceeds this times the effort, both rms,
                              while ~effort_deviation has subscribers (0.1)
   ~loop_tolerance            closed loops: WARN where a motion violates one by more, relative (1e-6)
+  ~start_patience            closed loops that cannot be assembled from the scene: s to wait at the start for
+                             joint states that say where they are (0)
   ~condition_warn            closed loops: WARN close to a singular position, from this condition on (1e4)
 )";
 

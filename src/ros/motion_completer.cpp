@@ -2,35 +2,58 @@
 
 #include <algorithm>
 
+#include "base/number_text.h"
+#include "base/printable.h"
+#include "dynamics/motion_start.h"
 #include "dynamics/sample_rows.h"
+#include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
+namespace {
 
-MotionCompleter::MotionCompleter(const Mechanism& mechanism, const Dynamics& dynamics,
-                                 bool static_motion)
-    : closed_(dynamics.closed()),
-      static_motion_(static_motion),
+std::vector<bool> either(std::vector<bool> one, const std::vector<bool>& other) {
+  for (std::size_t i = 0; i < one.size(); ++i) one[i] = one[i] || other[i];
+  return one;
+}
+
+std::vector<bool> namedBy(const TrajectoryMotion& trajectory, std::size_t coordinates) {
+  std::vector<bool> named(coordinates, false);
+  for (const int i : trajectory.coordinates) named[static_cast<std::size_t>(i)] = true;
+  return named;
+}
+
+}  // namespace
+
+constexpr double MotionCompleter::kNearlyClosed;
+
+MotionCompleter::MotionCompleter(const Mechanism& mechanism, const Scene& scene,
+                                 const Dynamics& dynamics, double tolerance)
+    : mechanism_(mechanism),
+      scene_(scene),
+      dynamics_(dynamics),
+      closed_(dynamics.closed()),
+      static_motion_(scene.static_motion),
       closures_determine_(dynamics.closuresDetermine()),
-      actuated_(dynamics.actuated()),
+      nearly_closed_(std::max(tolerance, kNearlyClosed)),
+      usual_(dynamics.given()),
       rule_(mechanism, dynamics),
       joint_states_(mechanism, dynamics),
       trajectories_(mechanism, dynamics),
       samples_(mechanism, dynamics),
-      needed_(actuated_),
-      seen_(actuated_.size(), false),
+      all_given_(GivenJoints::givesAll(usual_) || dynamics.closureNames().empty()),
+      needed_(usual_.coordinates),
+      seen_(needed_.size(), false),
       motion_(dynamics.coordinates()) {
-  const bool none_passive = std::count(needed_.begin(), needed_.end(), false) == 0;
-  passive_given_ = none_passive || !closures_determine_;
-  if (passive_given_) needed_.assign(needed_.size(), true);
+  if (all_given_) needed_.assign(needed_.size(), true);
 }
 
 bool MotionCompleter::saw(const int* coordinates, int count) {
-  if (passive_given_) return false;
+  if (all_given_) return false;
   for (int i = 0; i < count; ++i) seen_[static_cast<std::size_t>(coordinates[i])] = true;
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     if (!seen_[i] && !needed_[i]) return false;
   }
-  passive_given_ = true;
+  all_given_ = true;
   needed_.assign(needed_.size(), true);
   return true;
 }
@@ -38,39 +61,98 @@ bool MotionCompleter::saw(const int* coordinates, int count) {
 bool MotionCompleter::complete(Motion& motion, const Dynamics& dynamics,
                                Dynamics::Workspace& workspace) {
   if (!closed_) return true;
-  evaluated_ = true;
   if (static_motion_) {
     motion.qd.setZero();
     motion.qdd.setZero();
   }
-  if (passive_given_) {
-    joint_states_.moveTo(motion.q);
-    return true;
+  if (all_given_) return true;
+  if (!started_) startBy(motion);
+  evaluated_ = true;
+  latest_ = &joint_states_;
+  return joint_states_.complete(motion, dynamics, workspace);
+}
+
+void MotionCompleter::startBy(const Motion& motion) {
+  started_ = true;
+  try {
+    const Scene started = startedBy(mechanism_, scene_, {usual_, motion, Motion()});
+    joint_states_.moveTo(Dynamics(mechanism_, started, Request()).assembly());
+  } catch (const AssemblyError&) {
+    // The loops are closed from the scene's assembly, and complete() tells how far they stay open.
   }
-  if (joint_states_.complete(motion, dynamics, workspace)) return true;
-  motion_ = motion;
-  return false;
 }
 
-std::vector<bool> MotionCompleter::given(const TrajectoryMotion& trajectory) const {
-  std::vector<bool> given = actuated_;  // actuated ones left out rest where seen last
-  for (const int i : trajectory.coordinates) given[static_cast<std::size_t>(i)] = true;
-  return given;
+void MotionCompleter::took(const Motion& motion, const Results& results) {
+  if (!closed_ || !all_given_) return;
+  const std::vector<ClosureResidual>& relative = results.loops.relative_residuals;
+  const auto worst = std::max_element(
+      relative.begin(), relative.end(),
+      [](const auto& one, const auto& other) { return one.position < other.position; });
+  if (worst == relative.end() || worst->position <= nearly_closed_) {
+    joint_states_.moveTo(motion.q);
+    evaluated_ = true;
+    return;
+  }
+  if (open_) return;
+  open_ = true;
+  open_closure_ = static_cast<std::size_t>(worst - relative.begin());
+  open_relative_ = *worst;
+  open_by_ = results.loops.residuals[open_closure_];
 }
 
-std::optional<Rejection> MotionCompleter::check(const TrajectoryMotion& trajectory) const {
-  const std::optional<std::string> problem = rule_.problem(given(trajectory));
+std::optional<std::string> MotionCompleter::openStates() {
+  if (!open_ || open_told_) return std::nullopt;
+  open_told_ = true;
+  return "the positions leave closure " + inQuotes(dynamics_.closureNames()[open_closure_]) +
+         " open by " + numberText(open_by_.position) + " m or rad, " +
+         numberText(open_relative_.position) + " relative, more than " +
+         numberText(nearly_closed_) +
+         ": passive joints of trajectories do not start from there, but from " +
+         (evaluated_ ? "where the loops were closed last" : "the assembly");
+}
+
+MotionCompleter::Choice MotionCompleter::choose(const std::vector<bool>& named) const {
+  Given given;
+  given.coordinates = either(GivenJoints::resting(dynamics_), named);
+  std::optional<std::string> problem = rule_.problem(given);
+  if (!problem) return {given, problem};
+  Given alone;
+  alone.coordinates = named;
+  if (!rule_.problem(alone)) return {alone, std::nullopt};
+  return {given, problem};
+}
+
+const MotionCompleter::Choice& MotionCompleter::chosenBy(const TrajectoryMotion& trajectory) {
+  const std::vector<bool> named = namedBy(trajectory, needed_.size());
+  if (named_ != named) {
+    choice_ = choose(named);
+    named_ = named;
+  }
+  return choice_;
+}
+
+std::optional<Rejection> MotionCompleter::check(const TrajectoryMotion& trajectory) {
+  const std::optional<std::string>& problem = chosenBy(trajectory).problem;
   if (!problem) return std::nullopt;
   return Rejection{DropReason::kPassiveJoints, *problem};
+}
+
+void MotionCompleter::setGiven(const Given& given, PassiveJoints& joints) const {
+  if (joints.given().coordinates == given.coordinates) return;
+  const Eigen::VectorXd position = joints.position();
+  joints = PassiveJoints(mechanism_, dynamics_, given);
+  joints.moveTo(position);
 }
 
 void MotionCompleter::complete(TrajectoryMotion& trajectory, const Dynamics& dynamics,
                                Dynamics::Workspace& workspace) {
   trajectory.open.clear();
-  if (!closures_determine_) return;
-  if (!rule_.givesPassive(given(trajectory))) {
+  if (!closed_) return;
+  const Given& given = chosenBy(trajectory).given;
+  if (!GivenJoints::givesAll(given)) {
+    setGiven(given, trajectories_);
     follow(trajectory, dynamics, workspace);
-  } else if (!static_motion_ && !trajectory.completion.empty()) {
+  } else if (closures_determine_ && !static_motion_ && !trajectory.completion.empty()) {
     completeDerivatives(trajectory, dynamics, workspace);
   } else {
     return;
@@ -79,28 +161,32 @@ void MotionCompleter::complete(TrajectoryMotion& trajectory, const Dynamics& dyn
 }
 
 void MotionCompleter::startSamples(const TrajectoryMotion& trajectory) {
-  if (!closures_determine_) return;
-  samples_give_passive_ = rule_.givesPassive(given(trajectory));
+  if (!closed_) return;
+  const Given& given = chosenBy(trajectory).given;
+  samples_give_all_ = GivenJoints::givesAll(given);
+  samples_follow_ = closures_determine_ || !samples_give_all_;
+  if (!samples_follow_) return;
+  setGiven(samples_give_all_ ? usual_ : given, samples_);
   if (evaluated_) samples_.moveTo(joint_states_.position());
 }
 
 bool MotionCompleter::completeSample(Motion& motion, const Dynamics& dynamics,
                                      Dynamics::Workspace& workspace) {
-  if (!closures_determine_) return true;
+  if (!closed_ || !samples_follow_) return true;
   if (static_motion_) {
     motion.qd.setZero();
     motion.qdd.setZero();
   }
-  if (samples_give_passive_) samples_.moveTo(motion.q);
-  if (samples_.complete(motion, dynamics, workspace)) return true;
-  motion_ = motion;
-  return false;
+  if (samples_give_all_) samples_.moveTo(motion.q);
+  latest_ = &samples_;
+  return samples_.complete(motion, dynamics, workspace);
 }
 
 void MotionCompleter::follow(TrajectoryMotion& trajectory, const Dynamics& dynamics,
                              Dynamics::Workspace& workspace) {
   MotionTable& table = trajectory.table;
   if (evaluated_) trajectories_.moveTo(joint_states_.position());
+  latest_ = &trajectories_;
   trajectory.open.assign(trajectory.stamps_ns.size(), false);
   for (std::size_t i = 0; i < trajectory.open.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);

@@ -13,64 +13,97 @@
 
 namespace virtual_work_dynamics {
 
-/// Gives the passive joints of a mechanism with closed loops the motion that its closures demand,
-/// where joint states and trajectories do not give it. In an open chain every motion is complete.
-/// Serves one thread.
+/// Gives the joints of a mechanism with closed loops that joint states and trajectories do not
+/// give, usually the passive ones, the motion that its closures demand. In an open chain every
+/// motion is complete. Serves one thread.
 ///
-/// Joint states count as giving the passive joints once each of them has been seen; until then
-/// those that are given are ignored. Joint states and trajectories are followed independently.
+/// Joint states give what the scene says, and count as giving all joints once each of them has been
+/// seen; until then other joints are ignored. Joint states and trajectories are followed
+/// independently.
 class MotionCompleter {
  public:
-  /// @param dynamics of the mechanism and the scene, with any request
-  MotionCompleter(const Mechanism& mechanism, const Dynamics& dynamics, bool static_motion);
+  /// Largest relative residual of positions of all joints from which loops are closed later on;
+  /// encoders are not exact.
+  static constexpr double kNearlyClosed = 0.01;
+
+  /// @param dynamics of the mechanism and the scene, with any request; all three must outlive this
+  /// @param tolerance of relative residuals; joint states within it are never far from closed
+  MotionCompleter(const Mechanism& mechanism, const Scene& scene, const Dynamics& dynamics,
+                  double tolerance = kNearlyClosed);
 
   /// The coordinates that joint states have to show.
   const std::vector<bool>& needed() const { return needed_; }
-  /// Whether joint states give the passive joints.
-  bool passiveGiven() const { return passive_given_; }
+  /// Whether joint states give all joints.
+  bool allGiven() const { return all_given_; }
   /// Takes note of the coordinates of a joint state. Returns whether needed() has changed.
   bool saw(const int* coordinates, int count);
 
-  /// Completes the motion of joint states unless they give the passive joints, and leaves the
-  /// workspace at its position. Returns false when that is not possible; see problem(). Does not
-  /// allocate.
+  /// Completes the motion of joint states unless they give all joints, and leaves the workspace at
+  /// its position. Returns false when that is not possible; see problem(). The first motion says
+  /// where the joint states start, see startedBy(); further ones do not allocate.
   bool complete(Motion& motion, const Dynamics& dynamics, Dynamics::Workspace& workspace);
+  /// Takes note of the results of a motion of joint states. Where all joints are given and leave
+  /// the loops open, later completions do not start there, but where loops were closed last. Does
+  /// not allocate.
+  void took(const Motion& motion, const Results& results);
+  /// Says, once, that joint states leave the loops open, and by how much. Allocates then.
+  std::optional<std::string> openStates();
   /// Why the latest motion could not be completed.
   std::string problem(const Dynamics& dynamics, Dynamics::Workspace& workspace) const {
-    return dynamics.whyOpen(motion_, workspace);
+    return latest_->whyOpen(dynamics, workspace);
   }
 
-  /// Checks that the trajectory names all passive joints, or none, so that it can be completed.
+  /// Checks that the trajectory names what determines the rest, with joints that the scene says are
+  /// given and that rest where they were seen last, or by itself.
   /// @returns why the message is to be dropped, or nothing.
-  std::optional<Rejection> check(const TrajectoryMotion& trajectory) const;
-  /// Completes the points of a trajectory that gives no passive joint. In one that gives them it
+  std::optional<Rejection> check(const TrajectoryMotion& trajectory);
+  /// Completes the points of a trajectory that does not give all joints. In one that gives them it
   /// completes only the velocities and accelerations that the points do not give. Points that
-  /// cannot be completed become TrajectoryMotion::open.
+  /// cannot be completed become TrajectoryMotion::open. check() must have passed it.
   void complete(TrajectoryMotion& trajectory, const Dynamics& dynamics,
                 Dynamics::Workspace& workspace);
 
   /// Begins with the samples of a trajectory; one trajectory is sampled at a time.
   void startSamples(const TrajectoryMotion& trajectory);
-  /// Gives a sample's passive joints the motion that the closures demand, which is not that of a
+  /// Gives a sample's other joints the motion that the closures demand, which is not that of a
   /// curve through the points, even where these give it. Returns false when that is not possible;
   /// see problem(). Does not allocate.
   bool completeSample(Motion& motion, const Dynamics& dynamics, Dynamics::Workspace& workspace);
 
  private:
-  std::vector<bool> given(const TrajectoryMotion& trajectory) const;
+  // What a trajectory gives by its names, and what is wrong with that.
+  struct Choice {
+    Given given;
+    std::optional<std::string> problem;
+  };
+  void startBy(const Motion& motion);
+  Choice choose(const std::vector<bool>& named) const;
+  const Choice& chosenBy(const TrajectoryMotion& trajectory);
+  void setGiven(const Given& given, PassiveJoints& joints) const;
   void follow(TrajectoryMotion& trajectory, const Dynamics& dynamics,
               Dynamics::Workspace& workspace);
   void completeDerivatives(TrajectoryMotion& trajectory, const Dynamics& dynamics,
                            Dynamics::Workspace& workspace);
 
+  const Mechanism& mechanism_;
+  const Scene& scene_;
+  const Dynamics& dynamics_;
   const bool closed_, static_motion_;
   const bool closures_determine_;  // the passive joints' motion from the actuated ones'
-  const std::vector<bool> actuated_;
+  const double nearly_closed_;
+  const Given usual_;  // what motions give unless they give all
   const GivenJoints rule_;
   PassiveJoints joint_states_, trajectories_, samples_;
-  bool samples_give_passive_ = false;
-  bool passive_given_;
+  const PassiveJoints* latest_ = &joint_states_;  // completed something last
+  std::vector<bool> named_;                       // by the trajectory of choice_
+  Choice choice_;
+  bool samples_give_all_ = false, samples_follow_ = false;
+  bool all_given_;
+  bool started_ = false;    // whether a joint state was to be completed
   bool evaluated_ = false;  // whether a joint state was completed
+  bool open_ = false, open_told_ = false;
+  std::size_t open_closure_ = 0;
+  ClosureResidual open_by_, open_relative_;
   std::vector<bool> needed_, seen_;
   Motion motion_;
 };

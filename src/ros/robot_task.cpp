@@ -5,12 +5,15 @@
 #include "base/nearest_name.h"
 #include "base/number_text.h"
 #include "base/printable.h"
+#include "dynamics/given_joints.h"
 #include "ros/closure_frames.h"
 #include "ros/loop_report.h"
 #include "ros/message_text.h"
 #include "ros/private_name.h"
 #include "ros/private_parameters.h"
+#include "ros/start_position.h"
 #include "ros/topic_names.h"
+#include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {
@@ -67,12 +70,16 @@ Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const s
 
 RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
     : mechanism(readRobot(parameters)),
-      scene(parameters.scene),
+      scene(assembledScene(mechanism, parameters)),
       reactions(requestedReactions(mechanism, scene)),
       reaction_topics(legalTopicNames(reactions)),
       estimator(checkedSettings(mechanism, parameters.estimator, scene)),
       rest(restOf(mechanism, parameters.rest)),
       everything(movableDynamics(mechanism, scene, parameters.robot_description_key)) {
+  if (everything.given().drivenNumbers() > 0) {
+    throw SceneError(
+        "given: joint states have no axes of closures and no poses of links: name joints");
+  }
   closure_frames = closureFrames(mechanism, scene, reactions, parameters.frame_prefix);
   deviations =
       std::make_shared<DeviationRecord>(everything.effortNames(), mechanism.coordinateNames());
@@ -100,10 +107,10 @@ std::vector<std::string> RobotTask::units() const {
   return units;
 }
 
-std::vector<bool> RobotTask::passive() const {
-  std::vector<bool> passive = everything.actuated();
-  passive.flip();
-  return passive;
+std::vector<bool> RobotTask::following() const {
+  std::vector<bool> follow = GivenJoints::resting(everything);
+  follow.flip();
+  return follow;
 }
 
 void RobotTask::log(const InverseDynamicsParameters& parameters) const {

@@ -30,8 +30,9 @@ struct RobotTask {
   /// rad or m, of each coordinate.
   std::vector<std::string> units() const;
 
-  /// Whether each coordinate is passive; none is in an open chain.
-  std::vector<bool> passive() const;
+  /// Whether the closures determine each coordinate from those that motions give; none in an open
+  /// chain.
+  std::vector<bool> following() const;
 
   Mechanism mechanism;
   Scene scene;

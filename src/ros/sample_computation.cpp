@@ -18,7 +18,9 @@ SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan, std::int
   records_.counters.samples.add();
   const auto start = Clock::now();
   if (!completer_.complete(motion_, plan.dynamics, plan.workspace)) return Outcome::kOpenLoop;
-  return computeOne(plan, stamp_ns, start, covariance);
+  const Outcome outcome = computeOne(plan, stamp_ns, start, covariance);
+  if (outcome == Outcome::kDone) completer_.took(motion_, plan.workspace.results());
+  return outcome;
 }
 
 SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan,

@@ -30,6 +30,7 @@ foreach(file
     sample_times.cpp
     scene_parameter.cpp
     self_check_report.cpp
+    start_position.cpp
     stream_record.cpp
     stream_report.cpp
     topic_names.cpp

@@ -158,6 +158,8 @@ bool readLoopEntry(const std::string& key, const YAML::Node& value, Scene& scene
     scene.springs = readList(value, key, readSpring);
   } else if (key == "actuated") {
     scene.actuated = readNames(value, key, "names of joints and closures");
+  } else if (key == "given") {
+    scene.given = readNames(value, key, "names of joints and closures");
   } else if (key == "assembly") {
     scene.assembly = readNamedNumbers(value, key, "position");
   } else if (key == "redundancy") {

@@ -24,6 +24,9 @@ void requireOnce(const std::string& list, std::set<std::string>& seen, const std
   if (!seen.insert(name).second) throw SceneError(list + ": " + inQuotes(name) + " is given twice");
 }
 
+// How the name of what gives the pose of a link begins.
+const std::string kPose = "pose.";
+
 class Resolver {
  public:
   Resolver(const Mechanism& mechanism, const Scene& scene) : mechanism_(mechanism), scene_(scene) {
@@ -45,6 +48,7 @@ class Resolver {
     loops_.start.setZero(static_cast<Eigen::Index>(coordinates));
     loops_.placed.assign(coordinates, false);
     readActuated();
+    readGiven();
     readAssembly();
     readRedundancy();
     return std::move(loops_);
@@ -108,15 +112,46 @@ class Resolver {
         loops_.actuated[static_cast<std::size_t>(coordinateOf("actuated", name, k))] = true;
         continue;
       }
-      if (!traitsOf(scene_.closures[static_cast<std::size_t>(c)].type).free_axis) {
-        throw SceneError("actuated: closure " + inQuotes(name) +
-                         " is neither revolute nor prismatic");
-      }
-      closures[static_cast<std::size_t>(c)] = true;
+      closures[freeAxisOf("actuated", name, c)] = true;
     }
     for (std::size_t c = 0; c < closures.size(); ++c) {
       if (closures[c]) loops_.actuated_closures.push_back(c);
     }
+  }
+
+  // The free axis of a closure, which must have one.
+  std::size_t freeAxisOf(const std::string& list, const std::string& name, int c) const {
+    const auto closure = static_cast<std::size_t>(c);
+    if (!traitsOf(scene_.closures[closure].type).free_axis) {
+      throw SceneError(list + ": closure " + inQuotes(name) + " is neither revolute nor prismatic");
+    }
+    return closure;
+  }
+
+  void readGiven() {
+    loops_.given.coordinates = loops_.actuated;
+    if (!scene_.given) return;
+    loops_.given.coordinates.assign(loops_.actuated.size(), false);
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < scene_.given->size(); ++i) {
+      const std::string& name = (*scene_.given)[i];
+      requireOnce("given", seen, name);
+      const int c = closureIndex(name);
+      if (c >= 0) {
+        loops_.given.closures.push_back(freeAxisOf("given", name, c));
+      } else if (name.compare(0, kPose.size(), kPose) == 0 && mechanism_.jointIndex(name) < 0) {
+        loops_.given.links.push_back(linkOfPose(name.substr(kPose.size()), entryOf("given", i)));
+      } else {
+        const int k = jointOrClosure(name, entryOf("given", i));
+        loops_.given.coordinates[static_cast<std::size_t>(coordinateOf("given", name, k))] = true;
+      }
+    }
+  }
+
+  int linkOfPose(const std::string& link, const std::string& place) const {
+    const int index = linkNamed(mechanism_, link, place);
+    if (index == 0) throw SceneError(place + ": " + inQuotes(link) + " is the root link");
+    return index;
   }
 
   void readAssembly() {

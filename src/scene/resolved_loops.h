@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "virtual_work_dynamics/given.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/scene.h"
 
@@ -14,6 +15,7 @@ namespace virtual_work_dynamics {
 struct LoopScene {
   std::vector<bool> actuated;                  ///< by coordinate
   std::vector<std::size_t> actuated_closures;  ///< in the scene's order
+  Given given;                                 ///< what motions give
   std::vector<double> coordinate_weights;      ///< of efforts, by coordinate
   std::vector<double> closure_weights;         ///< of efforts, by closure
   std::vector<double> joint_stiffness;         ///< by joint

@@ -33,7 +33,7 @@ NameSet checkedNames(const Mechanism& mechanism, const Scene& scene) {
 }  // namespace
 
 bool needsClosedLoops(const Scene& scene) {
-  return !scene.closures.empty() || !scene.springs.empty() || scene.actuated;
+  return !scene.closures.empty() || !scene.springs.empty() || scene.actuated || scene.given;
 }
 
 std::vector<std::string> requestedReactions(const Mechanism& mechanism, const Scene& scene) {

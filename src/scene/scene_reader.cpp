@@ -107,7 +107,8 @@ void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
   if (readLoopEntry(key, value, scene)) return;
   if (!contains(kSceneKeys, key)) {
     Names known = kSceneKeys;
-    for (const char* other : {"closures", "springs", "actuated", "assembly", "redundancy"}) {
+    for (const char* other :
+         {"closures", "springs", "actuated", "given", "assembly", "redundancy"}) {
       known.emplace_back(other);
     }
     failAtUnknownKey("", key, known);

@@ -12,6 +12,7 @@
 #include "condition_kinds.h"
 #include "dynamics/sample_rows.h"
 #include "four_bar.h"
+#include "loop_examples.h"
 #include "loops/completion.h"
 #include "loops/forces.h"
 #include "loops/groups.h"
@@ -239,6 +240,24 @@ TEST_F(BusyLinkage, PassiveJointsDoNotAllocate) {
     EXPECT_FALSE(passive.complete(far, dynamics, workspace));  // the change point
     EXPECT_EQ(guard.allocations(), 0u);
   });
+}
+
+TEST(PassiveJoints, OfAPoseDoNotAllocate) {
+  const std::string source = VWD_SOURCE_DIR;
+  const Mechanism mechanism = readUrdfFile(source + "/urdf/stewart_gough.urdf");
+  const Scene scene = readSceneFile(source + "/config/stewart_gough_scene.yaml");
+  const Dynamics dynamics(mechanism, scene, {false, {}, {}, false, false});
+  Dynamics::Workspace workspace = dynamics.makeWorkspace();
+  Given given;
+  given.coordinates.assign(mechanism.coordinates().size(), false);
+  given.links = {mechanism.linkIndex("platform")};
+  PassiveJoints passive(mechanism, dynamics, given);
+  Motion motion(dynamics.coordinates()), driven(7);
+  driven.q << platformPose(0.4L).p.cast<double>(),
+      Eigen::Quaternion<long double>(platformPose(0.4L).R).cast<double>().coeffs();
+  const AllocationGuard guard;
+  EXPECT_TRUE(passive.complete(motion, driven, dynamics, workspace));
+  EXPECT_EQ(guard.allocations(), 0u);
 }
 
 TEST(Dynamics, OfAnOpenChainDoesNotAllocate) {

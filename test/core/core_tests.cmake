@@ -50,6 +50,7 @@ set(core_test_files
   test/core/effort_doubts_test.cpp
   test/core/error_bound_test.cpp
   test/core/existence_test.cpp
+  test/core/given_motions_test.cpp
   test/core/instruction_set_test.cpp
   test/core/inverse_dynamics_test.cpp
   test/core/joint_terms_test.cpp
@@ -80,6 +81,7 @@ set(core_test_files
   test/core/offline_deviations_test.cpp
   test/core/offline_errors_test.cpp
   test/core/offline_loops_checks_test.cpp
+  test/core/offline_given_test.cpp
   test/core/offline_inputs_test.cpp
   test/core/offline_loops_errors_test.cpp
   test/core/offline_loops_test.cpp

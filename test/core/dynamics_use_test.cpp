@@ -237,7 +237,7 @@ TEST(DynamicsUse, SaysWhyLoopsAreOpen) {
   motion = SliderCrank::motion(0, 0, 0);
   ASSERT_FALSE(dynamics.complete(motion, workspace));
   EXPECT_EQ(dynamics.whyOpen(motion, workspace),
-            "the position is singular: the closures do not determine how the passive joints move; "
+            "the position is singular: the closures do not determine how the other joints move; "
             "give the motion of all joints");
 }
 

@@ -1,25 +1,50 @@
 #!/usr/bin/python3
 """Motions of mechanisms with closed loops in the node: completed where they give actuated joints
 only, checked where they give all."""
+import math
+
 from diagnostic_msgs.msg import DiagnosticStatus
+from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectory
 
-from closed_loops import (CLOSED_FORM, JOINTS, REACTIONS, STEP, LoopTest, SliderCrank,
-                          by_name)
-from node_under_test import (EPOCH, Polynomials, joint_state, ros_time, run, trajectory_point,
+from closed_loops import (CLOSED_FORM, JOINTS, REACTIONS, SLIDER_CRANK, SLIDER_CRANK_SCENE, STEP,
+                          LoopTest, SliderCrank, by_name)
+from node_under_test import (EPOCH, Node, Polynomials, joint_state, ros_time, run, trajectory_point,
                              vector, wait_until)
 
 # The estimator's rounding on a cubic, in accelerations of links of some kg.
 ESTIMATED = 1e-8
+# The crank's angle from the place of the slider, away from the dead centres.
+BY_SLIDER = 1e-11
 # A few roundings to a link, relative to the sums of magnitudes.
 SOUND = 1e-13
 LAG = 5  # samples: ~estimator/lag of 0.05 s
+# A boom on a pin that a ram raises, in the plane of x and z.
+BOOM = """<robot name="boom"><link name="frame"/>
+  <link name="arm"><inertial><mass value="2"/>
+    <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="cylinder"/><link name="rod"/>
+  <joint name="arm_pin" type="continuous"><parent link="frame"/><child link="arm"/>
+    <axis xyz="0 1 0"/></joint>
+  <joint name="cylinder_pin" type="continuous"><parent link="frame"/><child link="cylinder"/>
+    <origin xyz="-0.4 0 -0.3"/><axis xyz="0 1 0"/></joint>
+  <joint name="ram" type="prismatic"><parent link="cylinder"/><child link="rod"/>
+    <axis xyz="1 0 0"/><limit lower="0" upper="3" effort="1" velocity="1"/></joint></robot>"""
+# The ram does not reach the boom from where the scene places it.
+BOOM_SCENE = {'actuated': ['ram'], 'assembly': [{'name': 'ram', 'position': 5}], 'closures': [
+    {'name': 'eye', 'type': 'revolute', 'parent': {'link': 'rod', 'rpy': [-math.pi / 2, 0, 0]},
+     'child': {'link': 'arm', 'xyz': [1.1, 0, 0], 'rpy': [-math.pi / 2, 0, 0]}}]}
 CRANK = Polynomials(crank_joint=(0.4, 2.0, 1.5, -0.8))
 
 
 def at(ns):
     q, qd, qdd = CRANK(ns)
     return SliderCrank(q['crank_joint'], qd['crank_joint'], qdd['crank_joint'])
+
+
+def boom_at(raised):
+    x, z = 1.1 * math.cos(raised) + 0.4, 1.1 * math.sin(raised) + 0.3
+    return {'arm_pin': -raised, 'cylinder_pin': -math.atan2(z, x), 'ram': math.hypot(x, z)}
 
 
 class LoopMotions(LoopTest):
@@ -157,8 +182,77 @@ class LoopMotions(LoopTest):
         message.points = [trajectory_point(0, message.joint_names, (still.q, still.qd, still.qdd))]
         self.trajectories.publish(message)
         values = self.node.wait_for_count('dropped: passive joints', 1)
-        self.assertIn("'slider_joint' are given, but not 'rod_joint': give all joints, or the actuated ones only",
-                      values['last drop'])
+        self.assertIn("too much is given: each of 'crank_joint', 'slider_joint' follows from the rest; leave one "
+                      'out, or give all joints and nothing else', values['last drop'])
+
+    def test_trajectories_of_a_passive_joint(self):
+        self.start('effort', parameters={'estimator': {'acceleration': 'zero'}})
+        self.states.publish(joint_state(EPOCH, {'crank_joint': 0.4}))
+        self.recorders['effort'].wait(1)
+        zero = {'slider_joint': 0}
+        moved = [SliderCrank(angle, 0, 0) for angle in (0.5, 0.9, 1.3)]
+        message = JointTrajectory(joint_names=['slider_joint'])
+        message.header.stamp = ros_time(EPOCH)
+        message.points = [trajectory_point(STEP * i, ['slider_joint'], (still.q, zero, zero))
+                          for i, still in enumerate(moved)]
+        self.trajectories.publish(message)
+        for result, still in zip(self.recorders['effort'].wait(4)[1:], moved):
+            self.assertMatches(result, still, BY_SLIDER)
+
+    def test_joint_states_of_a_passive_joint(self):
+        scene = dict(SLIDER_CRANK_SCENE, given=['slider_joint'],
+                     assembly=[{'name': 'crank_joint', 'position': 0.8},
+                               {'name': 'rod_joint', 'position': -1.04},
+                               {'name': 'slider_joint', 'position': 0.35}])
+        self.start('effort', scene=scene, parameters={'estimator': {'acceleration': 'zero'}})
+        for i, angle in enumerate((0.8, 0.6, 0.9)):
+            expected = SliderCrank(angle, 0, 0)
+            self.states.publish(joint_state(
+                EPOCH + STEP * i, {'slider_joint': expected.q['slider_joint']}, {'slider_joint': 0}))
+            self.assertMatches(self.recorders['effort'].wait(i + 1)[-1], expected, BY_SLIDER)
+        values = self.node.wait_for_count('samples computed', 3)
+        self.assertEqual(values['passive joints'], 'from the closures')
+        self.assertEqual(values['joints waited for'], 'none')
+
+    def test_joint_states_that_do_not_close_the_loops_are_no_start(self):
+        self.start('effort', parameters={'estimator': {'acceleration': 'zero'}})
+        still = SliderCrank(0.4, 0, 0)
+        # Far from closed, near the branch on which the rod points back.
+        turned_over = {'crank_joint': 0.4, 'rod_joint': 2.8, 'slider_joint': -0.2}
+        for i in range(5):
+            self.states.publish(joint_state(EPOCH + STEP * i, turned_over, dict.fromkeys(JOINTS, 0)))
+        self.recorders['effort'].wait(5)
+        wait_until(lambda: self.node.lines('WARN'), 'a warning')
+        message = JointTrajectory(joint_names=['crank_joint'])
+        message.header.stamp = ros_time(EPOCH)
+        message.points = [trajectory_point(0, ['crank_joint'], (still.q, still.qd, still.qdd))]
+        self.trajectories.publish(message)
+        self.assertMatches(self.recorders['effort'].wait(6)[-1], still, CLOSED_FORM)
+        warnings = [line for line in self.node.lines('WARN') if 'leave closure' in line]
+        self.assertEqual(len(warnings), 1, warnings)
+        self.assertRegex(warnings[0], "the positions leave closure 'wrist_pin' open by 0\\.\\d+ m or rad, "
+                                      '.* relative, more than 0.01: .* but from the assembly')
+
+    def test_joint_states_say_where_loops_start(self):
+        self.node = Node(self, BOOM, {'scene': BOOM_SCENE, 'start_patience': 60,
+                                      'estimator': {'acceleration': 'zero'}})
+        efforts = self.node.record('effort', JointState)
+        wait_until(lambda: [line for line in self.node.lines('WARN') if 'waiting up to' in line],
+                   lambda: 'a warning; it says ' + self.node.output())
+        states = self.node.feed('joint_states', JointState)
+        states.publish(joint_state(EPOCH, boom_at(0.9)))
+        self.node.wait_for_plan('effort')
+        wait_until(lambda: states.get_num_connections() > 0, 'the node')
+        # The ram alone, on the branch that the joint states have shown.
+        moved = boom_at(1.1)
+        states.publish(joint_state(EPOCH + STEP, {'ram': moved['ram']}, {'ram': 0}))
+        result = efforts.wait(1)[0]
+        self.assertClose(result.position, [moved[name] for name in result.name], BY_SLIDER, 'positions')
+
+    def test_loops_that_joint_states_do_not_close_either(self):
+        self.node = Node(self, BOOM, {'scene': BOOM_SCENE, 'start_patience': 0.5})
+        self.assertEqual(self.node.wait(), 1)
+        self.assertIn("'eye' cannot be assembled from the given start", self.node.lines('FATAL')[0])
 
     def test_a_part_of_the_passive_joints_is_ignored(self):
         self.start('effort', parameters={'estimator': {'acceleration': 'zero'}})
@@ -167,7 +261,7 @@ class LoopMotions(LoopTest):
         self.states.publish(joint_state(EPOCH, wrong))
         self.assertMatches(self.recorders['effort'].wait(1)[0], still, CLOSED_FORM)
         wait_until(lambda: self.node.lines('WARN'), 'a warning')
-        self.assertIn('passive joints slider_joint are given, but not rod_joint: they are ignored',
+        self.assertIn('joints slider_joint are given, but not rod_joint: they are ignored',
                       self.node.lines('WARN')[0])
         self.states.publish(joint_state(EPOCH + STEP, {'rod_joint': 7}))
         self.node.diagnostics(lambda values: values['passive joints'] == 'given', 'all of them')

@@ -31,7 +31,7 @@ struct PlanMaker {
             mechanism, everything,
             {reactions, reactions, frame_prefix, twist, limits.condition, scene, deviations})),
         loops(everything, reactions.size(), limits),
-        completer(mechanism, everything, scene.static_motion),
+        completer(mechanism, scene, everything),
         samples(everything.coordinates(), scene.static_motion, completer,
                 {counters, certificates, loops}) {}
 

@@ -179,7 +179,7 @@ def problems_of_configuration(root, documented):
         keys = {key for where, key in documented if where == place}
         problems += [f"{name}: the scene's {place or 'top level'} lacks or has too much: {key}"
                      for key in sorted(keys ^ set(values))]
-        for key in sorted(keys & set(values) - {"actuated", "redundancy"}):
+        for key in sorted(keys & set(values) - {"actuated", "given", "redundancy"}):
             if number(values[key]) != number(yaml.safe_load(documented[place, key])):
                 problems.append(f"{name}: {key} is {values[key]}, in {PAGE} it is "
                                 f"{documented[place, key]}")

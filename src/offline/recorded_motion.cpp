@@ -1,0 +1,207 @@
+#include "offline/recorded_motion.h"
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <unordered_set>
+
+#include "base/nearest_name.h"
+#include "base/printable.h"
+#include "offline/arguments.h"
+#include "scene/closure_types.h"
+#include "virtual_work_dynamics/error.h"
+#include "virtual_work_dynamics/unwrap.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+using Names = std::vector<std::string>;
+using NameSet = std::unordered_set<std::string>;
+
+// Columns of a pose, in the order of its driven numbers.
+constexpr std::array<const char*, Given::kPoseNumbers> kPose{"x", "y", "z", "qx", "qy", "qz", "qw"};
+constexpr Eigen::Index kFirstOfQuaternion = 3;
+
+Names poseColumns(const Link& link) {
+  Names columns;
+  for (const char* number : kPose) columns.push_back("pose." + link.name + "." + number);
+  return columns;
+}
+
+void checkRest(const Mechanism& mechanism, const RecordingOptions& options) {
+  for (const auto& [name, position] : options.rest) {
+    if (mechanism.coordinateIndex(name) >= 0) continue;
+    throw UsageError("--rest: robot " + inQuotes(mechanism.name()) + " has no joint " +
+                     inQuotes(name) + " that moves by itself" +
+                     nameHelp(name, mechanism.coordinateNames()));
+  }
+}
+
+// Chooses what is read from a file by its header, and sets what that gives.
+class Choice {
+ public:
+  Choice(const Mechanism& mechanism, const Scene& scene, const RecordingOptions& options,
+         RecordedMotion& motion)
+      : mechanism_(mechanism), scene_(scene), options_(options), motion_(motion) {}
+
+  Names choose(const Names& header) {
+    columns_ = NameSet(header.begin(), header.end());
+    Names wanted;
+    if (!scene_.closures.empty()) wanted = chosen();
+    if (wanted.empty()) wanted = needed();
+    return wanted;
+  }
+
+ private:
+  // The columns of coordinates, closures and poses that the file has.
+  Names chosen() {
+    Names wanted;
+    Given& given = motion_.given;
+    const Names& all = mechanism_.coordinateNames();
+    given.coordinates.assign(all.size(), false);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const bool has = columns_.count(all[i]) > 0;
+      if (has) wanted.push_back(all[i]);
+      given.coordinates[i] = has || rests(all[i]);
+    }
+    for (std::size_t c = 0; c < scene_.closures.size(); ++c) {
+      const Closure& closure = scene_.closures[c];
+      if (columns_.count(closure.name) == 0 || !traitsOf(closure.type).free_axis) continue;
+      if (mechanism_.jointIndex(closure.name) >= 0) continue;
+      wanted.push_back(closure.name);
+      given.closures.push_back(c);
+    }
+    for (std::size_t link = 1; link < mechanism_.links().size(); ++link) {
+      const Names pose = poseColumns(mechanism_.links()[link]);
+      const auto has = [this](const std::string& name) { return columns_.count(name) > 0; };
+      if (std::none_of(pose.begin(), pose.end(), has)) continue;
+      wanted.insert(wanted.end(), pose.begin(), pose.end());
+      given.links.push_back(static_cast<int>(link));
+    }
+    return wanted;
+  }
+
+  // The joints of an open chain, or those without which a file gives nothing of closed loops. The
+  // file's reader names those that it lacks.
+  Names needed() {
+    Names wanted;
+    const Names& all = mechanism_.coordinateNames();
+    motion_.given = Given();
+    for (const std::string& name : all) {
+      const bool needs = scene_.closures.empty() || !scene_.actuated ||
+                         std::count(scene_.actuated->begin(), scene_.actuated->end(), name) > 0;
+      const bool has = columns_.count(name) > 0;
+      if (has || (needs && !rests(name))) wanted.push_back(name);
+      motion_.given.coordinates.push_back(needs || has || rests(name));
+    }
+    return wanted;
+  }
+
+  bool rests(const std::string& name) const {
+    return std::any_of(options_.rest.begin(), options_.rest.end(),
+                       [&](const auto& joint) { return joint.first == name; });
+  }
+
+  const Mechanism& mechanism_;
+  const Scene& scene_;
+  const RecordingOptions& options_;
+  RecordedMotion& motion_;
+  NameSet columns_;
+};
+
+// Adds the whole turns that a driver left out of the angle of a pin.
+bool unwrapPin(const std::vector<double>& times, Eigen::Ref<Eigen::VectorXd> angles) {
+  constexpr double kTurn = 6.283185307179586476925286766559;
+  Joint pin;
+  pin.type = JointType::kContinuous;
+  TurnCounter counter(pin);
+  bool changed = false;
+  for (Eigen::Index row = 0; row < angles.size(); ++row) {
+    const auto at = static_cast<std::size_t>(row);
+    const double turns = counter.turns(angles[row], at == 0 ? 0 : times[at] - times[at - 1]);
+    changed = changed || turns != 0;
+    angles[row] += kTurn * turns;
+  }
+  return changed;
+}
+
+// A quaternion and its opposite are the same orientation: each row takes the one that is nearer to
+// the row before, with its rates.
+void straightenQuaternion(Eigen::Index first, MotionTable& table) {
+  for (Eigen::Index row = 1; row < table.positions.rows(); ++row) {
+    const auto quaternion = table.positions.middleCols<4>(first);
+    if (quaternion.row(row).dot(quaternion.row(row - 1)) >= 0) continue;
+    for (Eigen::MatrixXd* columns : {&table.positions, &table.velocities, &table.accelerations}) {
+      if (columns->size() > 0) columns->middleCols<4>(first).row(row) *= -1;
+    }
+  }
+}
+
+void checkQuaternions(const MotionFile& file, Eigen::Index first, const std::string& link) {
+  constexpr double kShortest = 1e-6;
+  for (Eigen::Index row = 0; row < file.table.positions.rows(); ++row) {
+    if (file.table.positions.middleCols<4>(first).row(row).norm() >= kShortest) continue;
+    throw FileError(file.at(static_cast<std::size_t>(row)) + ": the quaternion of " +
+                    inQuotes("pose." + link) + " is zero");
+  }
+}
+
+void straighten(const Mechanism& mechanism, const Scene& scene, RecordedMotion& motion) {
+  MotionTable& table = motion.file.table;
+  Names wrapped = unwrapPositions(mechanism, table);
+  auto column = static_cast<Eigen::Index>(table.joints.size() - motion.drivenNumbers());
+  for (const std::size_t c : motion.given.closures) {
+    const bool turns = traitsOf(scene.closures[c].type).free_axis == Unit::kRadian;
+    if (turns && unwrapPin(table.times, table.positions.col(column))) {
+      wrapped.push_back(scene.closures[c].name);
+    }
+    ++column;
+  }
+  for (const int link : motion.given.links) {
+    checkQuaternions(motion.file, column + kFirstOfQuaternion, mechanism.link(link).name);
+    straightenQuaternion(column + kFirstOfQuaternion, table);
+    column += static_cast<Eigen::Index>(Given::kPoseNumbers);
+  }
+  if (wrapped.empty()) return;
+  std::string names;
+  for (const std::string& name : wrapped) names += (names.empty() ? "" : ", ") + name;
+  std::cerr << "note: " << printable(motion.file.path)
+            << ": whole turns that a driver left out are added to the positions of " << names
+            << "\n";
+}
+
+}  // namespace
+
+MotionStart RecordedMotion::start(const Mechanism& mechanism) const {
+  const auto coordinates = static_cast<Eigen::Index>(mechanism.coordinates().size());
+  const auto numbers = static_cast<Eigen::Index>(drivenNumbers());
+  MotionStart start{given, Motion(coordinates), Motion(numbers)};
+  const MotionTable& table = file.table;
+  const Eigen::Index joints = static_cast<Eigen::Index>(table.joints.size()) - numbers;
+  for (Eigen::Index i = 0; i < joints; ++i) {
+    const std::string& name = table.joints[static_cast<std::size_t>(i)];
+    start.motion.q[mechanism.coordinateIndex(name)] = table.positions(0, i);
+  }
+  for (const auto& [name, position] : resting) {
+    start.motion.q[mechanism.coordinateIndex(name)] = position;
+  }
+  if (numbers > 0) start.driven.q = table.positions.row(0).tail(numbers);
+  return start;
+}
+
+RecordedMotion readRecordedMotion(const std::string& path, const Mechanism& mechanism,
+                                  const Scene& scene, const RecordingOptions& options) {
+  checkRest(mechanism, options);
+  RecordedMotion motion;
+  Choice choice(mechanism, scene, options, motion);
+  motion.file =
+      readMotion(path, mechanism, [&](const Names& header) { return choice.choose(header); });
+  const NameSet given(motion.file.table.joints.begin(), motion.file.table.joints.end());
+  for (const auto& joint : options.rest) {
+    if (given.count(joint.first) == 0) motion.resting.push_back(joint);
+  }
+  straighten(mechanism, scene, motion);
+  return motion;
+}
+
+}  // namespace virtual_work_dynamics

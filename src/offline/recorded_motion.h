@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dynamics/motion_start.h"
+#include "offline/motion_file.h"
+#include "virtual_work_dynamics/given.h"
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/scene.h"
+
+namespace virtual_work_dynamics {
+
+/// A motion as its file has it: columns of what it gives.
+struct RecordedMotion {
+  MotionFile file;  ///< columns of coordinates, then of the driven numbers
+  Given given;      ///< with joints that rest
+  std::vector<std::pair<std::string, double>> resting;  ///< joints that the file does not have
+
+  /// Number of columns that are not coordinates.
+  std::size_t drivenNumbers() const { return given.drivenNumbers(); }
+  MotionStart start(const Mechanism& mechanism) const;
+};
+
+/// Reads a motion, adds whole turns that a driver left out, with a note, and says what it gives. In
+/// an open chain these are all joints. With closures they are those that have a column
+/// `position.<name>`, where a name is that of a joint, of a closure with one free axis, or
+/// `pose.<link>.x`, `y`, `z`, `qx`, `qy`, `qz`, `qw`.
+/// @throws FileError as readMotionCsv(), or for a coordinate without positions; UsageError for a
+///   joint of --rest that the robot does not have.
+RecordedMotion readRecordedMotion(const std::string& path, const Mechanism& mechanism,
+                                  const Scene& scene, const RecordingOptions& options);
+
+}  // namespace virtual_work_dynamics
