@@ -60,6 +60,9 @@ class PassiveJoints {
               Dynamics::Workspace& workspace);
   bool search(const Motion& motion, const Eigen::VectorXd& target, const Dynamics& dynamics,
               Dynamics::Workspace& workspace);
+  bool predict(const Eigen::VectorXd& target);
+  bool searchFound(const Motion& motion, const Eigen::VectorXd& target, const Dynamics& dynamics,
+                   Dynamics::Workspace& workspace);
   bool searchFrom(double further, const Motion& motion, const Eigen::VectorXd& target,
                   const Dynamics& dynamics, Dynamics::Workspace& workspace);
   bool givenUp() const;
@@ -77,6 +80,7 @@ class PassiveJoints {
   Eigen::VectorXd position_;  // found last
   Eigen::VectorXd before_, closed_;
   Eigen::VectorXd previous_;                            // before closed_ on the way
+  Eigen::VectorXd rates_, accelerations_;               // at closed_; zero where not known
   Eigen::VectorXd found_;                               // where the latest search ended
   Eigen::VectorXd missed_;                              // position of a search that failed
   std::array<Eigen::VectorXd, kHalvings + 1> targets_;  // by the halvings that are left

@@ -17,6 +17,11 @@ constexpr double kFar = 0.3;
 constexpr int kMostFailures = 4;
 // How far a way is continued, in lengths of its last piece.
 constexpr double kFurthest = 4;
+// Largest squares of what rates and accelerations miss of the way of what is given, relative to
+// that way, and of what accelerations add, relative to what rates do: beyond, they do not lead
+// there.
+constexpr double kLeadsThere = 1e-2;
+constexpr double kMostlyLinear = 0.25;
 constexpr double kTurn = 6.283185307179586476925286766559;
 
 // Whether each coordinate is mimicked, so that its whole turns are not without effect.
@@ -78,6 +83,8 @@ void PassiveJoints::moveTo(const Eigen::VectorXd& position) {
     driven_loops_->getDriven(position, closed_.tail(closed_.size() - coordinates_));
   }
   previous_ = closed_;
+  rates_.setZero(closed_.size());
+  accelerations_ = rates_;
 }
 
 bool PassiveJoints::complete(Motion& motion, const Dynamics& dynamics,
@@ -100,6 +107,12 @@ bool PassiveJoints::complete(Motion& motion, const Motion& driven, const Dynamic
   closed_ = closes ? found_ : before_;
   position_ = closed_.head(coordinates_);
   if (!closes || givenUp()) previous_ = closed_;
+  rates_.setZero();
+  accelerations_.setZero();
+  if (closes) {
+    rates_ << completed_.qd, driven_.qd;
+    accelerations_ << completed_.qdd, driven_.qdd;
+  }
   // Given positions stay as they are, with their whole turns.
   for (const Eigen::Index i : fixed_) {
     if (i < coordinates_) completed_.q[i] = motion.q[i];
@@ -156,12 +169,13 @@ bool PassiveJoints::follow(const Motion& motion, int halvings, const Dynamics& d
   return closes;
 }
 
-// Searches for `target` from the position that was found last, and where that fails from where the
-// way to it leads on: past a flat position the links would otherwise have to turn back on each
-// other.
+// Searches for `target` from where the motion leads that was found last, else from the position
+// that was found last, and where that fails from where the way to it leads on: past a flat position
+// the links would otherwise have to turn back on each other.
 bool PassiveJoints::search(const Motion& motion, const Eigen::VectorXd& target,
                            const Dynamics& dynamics, Dynamics::Workspace& workspace) {
   ++searches_;
+  if (predict(target) && searchFound(motion, target, dynamics, workspace)) return true;
   if (searchFrom(0, motion, target, dynamics, workspace)) return true;
   double along = 0, square = 0;
   for (const Eigen::Index i : fixed_) {
@@ -176,9 +190,48 @@ bool PassiveJoints::search(const Motion& motion, const Eigen::VectorXd& target,
   return false;
 }
 
+// Sets found_ to where the rates and accelerations found last lead in the time that what is given
+// takes to get to the target. Returns false where they do not lead there.
+bool PassiveJoints::predict(const Eigen::VectorXd& target) {
+  double along = 0, square = 0;
+  for (const Eigen::Index i : fixed_) {
+    along += rates_[i] * (target[i] - closed_[i]);
+    square += rates_[i] * rates_[i];
+  }
+  if (!(along > 0)) return false;
+  double time = along / square;
+  // One step of the Gauss-Newton method takes the accelerations into account.
+  double corrected = 0, missed = 0, whole = 0;
+  along = square = 0;
+  for (const Eigen::Index i : fixed_) {
+    const double rate = rates_[i] + time * accelerations_[i], way = target[i] - closed_[i];
+    along += rate * (way - time * (rates_[i] + time / 2 * accelerations_[i]));
+    square += rate * rate;
+    whole += way * way;
+  }
+  if (square > 0) corrected = along / square;
+  if (!(std::abs(corrected) < time / 2)) return false;
+  time += corrected;
+  for (const Eigen::Index i : fixed_) {
+    const double left = target[i] - closed_[i] - time * (rates_[i] + time / 2 * accelerations_[i]);
+    missed += left * left;
+  }
+  if (!(missed <= kLeadsThere * whole)) return false;
+  found_ = closed_ + time * rates_;
+  const double linear = (found_ - closed_).squaredNorm();
+  found_ += time * time / 2 * accelerations_;
+  return (found_ - closed_ - time * rates_).squaredNorm() <= kMostlyLinear * linear;
+}
+
 bool PassiveJoints::searchFrom(double further, const Motion& motion, const Eigen::VectorXd& target,
                                const Dynamics& dynamics, Dynamics::Workspace& workspace) {
   found_ = closed_ + further * (closed_ - previous_);
+  return searchFound(motion, target, dynamics, workspace);
+}
+
+// Searches from found_.
+bool PassiveJoints::searchFound(const Motion& motion, const Eigen::VectorXd& target,
+                                const Dynamics& dynamics, Dynamics::Workspace& workspace) {
   for (const Eigen::Index i : fixed_) found_[i] = target[i];
   completed_.q = found_.head(coordinates_);
   completed_.qd = motion.qd;
