@@ -21,9 +21,9 @@ struct AppliedWrench {
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< moment about `at`, N m
 };
 
-/// Spring, damping, friction and rotor inertia between a joint's actuator and the mechanism. They
-/// are part of the effort that the actuator must deliver and of no reaction. Every number except
-/// `rest` is at least zero.
+/// Spring, damping, friction, rotor inertia and a constant effort between a joint's actuator and
+/// the mechanism. They are part of the effort that the actuator must deliver and of no reaction.
+/// Every number except `rest` and `offset` is at least zero.
 struct JointTerms {
   std::string joint;              ///< a joint that moves; mimic joints have terms of their own
   double stiffness = 0;           ///< stiffness of a spring, N m/rad or N/m
@@ -43,6 +43,7 @@ struct LinkFrame {
   Eigen::Vector3d xyz = Eigen::Vector3d::Zero();  ///< origin in the link's frame, m
   Eigen::Vector3d rpy = Eigen::Vector3d::Zero();  ///< orientation, as in a URDF: fixed x, y, z, rad
 };
+  double offset = 0;         ///< effort needed in every position and motion, N m or N
 
 /// What a closure leaves free of the motion of its child frame relative to its parent frame.
 enum class ClosureType {
@@ -66,13 +67,14 @@ struct Closure {
   std::optional<double> length;
 };
 
-/// A massless spring between two points of the mechanism.
+/// A massless spring and damper between two points of the mechanism, which pulls them together by
+/// stiffness (l - rest_length) + damping dl/dt, where l is their distance.
 struct PointSpring {
   std::string name;
   std::string link_a, link_b;
   Eigen::Vector3d at_a = Eigen::Vector3d::Zero();  ///< point in the frame of link_a, m
   Eigen::Vector3d at_b = Eigen::Vector3d::Zero();  ///< point in the frame of link_b, m
-  double stiffness = 0;                            ///< N/m
+  double stiffness = 0;                            ///< N/m; zero only where there is damping
   double rest_length = 0;                          ///< m
 };
 
@@ -82,6 +84,7 @@ struct NamedNumber {
   double value = 0;
 };
 
+  double damping = 0;                              ///< N s/m
 /// Which of many solutions is reported for forces that rigid-body mechanics does not determine.
 enum class RedundancyPolicy {
   kMinimumNorm,  ///< the least sum of squares of the closures' forces and moments over `length`

@@ -19,8 +19,8 @@ const Names kSceneKeys = {"gravity",        "motion",           "reactions", "in
 constexpr std::size_t kLongestScene = std::size_t{64} << 20;
 const Names kWrenchKeys = {"link", "at", "axes", "force", "torque"};
 const Names kToleranceKeys = {"mass", "inertia"};
-const Names kJointKeys = {"name",    "stiffness",        "rest",         "damping",
-                          "coulomb", "coulomb_velocity", "rotor_inertia"};
+const Names kJointKeys = {"name",    "stiffness",        "rest",          "damping",
+                          "coulomb", "coulomb_velocity", "rotor_inertia", "offset"};
 
 void readReactions(const YAML::Node& node, Scene& scene) {
   if (node.IsSequence()) {
@@ -74,6 +74,7 @@ Tolerances readTolerances(const YAML::Node& node, const std::string& where) {
   readMap(node, where, kToleranceKeys, [&](const auto& key, const auto& value, const auto& path) {
     const double number = readNumber(value, path);
     if (!(number >= 0 && number < 1)) {
+    if (key == "offset") terms.offset = number;
       failAt(path, numberText(number) + " is not from 0 to below 1");
     }
     if (key == "mass") tolerances.mass = number;

@@ -253,7 +253,7 @@ class Compiler {
         plan_.actuators.push_back({joint.coordinate, Real(joint.multiplier),
                                    Real(joint.offset) - Real(terms.rest), terms.stiffness,
                                    terms.damping, terms.coulomb, 1 / Real(terms.coulomb_velocity),
-                                   terms.rotor_inertia});
+                                   terms.rotor_inertia, terms.offset});
       }
     }
   }

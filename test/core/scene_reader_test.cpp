@@ -47,7 +47,7 @@ applied_wrenches:
   - {link: hand, at: [1, 2, 3], axes: root, force: [4, 5, 6], torque: [7, 8, 9]}
   - {link: foot}
 joints:
-  - {name: hip, stiffness: 1e9, rest: -1, damping: 2, coulomb: "3", coulomb_velocity: 4, rotor_inertia: 5}
+  - {name: hip, stiffness: 1e9, rest: -1, damping: 2, coulomb: "3", coulomb_velocity: 4, rotor_inertia: 5, offset: -6}
   - {name: knee}
 use_urdf_dynamics: true
 )");
@@ -78,6 +78,7 @@ use_urdf_dynamics: true
 }
 
 TEST(SceneReader, RefusesByKey) {
+  EXPECT_EQ(scene.joints[0].offset, -6);
   expectRefusal("[1, 2]", "map");
   expectRefusal("gravty: [0, 0, 0]", "gravty: unknown key; did you mean 'gravity'?");
   expectRefusal("gravity: [0, 0]", "gravity");

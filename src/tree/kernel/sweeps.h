@@ -293,7 +293,7 @@ VWD_INLINE void storeKnownZeros(const PlanView<R>& plan, const KernelOutputs<R>&
   }
 }
 
-/// Adds to the efforts what the joints' springs, dampers, friction and rotors demand.
+/// Adds to the efforts what the joints' terms demand.
 template <bool kStatic, typename T, typename R>
 VWD_INLINE void addActuators(const PlanView<R>& plan, const KernelInputs<R>& in,
                              const KernelOutputs<R>& out) {
@@ -301,7 +301,8 @@ VWD_INLINE void addActuators(const PlanView<R>& plan, const KernelInputs<R>& in,
     const ActuatorTerms<R>& joint = plan.actuators[i];
     const std::size_t at = static_cast<std::size_t>(joint.coordinate);
     const T q = load<T>(in.q + at * in.stride);
-    T sum = joint.stiffness * mulAdd(joint.multiplier, q, T(joint.offset));
+    const T stretch = mulAdd(joint.multiplier, q, T(joint.offset));
+    T sum = mulAdd(joint.stiffness, stretch, T(joint.constant));
     if (!kStatic) {
       const T rate = joint.multiplier * load<T>(in.qd + at * in.stride);
       const T acceleration = joint.multiplier * load<T>(in.qdd + at * in.stride);
