@@ -19,6 +19,14 @@ struct AppliedWrench {
   Axes axes = Axes::kLink;                           ///< axes of force and torque
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< moment about `at`, N m
+  /// Under this name programs get force and torque that change: a Load replaces the scene's.
+  std::string name;
+  /// Whether force and torque are not known to the scene. They count as zero there, about the
+  /// origin of the link and in its axes, where `at`, `axes`, `force` and `torque` are as they are
+  /// by default.
+  bool live = false;
+  /// Of a live wrench: what is received is what the link exerts, the opposite of what acts on it.
+  bool invert = false;
 };
 
 /// Spring, damping, friction, rotor inertia and a constant effort between a joint's actuator and
@@ -35,6 +43,7 @@ struct JointTerms {
   /// zero smoothly.
   double coulomb_velocity = 1e-3;
   double rotor_inertia = 0;  ///< at the joint: gear ratio squared included, kg m^2 or kg
+  double offset = 0;         ///< effort needed in every position and motion, N m or N
 };
 
 /// A frame on a link.
@@ -43,7 +52,6 @@ struct LinkFrame {
   Eigen::Vector3d xyz = Eigen::Vector3d::Zero();  ///< origin in the link's frame, m
   Eigen::Vector3d rpy = Eigen::Vector3d::Zero();  ///< orientation, as in a URDF: fixed x, y, z, rad
 };
-  double offset = 0;         ///< effort needed in every position and motion, N m or N
 
 /// What a closure leaves free of the motion of its child frame relative to its parent frame.
 enum class ClosureType {
@@ -76,6 +84,7 @@ struct PointSpring {
   Eigen::Vector3d at_b = Eigen::Vector3d::Zero();  ///< point in the frame of link_b, m
   double stiffness = 0;                            ///< N/m; zero only where there is damping
   double rest_length = 0;                          ///< m
+  double damping = 0;                              ///< N s/m
 };
 
 /// A number that belongs to a joint or a closure.
@@ -84,7 +93,6 @@ struct NamedNumber {
   double value = 0;
 };
 
-  double damping = 0;                              ///< N s/m
 /// Which of many solutions is reported for forces that rigid-body mechanics does not determine.
 enum class RedundancyPolicy {
   kMinimumNorm,  ///< the least sum of squares of the closures' forces and moments over `length`

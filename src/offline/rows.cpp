@@ -56,7 +56,7 @@ Rows::Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool
       effort_(static_cast<Eigen::Index>(columns.efforts.size())),
       reactions_(columns.reactions.size()) {}
 
-void Rows::write(std::size_t row, const Motion& motion, const Results& results) {
+void Rows::write(std::size_t row, const Motion& motion, const Load& load, const Results& results) {
   take(row, results);
   more_.clear();
   if (loops_) {
@@ -66,8 +66,8 @@ void Rows::write(std::size_t row, const Motion& motion, const Results& results) 
     conditions_.note(row, results);
     addLoopCells(results);
   }
-  if (certified_) certified_->check(motion, results, file_.lines[row], more_);
-  if (deviations_) deviations_->add(row, motion, results, more_);
+  if (certified_) certified_->check(motion, load, results, file_.lines[row], more_);
+  if (deviations_) deviations_->add(row, motion, load, results, more_);
   writer_.writeRow(file_.table.times[row], effort_, reactions_, more_);
   progress_.update(row + 1, file_.table.times.size());
 }

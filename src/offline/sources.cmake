@@ -12,6 +12,7 @@ foreach(file
     offline.cpp
     output_file.cpp
     result_writer.cpp
+    row_loads.cpp
     rows.cpp
     watched_file.cpp)
   list(APPEND offline_files ${CMAKE_CURRENT_LIST_DIR}/${file})

@@ -232,6 +232,7 @@ class Compiler {
   }
 
   void addApplied() {
+    requireWrenchNames(scene_);
     for (std::size_t i = 0; i < scene_.applied_wrenches.size(); ++i) {
       const AppliedWrench& wrench = scene_.applied_wrenches[i];
       const Placement& place = places_[linkOf(mechanism_, scene_, i)];

@@ -85,6 +85,7 @@ set(core_test_files
   test/core/offline_test.cpp
   test/core/offline_wrapped_test.cpp
   test/core/passive_joints_test.cpp
+  test/core/offline_wrenches_test.cpp
   test/core/plan_merging_test.cpp
   test/core/plan_reduction_test.cpp
   test/core/plan_summary_test.cpp
