@@ -4,7 +4,9 @@ vwd_core(
   dynamics.cpp
   effort_doubts.cpp
   given_joints.cpp
+  live_wrenches.cpp
   model_view.cpp
   passive_joints.cpp
   shifted_samples.cpp
-  sample_rows.cpp)
+  sample_rows.cpp
+  wrench_history.cpp)
