@@ -64,7 +64,7 @@ LongDoubleDynamics::LongDoubleDynamics(LongDoubleDynamics&&) noexcept = default;
 
 void LongDoubleDynamics::compute(const Real* q, const Real* qd, const Real* qdd) {
   Impl& impl = *impl_;
-  const KernelInputs<Real> in = {q, qd, qdd, 1, nullptr};
+  const KernelInputs<Real> in = {q, qd, qdd, 1, nullptr, 0};
   const KernelOutputs<Real> out = {
       orNull(impl.efforts), orNull(impl.child_axes), orNull(impl.root_axes), nullptr, nullptr, 1};
   plainAngles(impl.view, in, impl.scratch, sineOf, cosineOf);

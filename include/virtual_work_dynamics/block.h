@@ -68,6 +68,12 @@ class BlockInverseDynamics {
   void compute(BlockLayout layout, const MotionBlock<Real>& motion, const Load& load,
                const ResultBlock<Real>& results);
 
+  /// Computes all samples, each with a load of its own in place of the values of the scene's
+  /// applied wrenches. @param loads one for each sample. @throws SceneError when one of them has
+  /// not one wrench for each applied wrench.
+  void compute(BlockLayout layout, const MotionBlock<Real>& motion, const Load* loads,
+               const ResultBlock<Real>& results);
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "virtual_work_dynamics/dynamics.h"
+#include "virtual_work_dynamics/load.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/motion_covariance.h"
@@ -78,6 +79,10 @@ class Deviations {
   /// @throws MotionError when a vector of `motion` or the covariance has the wrong length, or the
   ///   workspace is another plan's.
   void computeMotion(const Motion& motion, const MotionCovariance& covariance,
+                     Workspace& workspace) const;
+  /// Computes the share of the motion with another load than the scene's. What is uncertain of the
+  /// load itself is no part of it. Does not allocate, unless `law` does.
+  void computeMotion(const Motion& motion, const MotionCovariance& covariance, const LoadLaw& law,
                      Workspace& workspace) const;
   /// Computes the share of the description, which is zero without tolerances. Does not allocate.
   /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is

@@ -79,6 +79,8 @@ class Dynamics {
   /// @param load receives the values; the call does not allocate when it has as many wrenches as
   ///   tree()
   void getTreeLoad(const Results& results, Load& load) const;
+  /// Gets the wrenches of results that were computed with the load `given`.
+  void getTreeLoad(const Results& results, const Load& given, Load& load) const;
 
   /// What a sample costs, and what was left out. With closed loops it is that of the tree without
   /// closures and springs, as the rest depends on the position. Allocates; runs the recursion once.

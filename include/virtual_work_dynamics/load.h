@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "virtual_work_dynamics/results.h"
@@ -18,5 +20,11 @@ struct Load {
 
   std::vector<Wrench> wrenches;
 };
+
+/// Gives the load at a position of the mechanism, for wrenches that do not move with their links,
+/// as those measured in the frame of another link.
+/// @param q positions of all coordinates, rad or m
+/// @param load has one wrench for each applied wrench of the scene, whose values are replaced
+using LoadLaw = std::function<void(const Eigen::VectorXd& q, Load& load)>;
 
 }  // namespace virtual_work_dynamics

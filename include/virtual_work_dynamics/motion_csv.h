@@ -13,9 +13,10 @@ namespace virtual_work_dynamics {
 /// Reads a motion from CSV. Its header has, in any order, the columns
 /// `time,position.<joint>…,velocity.<joint>…,acceleration.<joint>…`;
 /// lines that start with `#` are comments. Velocities and accelerations are optional,
-/// each for all joints or for none. Blanks around names and cells, CRLF, a UTF-8 byte order mark
-/// and a comma at the end of every line are ignored; names and cells may stand in quotes (RFC
-/// 4180). An unnamed first column is taken for numbers of rows, and what results hold
+/// each for all joints or for none. Columns `wrench.<name>.fx` to `.tz`, all six, give a wrench.
+/// Blanks around names and cells, CRLF, a UTF-8 byte order mark and a comma at the end of every
+/// line are ignored; names and cells may stand in quotes (RFC 4180). An unnamed first column is
+/// taken for numbers of rows, and what results hold
 /// (`effort.<joint>` and the like) for other columns.
 /// @param joints the joints to read, in the order of the table's columns. When empty, every joint
 ///   that has a position column is read, in the order of the header; a file of times alone is then

@@ -6,7 +6,8 @@
 
 namespace virtual_work_dynamics {
 
-/// A motion as a table: row i of each matrix belongs to times[i], column j to joints[j].
+/// A motion as a table: row i of each matrix belongs to times[i], column j to joints[j]. Wrenches
+/// that are applied while it goes on may stand beside it.
 struct MotionTable {
   std::vector<std::string> joints;
   std::vector<double> times;      ///< s
@@ -16,6 +17,9 @@ struct MotionTable {
   /// Covariances of (q, qd, qdd), see MotionCovariance: rows x joints, row after row; empty: not
   /// known.
   std::vector<Eigen::Matrix3d> covariances;
+
+  std::vector<std::string> wrenches;  ///< names of applied wrenches
+  Eigen::MatrixXd wrench_values;      ///< rows x 6 wrenches: fx fy fz tx ty tz of each, N and N m
 
   bool hasVelocities() const { return velocities.size() > 0; }
   bool hasAccelerations() const { return accelerations.size() > 0; }

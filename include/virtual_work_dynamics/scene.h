@@ -19,6 +19,14 @@ struct AppliedWrench {
   Axes axes = Axes::kLink;                           ///< axes of force and torque
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< N
   Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< moment about `at`, N m
+  /// Under this name programs get force and torque that change: a Load replaces the scene's.
+  std::string name;
+  /// Whether force and torque are not known to the scene. They count as zero there, about the
+  /// origin of the link and in its axes, where `at`, `axes`, `force` and `torque` are as they are
+  /// by default.
+  bool live = false;
+  /// Of a live wrench: what is received is what the link exerts, the opposite of what acts on it.
+  bool invert = false;
 };
 
 /// Frame of a joint or closure.
@@ -37,9 +45,9 @@ struct MomentPoint {
   Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< the point in that frame, m
 };
 
-/// Spring, damping, friction and rotor inertia between a joint's actuator and the mechanism. They
-/// are part of the effort that the actuator must deliver and of no reaction. Every number except
-/// `rest` is at least zero.
+/// Spring, damping, friction, rotor inertia and a constant effort between a joint's actuator and
+/// the mechanism. They are part of the effort that the actuator must deliver and of no reaction.
+/// Every number except `rest` and `offset` is at least zero.
 struct JointTerms {
   std::string joint;              ///< a joint that moves; mimic joints have terms of their own
   double stiffness = 0;           ///< stiffness of a spring, N m/rad or N/m
@@ -51,6 +59,7 @@ struct JointTerms {
   /// zero smoothly.
   double coulomb_velocity = 1e-3;
   double rotor_inertia = 0;  ///< at the joint: gear ratio squared included, kg m^2 or kg
+  double offset = 0;         ///< effort needed in every position and motion, N m or N
 };
 
 /// A frame on a link.
@@ -82,14 +91,16 @@ struct Closure {
   std::optional<double> length;
 };
 
-/// A massless spring between two points of the mechanism.
+/// A massless spring and damper between two points of the mechanism, which pulls them together by
+/// stiffness (l - rest_length) + damping dl/dt, where l is their distance.
 struct PointSpring {
   std::string name;
   std::string link_a, link_b;
   Eigen::Vector3d at_a = Eigen::Vector3d::Zero();  ///< point in the frame of link_a, m
   Eigen::Vector3d at_b = Eigen::Vector3d::Zero();  ///< point in the frame of link_b, m
-  double stiffness = 0;                            ///< N/m
+  double stiffness = 0;                            ///< N/m; zero only where there is damping
   double rest_length = 0;                          ///< m
+  double damping = 0;                              ///< N s/m
 };
 
 /// A number that belongs to a joint or a closure.

@@ -62,8 +62,8 @@ struct Deviations::Impl {
 
   std::unique_ptr<ShiftedSamples> makeSamples() const {
     const Dynamics::Impl& plan = *dynamics.impl_;
-    if (plan.chain) return std::make_unique<ShiftedChain>(*plan.chain, levels);
-    return std::make_unique<ShiftedLoops>(*plan.loops, independent, levels);
+    if (plan.chain) return std::make_unique<ShiftedChain>(*plan.chain, plan.own_load, levels);
+    return std::make_unique<ShiftedLoops>(*plan.loops, plan.own_load, independent, levels);
   }
 
   Dynamics dynamics;
@@ -203,6 +203,13 @@ Deviations::Workspace Deviations::makeWorkspace() const {
 
 void Deviations::computeMotion(const Motion& motion, const MotionCovariance& covariance,
                                Workspace& workspace) const {
+  const Load& own = impl_->dynamics.impl_->own_load;
+  computeMotion(
+      motion, covariance, [&own](const Eigen::VectorXd&, Load& load) { load = own; }, workspace);
+}
+
+void Deviations::computeMotion(const Motion& motion, const MotionCovariance& covariance,
+                               const LoadLaw& law, Workspace& workspace) const {
   Workspace::Impl& memory = *workspace.impl_;
   if (memory.plan != impl_.get()) {
     throw MotionError("the workspace belongs to another Deviations");
@@ -214,7 +221,7 @@ void Deviations::computeMotion(const Motion& motion, const MotionCovariance& cov
                       " coordinates");
   }
   memory.setShifts(motion, covariance);
-  memory.samples->compute(motion, memory.shifts);
+  memory.samples->compute(motion, memory.shifts, law);
   memory.addMotion();
   memory.take(memory.samples->known(), memory.motion);
 }

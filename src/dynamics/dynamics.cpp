@@ -134,7 +134,11 @@ const Request& Dynamics::treeRequest() const {
 }
 
 void Dynamics::getTreeLoad(const Results& results, Load& load) const {
-  load.wrenches = closed() ? results.loops.tree_wrenches : impl_->own_load.wrenches;
+  getTreeLoad(results, impl_->own_load, load);
+}
+
+void Dynamics::getTreeLoad(const Results& results, const Load& given, Load& load) const {
+  load.wrenches = closed() ? results.loops.tree_wrenches : given.wrenches;
 }
 
 PlanSummary Dynamics::summary() const {

@@ -6,6 +6,7 @@
 
 #include "base/worker_threads.h"
 #include "dynamics/compiled_dynamics.h"
+#include "scene/input_checks.h"
 #include "tree/sample_block.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -20,8 +21,8 @@ struct SampleRows::Chain {
 };
 
 struct SampleRows::Loops {
-  Loops(const ClosedLoopDynamics& of, std::size_t capacity, int threads)
-      : dynamics(of), workers(threads) {
+  Loops(const ClosedLoopDynamics& of, std::size_t applied, std::size_t capacity, int threads)
+      : dynamics(of), wrenches(applied), workers(threads) {
     for (int i = 0; i < threads; ++i) {
       workspaces.push_back(dynamics.makeWorkspace());
       motions.emplace_back(dynamics.coordinates());
@@ -29,7 +30,7 @@ struct SampleRows::Loops {
     results.assign(capacity, workspaces.front().results());
   }
 
-  void compute(const MotionTable& table, std::size_t first, std::size_t count) {
+  void compute(const MotionTable& table, std::size_t first, std::size_t count, const Load* loads) {
     if (count > results.size()) {
       throw MotionError("block: " + std::to_string(count) + " rows are more than its capacity, " +
                         std::to_string(results.size()));
@@ -43,32 +44,40 @@ struct SampleRows::Loops {
                           std::to_string(dynamics.coordinates()) + " coordinates is needed");
       }
     }
+    for (std::size_t i = 0; loads && i < count; ++i) requireLoad(loads[i], wrenches);
     struct Job {
       Loops& all;
       const MotionTable& table;
       std::size_t first, count;
-    } job{*this, table, first, count};
+      const Load* loads;
+    } job{*this, table, first, count, loads};
     workers.run(
         [](void* context, int index) {
           const Job& of = *static_cast<Job*>(context);
-          of.all.computeShare(of.table, of.first, of.count, static_cast<std::size_t>(index));
+          of.all.computeShare(of.table, of.first, of.count, of.loads,
+                              static_cast<std::size_t>(index));
         },
         &job);
     computed = count;
   }
 
   void computeShare(const MotionTable& table, std::size_t first, std::size_t count,
-                    std::size_t thread) {
+                    const Load* loads, std::size_t thread) {
     const std::size_t threads = workspaces.size();
     const std::size_t end = count * (thread + 1) / threads;
     for (std::size_t i = count * thread / threads; i < end; ++i) {
       takeRow(table, first + i, motions[thread]);
-      dynamics.compute(motions[thread], workspaces[thread]);
+      if (loads) {
+        dynamics.compute(motions[thread], loads[i], workspaces[thread]);
+      } else {
+        dynamics.compute(motions[thread], workspaces[thread]);
+      }
       results[i] = workspaces[thread].results();
     }
   }
 
   const ClosedLoopDynamics& dynamics;
+  const std::size_t wrenches;  // of a load
   WorkerThreads workers;
   std::vector<ClosedLoopDynamics::Workspace> workspaces;  // by thread
   std::vector<Motion> motions;                            // by thread
@@ -82,7 +91,9 @@ SampleRows::SampleRows(const Dynamics& dynamics, std::size_t capacity, int threa
   }
   const Dynamics::Impl& plan = *dynamics.impl_;
   if (plan.chain) chain_ = std::make_unique<Chain>(*plan.chain, capacity, threads);
-  if (plan.loops) loops_ = std::make_unique<Loops>(*plan.loops, capacity, threads);
+  if (plan.loops) {
+    loops_ = std::make_unique<Loops>(*plan.loops, plan.own_load.wrenches.size(), capacity, threads);
+  }
 }
 
 SampleRows::~SampleRows() = default;
@@ -93,9 +104,10 @@ std::size_t SampleRows::capacity() const {
   return chain_ ? chain_->block.capacity() : loops_->results.size();
 }
 
-void SampleRows::compute(const MotionTable& table, std::size_t first, std::size_t count) {
-  if (chain_) chain_->block.compute(table, first, count);
-  if (loops_) loops_->compute(table, first, count);
+void SampleRows::compute(const MotionTable& table, std::size_t first, std::size_t count,
+                         const Load* loads) {
+  if (chain_) chain_->block.compute(table, first, count, loads);
+  if (loops_) loops_->compute(table, first, count, loads);
 }
 
 const Results& SampleRows::read(std::size_t index) {

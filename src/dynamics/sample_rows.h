@@ -26,9 +26,11 @@ class SampleRows {
 
   /// Computes rows [first, first + count) of `table`, whose joints are the generalized coordinates
   /// in their order and which has velocities and accelerations. Does not allocate.
+  /// @param loads one for each of these rows; null: the scene's own
   /// @throws MotionError when the table differs from that, has fewer rows, or when count is more
-  ///   than capacity().
-  void compute(const MotionTable& table, std::size_t first, std::size_t count);
+  ///   than capacity(). SceneError when a load has not one wrench for each applied one.
+  void compute(const MotionTable& table, std::size_t first, std::size_t count,
+               const Load* loads = nullptr);
 
   /// Results of row `index` of the last block; valid until another one is read or computed. Does
   /// not allocate.

@@ -45,12 +45,14 @@ void markKnown(const Results& results, std::vector<bool>& known) {
   mark(loops.root_axes_determined, loops.root_axes_exist);
 }
 
-ShiftedChain::ShiftedChain(const InverseDynamics& dynamics, int levels)
+ShiftedChain::ShiftedChain(const InverseDynamics& dynamics, const Load& own, int levels)
     : block_(dynamics, 1, dynamics.instructionSet()),
       coordinates_(block_.coordinates()),
       samples_(wholePacks(1 + static_cast<std::size_t>(levels) * coordinates_,
                           packWidth(dynamics.instructionSet()))),
-      inputs_(3 * coordinates_ * samples_) {
+      inputs_(3 * coordinates_ * samples_),
+      position_(dynamics.coordinates()),
+      loads_(samples_, own) {
   const ResultNumbers numbers(dynamics.makeWorkspace().results());
   outputs_.resize(numbers.all() * samples_);
   double* next = outputs_.data();
@@ -64,7 +66,8 @@ ShiftedChain::ShiftedChain(const InverseDynamics& dynamics, int levels)
   results_.root_axes = array(6 * numbers.root_axes);
 }
 
-void ShiftedChain::compute(const Motion& motion, const Eigen::MatrixXd& shifts) {
+void ShiftedChain::compute(const Motion& motion, const Eigen::MatrixXd& shifts,
+                           const LoadLaw& law) {
   const Eigen::VectorXd* const levels[] = {&motion.q, &motion.qd, &motion.qdd};
   const std::size_t size = coordinates_ * samples_;
   for (std::size_t level = 0; level < 3; ++level) {
@@ -79,26 +82,46 @@ void ShiftedChain::compute(const Motion& motion, const Eigen::MatrixXd& shifts) 
       samples[1 + level * coordinates_ + i] = value + shifts(row, static_cast<Eigen::Index>(level));
     }
   }
+  setLoads(motion, shifts, law);
   const double* const inputs = inputs_.data();
   block_.compute(BlockLayout::kStructureOfArrays,
-                 {samples_, inputs, inputs + size, inputs + 2 * size}, results_);
+                 {samples_, inputs, inputs + size, inputs + 2 * size}, loads_.data(), results_);
 }
 
-ShiftedLoops::ShiftedLoops(const ClosedLoopDynamics& dynamics, const std::vector<bool>& independent,
-                           int levels)
+// Only shifts of positions change the load.
+void ShiftedChain::setLoads(const Motion& motion, const Eigen::MatrixXd& shifts,
+                            const LoadLaw& law) {
+  if (loads_.front().wrenches.empty()) return;
+  law(motion.q, loads_.front());
+  for (std::size_t sample = 1; sample < samples_; ++sample) {
+    const auto i = static_cast<Eigen::Index>(sample) - 1;
+    if (i >= shifts.rows()) {
+      loads_[sample] = loads_.front();
+      continue;
+    }
+    position_ = motion.q;
+    position_[i] += shifts(i, 0);
+    law(position_, loads_[sample]);
+  }
+}
+
+ShiftedLoops::ShiftedLoops(const ClosedLoopDynamics& dynamics, const Load& own,
+                           const std::vector<bool>& independent, int levels)
     : dynamics_(dynamics),
       independent_(independent),
       workspace_(dynamics.makeWorkspace()),
       numbers_(workspace_.results()),
       samples_(1 + static_cast<std::size_t>(levels) * independent.size()),
       shifted_(dynamics.coordinates()),
+      load_(own),
       values_(numbers_.all() * samples_),
       known_(numbers_.all()) {}
 
-void ShiftedLoops::compute(const Motion& motion, const Eigen::MatrixXd& shifts) {
+void ShiftedLoops::compute(const Motion& motion, const Eigen::MatrixXd& shifts,
+                           const LoadLaw& law) {
   // The sample itself is completed, too: what it violates of the closures is not a shift.
   shifted_ = motion;
-  bool complete = computeSample(0);
+  bool complete = computeSample(0, law);
   markKnown(workspace_.results(), known_);
   std::size_t sample = 1;
   for (Eigen::Index level = 0; level < shifts.cols(); ++level) {
@@ -106,15 +129,16 @@ void ShiftedLoops::compute(const Motion& motion, const Eigen::MatrixXd& shifts) 
       if (!independent_[static_cast<std::size_t>(i)] || !complete) continue;
       shifted_ = motion;
       vectorOf(shifted_, level)[i] += shifts(i, level);
-      complete = computeSample(sample);
+      complete = computeSample(sample, law);
     }
   }
   if (!complete) std::fill(known_.begin(), known_.end(), false);
 }
 
-bool ShiftedLoops::computeSample(std::size_t sample) {
+bool ShiftedLoops::computeSample(std::size_t sample, const LoadLaw& law) {
   if (!dynamics_.complete(shifted_, independent_, workspace_)) return false;
-  dynamics_.compute(shifted_, workspace_);
+  law(shifted_.q, load_);
+  dynamics_.compute(shifted_, load_, workspace_);
   forEachNumber(workspace_.results(), [&](std::size_t number, double value) {
     values_[number * samples_ + sample] = value;
   });

@@ -7,6 +7,7 @@
 #include "virtual_work_dynamics/block.h"
 #include "virtual_work_dynamics/closed_loop_dynamics.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
+#include "virtual_work_dynamics/load.h"
 #include "virtual_work_dynamics/results.h"
 
 namespace virtual_work_dynamics {
@@ -51,7 +52,8 @@ class ShiftedSamples {
 
   /// Computes all samples. Does not allocate.
   /// @param shifts coordinates x levels; the number of levels was given to the constructor
-  virtual void compute(const Motion& motion, const Eigen::MatrixXd& shifts) = 0;
+  /// @param law the load at each sample's position
+  virtual void compute(const Motion& motion, const Eigen::MatrixXd& shifts, const LoadLaw& law) = 0;
   /// The samples' values of one number of ResultNumbers.
   virtual const double* values(std::size_t number) const = 0;
   /// Whether a number has a value that is determined; by number, empty where all have.
@@ -61,20 +63,25 @@ class ShiftedSamples {
 /// Samples of an open chain: a block, in which all values of a number lie one after the other.
 class ShiftedChain : public ShiftedSamples {
  public:
-  ShiftedChain(const InverseDynamics& dynamics, int levels);
+  /// @param own the scene's load
+  ShiftedChain(const InverseDynamics& dynamics, const Load& own, int levels);
 
-  void compute(const Motion& motion, const Eigen::MatrixXd& shifts) override;
+  void compute(const Motion& motion, const Eigen::MatrixXd& shifts, const LoadLaw& law) override;
   const double* values(std::size_t number) const override {
     return outputs_.data() + number * samples_;
   }
   const std::vector<bool>& known() const override { return known_; }
 
  private:
+  void setLoads(const Motion& motion, const Eigen::MatrixXd& shifts, const LoadLaw& law);
+
   BlockInverseDynamics<double> block_;
   const std::size_t coordinates_;
   std::size_t samples_;  // whole packs of vector instructions
   std::vector<double> inputs_, outputs_;
   ResultBlock<double> results_;
+  Eigen::VectorXd position_;  // of a sample
+  std::vector<Load> loads_;   // of the samples
   std::vector<bool> known_;
 };
 
@@ -83,17 +90,18 @@ class ShiftedChain : public ShiftedSamples {
 class ShiftedLoops : public ShiftedSamples {
  public:
   /// @param dynamics must outlive it
-  ShiftedLoops(const ClosedLoopDynamics& dynamics, const std::vector<bool>& independent,
-               int levels);
+  /// @param own the scene's load
+  ShiftedLoops(const ClosedLoopDynamics& dynamics, const Load& own,
+               const std::vector<bool>& independent, int levels);
 
-  void compute(const Motion& motion, const Eigen::MatrixXd& shifts) override;
+  void compute(const Motion& motion, const Eigen::MatrixXd& shifts, const LoadLaw& law) override;
   const double* values(std::size_t number) const override {
     return values_.data() + number * samples_;
   }
   const std::vector<bool>& known() const override { return known_; }
 
  private:
-  bool computeSample(std::size_t sample);
+  bool computeSample(std::size_t sample, const LoadLaw& law);
 
   const ClosedLoopDynamics& dynamics_;
   const std::vector<bool> independent_;
@@ -101,6 +109,7 @@ class ShiftedLoops : public ShiftedSamples {
   const ResultNumbers numbers_;
   const std::size_t samples_;
   Motion shifted_;
+  Load load_;  // of shifted_
   std::vector<double> values_;
   std::vector<bool> known_;
 };

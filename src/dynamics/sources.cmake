@@ -4,8 +4,10 @@ vwd_core(
   dynamics.cpp
   effort_doubts.cpp
   given_joints.cpp
+  live_wrenches.cpp
   model_view.cpp
   motion_start.cpp
   passive_joints.cpp
   shifted_samples.cpp
-  sample_rows.cpp)
+  sample_rows.cpp
+  wrench_history.cpp)

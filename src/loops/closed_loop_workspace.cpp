@@ -50,8 +50,9 @@ ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compil
 }
 
 void ClosedLoopDynamics::Workspace::Impl::compute(const Motion& motion, const Load& load) {
-  push(motion, load);
+  solvers.kinematics.setPosition(motion.q);
   solvers.residuals.set(solvers.kinematics, plan.static_motion ? rest_ : motion);
+  push(motion, load);
   results.loops.residuals = solvers.residuals.values();
   results.loops.relative_residuals = solvers.residuals.relative();
   setActuatedClosures();
@@ -67,9 +68,9 @@ void ClosedLoopDynamics::Workspace::Impl::compute(const Motion& motion, const Lo
   results.loops.root_axes_determined = determined.root_axes;
 }
 
-// Computes the efforts of the open tree, which closures and actuators have to balance.
+// Computes the efforts of the open tree, which closures and actuators have to balance, at the
+// position and motion of the kinematics.
 void ClosedLoopDynamics::Workspace::Impl::push(const Motion& motion, const Load& load) {
-  solvers.kinematics.setPosition(motion.q);
   std::copy(load.wrenches.begin(), load.wrenches.end(), first_load_.wrenches.begin());
   for (std::size_t i = 0; i < plan.springs.size(); ++i) {
     const Eigen::Vector3d force = plan.springs.force(i, solvers.kinematics);

@@ -15,13 +15,16 @@ namespace {
 
 void check(const PointSpring& spring) {
   const std::string what = "springs: " + inQuotes(spring.name);
-  if (!(spring.stiffness > 0) || !std::isfinite(spring.stiffness)) {
-    throw SceneError(what + ": stiffness = " + numberText(spring.stiffness) +
-                     " is not a positive number");
-  }
-  if (!(spring.rest_length >= 0) || !std::isfinite(spring.rest_length)) {
-    throw SceneError(what + ": rest_length = " + numberText(spring.rest_length) +
+  const auto requireAtLeastZero = [&](const char* key, double value) {
+    if (value >= 0 && std::isfinite(value)) return;
+    throw SceneError(what + ": " + key + " = " + numberText(value) +
                      " is neither zero nor a positive number");
+  };
+  requireAtLeastZero("stiffness", spring.stiffness);
+  requireAtLeastZero("rest_length", spring.rest_length);
+  requireAtLeastZero("damping", spring.damping);
+  if (spring.stiffness == 0 && spring.damping == 0) {
+    throw SceneError(what + ": it has neither stiffness nor damping");
   }
   if (!spring.at_a.allFinite() || !spring.at_b.allFinite()) {
     throw SceneError(what + ": an end is not finite");
@@ -70,6 +73,16 @@ Eigen::Vector3d PointSprings::between(const Spring& spring,
   return pointOf(spring.link_b, spring.scene.at_b) - pointOf(spring.link_a, spring.scene.at_a);
 }
 
+// Derivative of between().
+Eigen::Vector3d PointSprings::rate(const Spring& spring, const LoopKinematics& kinematics) const {
+  const auto velocityOf = [&](int link, const Eigen::Vector3d& at) -> Eigen::Vector3d {
+    const LinkKinematics& links = kinematics.links();
+    return links.motionAt(link, links.originOf({link, Eigen::Matrix3d::Identity(), at})).v;
+  };
+  return velocityOf(spring.link_b, spring.scene.at_b) -
+         velocityOf(spring.link_a, spring.scene.at_a);
+}
+
 Eigen::Vector3d PointSprings::force(std::size_t i, const LoopKinematics& kinematics) const {
   const Spring& spring = springs_[i];
   const Eigen::Vector3d r = between(spring, kinematics);
@@ -78,11 +91,17 @@ Eigen::Vector3d PointSprings::force(std::size_t i, const LoopKinematics& kinemat
   if (largest == 0) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d scaled = r / largest;
   const double norm = scaled.norm();
-  return spring.scene.stiffness * (largest * norm - spring.scene.rest_length) / norm * scaled;
+  const double pull = spring.scene.stiffness * (largest * norm - spring.scene.rest_length);
+  if (spring.scene.damping == 0) return pull / norm * scaled;
+  const Eigen::Vector3d direction = scaled / norm;
+  return (pull + spring.scene.damping * direction.dot(rate(spring, kinematics))) * direction;
 }
 
 bool PointSprings::directed(std::size_t i, const LoopKinematics& kinematics) const {
-  return springs_[i].scene.rest_length == 0 || !between(springs_[i], kinematics).isZero(0);
+  const Spring& spring = springs_[i];
+  if (!between(spring, kinematics).isZero(0)) return true;
+  const bool pushes = spring.scene.stiffness > 0 && spring.scene.rest_length > 0;
+  return !pushes && (spring.scene.damping == 0 || rate(spring, kinematics).isZero(0));
 }
 
 double PointSprings::length(std::size_t i, const LoopKinematics& kinematics) const {

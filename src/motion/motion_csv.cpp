@@ -11,7 +11,9 @@
 #include "base/number_text.h"
 #include "base/printable.h"
 #include "base/text_file.h"
+#include "base/wrench_components.h"
 #include "motion/motion_text.h"
+#include "motion/wrench_columns.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -58,6 +60,7 @@ std::string columnHelp(std::string_view column) {
     return "; columns of rostopic and PlotJuggler are not read: play the bag to "
            "inverse_dynamics_node, or rename them";
   }
+  if (column.substr(0, 7) == "wrench.") return std::string(", ") + kWrenchColumns;
   const std::size_t point = std::min(column.find('.'), column.size());
   const std::vector<std::string> kinds(kKinds.begin(), kKinds.end());
   const std::string time = nearestName(std::string(column), {kTime});
@@ -263,7 +266,10 @@ class CsvReader {
   }
 
   void checkKind(std::size_t column, const std::string& column_name) const {
-    if (column_name == kTime || isOf(kKinds, column_name) || isOf(kIgnored, column_name)) return;
+    if (column_name == kTime || isOf(kKinds, column_name) || isOf(kIgnored, column_name) ||
+        !wrenchOf(column_name).empty()) {
+      return;
+    }
     throw FileError(atCell(header_line_, column) + ": " + inQuotes(column_name) +
                     " is not one of " + kKnownColumns + columnHelp(column_name));
   }
@@ -280,7 +286,7 @@ class CsvReader {
   }
 
   // Decides for each column where its value goes in a row of targets, or -1 for nowhere. The
-  // targets are the time, then each kind that is given, joint by joint.
+  // targets are the time, then each kind that is given, joint by joint, then the wrenches.
   void assignColumns() {
     target_of_column_.assign(header_.size(), -1);
     assign(kTime, 0);
@@ -296,6 +302,12 @@ class CsvReader {
       if (!has_kind_[kind]) continue;
       const char* why = kind == 0 ? "" : ", though other joints have one: give all or none";
       for (const std::string& joint : table_.joints) assign(columnName(joint), target++, why);
+    }
+    table_.wrenches = wrenchesOf(header_);
+    for (const std::string& wrench : table_.wrenches) {
+      for (const char* component : kWrenchComponents) {
+        assign(wrenchColumn(wrench, component), target++, ": a wrench has all six");
+      }
     }
     targets_ = static_cast<std::size_t>(target);
   }
@@ -397,6 +409,7 @@ class CsvReader {
       *matrices[kind] = rows.middleCols(start, joints);
       start += joints;
     }
+    table_.wrench_values = rows.rightCols(rows.cols() - start);
   }
 
   Lines lines_;

@@ -20,4 +20,5 @@ vwd_core(
   stream_text.cpp
   trajectory_curve.cpp
   unwrap.cpp
-  velocity_judge.cpp)
+  velocity_judge.cpp
+  wrench_columns.cpp)

@@ -9,14 +9,14 @@ namespace virtual_work_dynamics {
 const char* const kCertificateColumns[3] = {"certificate.power", "certificate.ground_force",
                                             "certificate.ground_moment"};
 
-void CertifiedRows::check(const Motion& motion, const Results& results, std::size_t line,
-                          std::vector<double>& cells) {
+void CertifiedRows::check(const Motion& motion, const Load& load, const Results& results,
+                          std::size_t line, std::vector<double>& cells) {
   if (results.singular()) {
     ++singular_;
     cells.insert(cells.end(), 3, std::numeric_limits<double>::quiet_NaN());
     return;
   }
-  dynamics_.getTreeLoad(results, load_);
+  dynamics_.getTreeLoad(results, load, load_);
   const Certificates found = certifier_.check(motion, load_, results.effort.head(motion.q.size()),
                                               results.child_axes[ground_]);
   note(found, line);

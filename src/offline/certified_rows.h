@@ -19,9 +19,10 @@ class CertifiedRows {
         ground_(Certifier::groundIndex(dynamics.request())) {}
 
   /// Certifies a row, unless its position is singular and so need not bear the load.
+  /// @param load with which `results` were computed
   /// @param line of the row in its file
   /// @param cells receives one for each of kCertificateColumns
-  void check(const Motion& motion, const Results& results, std::size_t line,
+  void check(const Motion& motion, const Load& load, const Results& results, std::size_t line,
              std::vector<double>& cells);
 
   /// One line on the worst of all rows.
@@ -33,7 +34,7 @@ class CertifiedRows {
   const Dynamics& dynamics_;
   Certifier certifier_;
   std::size_t ground_;
-  Load load_;
+  Load load_;          // of the tree
   double worst_ = -1;  ///< negative before the first row
   const char* worst_column_ = "";
   std::size_t worst_line_ = 0;

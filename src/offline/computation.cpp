@@ -36,11 +36,14 @@ SampleRows samplesOf(const Dynamics& dynamics, std::size_t rows, int wanted) {
 
 }  // namespace
 
-Computation::Computation(const Dynamics& dynamics, CompletedMotion& motion, int threads)
+Computation::Computation(const Dynamics& dynamics, CompletedMotion& motion, const RowLoads& loads,
+                         int threads)
     : dynamics_(dynamics),
       motion_(motion),
+      loads_(loads),
       ahead_(threads > 1 && motion.completes()),
       samples_(samplesOf(dynamics, rows(), ahead_ ? threads - 1 : threads)),
+      block_loads_(loads.vary() ? samples_.capacity() : 0, loads.own()),
       workspace_(dynamics.makeWorkspace()) {}
 
 void Computation::run(const Take& take) {
@@ -52,16 +55,26 @@ void Computation::run(const Take& take) {
       next = std::async(ahead_ ? std::launch::async : std::launch::deferred,
                         [&] { return complete(now.start + now.count); });
     }
-    samples_.compute(motion_.file().table, now.start, now.count);
+    compute(now);
     for (std::size_t i = 0; i < now.count; ++i) {
       const Results& results = samples_.read(i);
       motion_.check(now.start + i, results);
       takeRow(motion_.file().table, now.start + i, row);
-      take(now.start + i, row, results);
+      take(now.start + i, row, loads_.vary() ? block_loads_[i] : loads_.own(), results);
     }
     if (now.open) std::rethrow_exception(now.open);
     now = next.get();
   }
+}
+
+void Computation::compute(const Block& block) {
+  const MotionTable& table = motion_.file().table;
+  if (!loads_.vary()) {
+    samples_.compute(table, block.start, block.count);
+    return;
+  }
+  for (std::size_t i = 0; i < block.count; ++i) loads_.get(block.start + i, block_loads_[i]);
+  samples_.compute(table, block.start, block.count, block_loads_.data());
 }
 
 Computation::Block Computation::complete(std::size_t start) {

@@ -56,13 +56,14 @@ std::vector<std::string> DeviationRows::columns(const Columns& results) const {
   return names;
 }
 
-void DeviationRows::add(std::size_t row, const Motion& motion, const Results& results,
-                        std::vector<double>& cells) {
+void DeviationRows::add(std::size_t row, const Motion& motion, const Load& load,
+                        const Results& results, std::vector<double>& cells) {
   const bool of_description = deviations_.hasTolerances();
   const bool efforts = doubts_.has_value();
   if (of_motion_) {
     takeCovariance(table_, row, covariance_);
-    deviations_.computeMotion(motion, covariance_, workspace_);
+    deviations_.computeMotion(
+        motion, covariance_, [&load](const Eigen::VectorXd&, Load& to) { to = load; }, workspace_);
     addCells(workspace_.motion(), efforts, cells);
   }
   if (of_description) {

@@ -24,8 +24,8 @@ class DeviationRows {
 
   /// Names of its columns.
   std::vector<std::string> columns(const Columns& results) const;
-  /// Computes a row and adds its cells.
-  void add(std::size_t row, const Motion& motion, const Results& results,
+  /// Computes a row and adds its cells. @param load with which `results` were computed
+  void add(std::size_t row, const Motion& motion, const Load& load, const Results& results,
            std::vector<double>& cells);
 
   /// A line for each effort whose deviation, as rms of all rows, is more than `threshold` times its

@@ -34,8 +34,9 @@ LagrangeRows::LagrangeRows(const Mechanism& mechanism, const Dynamics& dynamics)
       child_places_(placesOf(dynamics.request().child_axes, dynamics.treeRequest().child_axes)),
       root_places_(placesOf(dynamics.request().root_axes, dynamics.treeRequest().root_axes)) {}
 
-const Results& LagrangeRows::compute(const Motion& motion, const Results& results) {
-  dynamics_.getTreeLoad(results, load_);
+const Results& LagrangeRows::compute(const Motion& motion, const Load& load,
+                                     const Results& results) {
+  dynamics_.getTreeLoad(results, load, load_);
   lagrange_.compute(motion, load_);
   results_ = results;
   if (lagrange_.request().efforts) {

@@ -18,14 +18,15 @@ class LagrangeRows {
 
   /// Returns the results with efforts and reactions of joints replaced; reactions of closures and
   /// efforts of actuated closures stay. Valid until the next call.
-  const Results& compute(const Motion& motion, const Results& results);
+  /// @param load with which `results` were computed
+  const Results& compute(const Motion& motion, const Load& load, const Results& results);
 
  private:
   const Dynamics& dynamics_;
   LagrangeDynamics<long double> lagrange_;
   // By entry of the request: its place in the tree's request; -1 for a closure.
   std::vector<int> child_places_, root_places_;
-  Load load_;
+  Load load_;  // of the tree
   Results results_;
 };
 

@@ -21,6 +21,7 @@
 #include "offline/output_file.h"
 #include "offline/recorded_motion.h"
 #include "offline/result_writer.h"
+#include "offline/row_loads.h"
 #include "offline/rows.h"
 #include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/scene_reader.h"
@@ -171,10 +172,11 @@ void checkMotion(const Arguments& arguments, RecordedMotion recorded, const Mech
                  const Scene& scene, const Dynamics& dynamics) {
   CompletedMotion motion(std::move(recorded), mechanism, scene, dynamics, toleranceOf(arguments),
                          arguments.recording);
+  const RowLoads loads(scene, motion.file());
   Conditions conditions;
   if (dynamics.closed()) {
-    Computation(dynamics, motion, arguments.threads)
-        .run([&](std::size_t row, const Motion&, const Results& results) {
+    Computation(dynamics, motion, loads, arguments.threads)
+        .run([&](std::size_t row, const Motion&, const Load&, const Results& results) {
           conditions.note(row, results);
         });
   }
@@ -231,6 +233,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   recording.completion.covariances = arguments.deviations;
   CompletedMotion motion(std::move(recorded), mechanism, scene, dynamics, toleranceOf(arguments),
                          recording);
+  const RowLoads loads(scene, motion.file());
   std::optional<DeviationRows> deviations;
   if (arguments.deviations) {
     deviations.emplace(mechanism, scene, written, motion.file().table, arguments.motion);
@@ -248,9 +251,9 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   {
     Rows rows(motion.file(), columns, arguments.child_axes, dynamics.closed(), arguments.positions,
               certified ? &*certified : nullptr, deviations ? &*deviations : nullptr, writer);
-    Computation(dynamics, motion, arguments.threads)
-        .run([&](std::size_t row, const Motion& at, const Results& results) {
-          rows.write(row, at, lagrange ? lagrange->compute(at, results) : results);
+    Computation(dynamics, motion, loads, arguments.threads)
+        .run([&](std::size_t row, const Motion& at, const Load& load, const Results& results) {
+          rows.write(row, at, load, lagrange ? lagrange->compute(at, load, results) : results);
         });
     warning = rows.warning();
   }

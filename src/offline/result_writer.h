@@ -4,12 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "base/wrench_components.h"
 #include "offline/output_file.h"
 #include "virtual_work_dynamics/results.h"
 
 namespace virtual_work_dynamics {
-
-constexpr const char* kWrenchComponents[] = {"fx", "fy", "fz", "tx", "ty", "tz"};
 
 /// What the columns of a result hold, in this order after the time.
 struct Columns {

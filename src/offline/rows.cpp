@@ -66,7 +66,7 @@ Rows::Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool
       effort_(static_cast<Eigen::Index>(columns.efforts.size())),
       reactions_(columns.reactions.size()) {}
 
-void Rows::write(std::size_t row, const Motion& motion, const Results& results) {
+void Rows::write(std::size_t row, const Motion& motion, const Load& load, const Results& results) {
   take(row, results);
   more_.clear();
   if (loops_) {
@@ -76,8 +76,8 @@ void Rows::write(std::size_t row, const Motion& motion, const Results& results) 
     conditions_.note(row, results);
     addLoopCells(results);
   }
-  if (certified_) certified_->check(motion, results, file_.lines[row], more_);
-  if (deviations_) deviations_->add(row, motion, results, more_);
+  if (certified_) certified_->check(motion, load, results, file_.lines[row], more_);
+  if (deviations_) deviations_->add(row, motion, load, results, more_);
   if (positions_) {
     for (const Eigen::VectorXd* values : {&motion.q, &motion.qd, &motion.qdd}) {
       more_.insert(more_.end(), values->data(), values->data() + values->size());

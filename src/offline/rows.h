@@ -52,7 +52,8 @@ class Rows {
   Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool loops, bool positions,
        CertifiedRows* certified, DeviationRows* deviations, ResultWriter& writer);
 
-  void write(std::size_t row, const Motion& motion, const Results& results);
+  /// @param load with which `results` were computed
+  void write(std::size_t row, const Motion& motion, const Load& load, const Results& results);
 
   /// Lines on what is missing in the rows; empty when nothing is.
   std::string warning() const;

@@ -13,6 +13,7 @@ foreach(file
     output_file.cpp
     recorded_motion.cpp
     result_writer.cpp
+    row_loads.cpp
     rows.cpp
     watched_file.cpp)
   list(APPEND offline_files ${CMAKE_CURRENT_LIST_DIR}/${file})

@@ -8,8 +8,6 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-constexpr std::size_t kPointsAtOnce = 64;
-
 bool isEmpty(const Request& request) {
   return !request.efforts && request.child_axes.empty() && request.root_axes.empty();
 }

@@ -35,6 +35,9 @@ struct ActivePlan {
   ActivePlan(const Mechanism& mechanism, const Scene& scene, const Outputs& all,
              const std::vector<std::string>& reactions, Audience who, PlanChecks checks);
 
+  /// Points of a trajectory that are computed at once.
+  static constexpr std::size_t kPointsAtOnce = 64;
+
   bool wantsSamples() const { return wants_samples; }
   /// Whether points of trajectories are wanted, each by itself or for a message of the whole
   /// trajectory.

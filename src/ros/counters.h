@@ -25,6 +25,7 @@ class Counter {
 struct Counters {
   Counter joint_states;
   Counter trajectories;
+  Counter wrenches;  ///< live ones received
   Counter accepted_joint_states;
   Counter restarts;             ///< as time went back
   Counter gaps;                 ///< joint states after a gap of one of their joints
@@ -32,6 +33,7 @@ struct Counters {
   Counter foreign;              ///< joint states without a joint of the robot
   Counter velocity_not_finite;  ///< joint states with a velocity that is not finite
   Counter held;                 ///< samples with a joint held at its last position
+  Counter wrench_held;          ///< samples with a live wrench held at its last value
   Counter samples;              ///< samples computed from joint states
   Counter points;               ///< points of trajectories computed
   Counter sampled;              ///< samples of trajectories between their points computed

@@ -80,7 +80,7 @@ std::vector<CrossCheckSlot::Compared> CrossCheckSlot::comparedOf(
   return compared;
 }
 
-bool CrossCheckSlot::offer(const Motion& motion, const Results& results) {
+bool CrossCheckSlot::offer(const Motion& motion, const Load& load, const Results& results) {
   State state = state_.load(std::memory_order_relaxed);
   if (state == State::kChecking) return false;
   if (state == State::kEmpty) offered_ = 0;
@@ -94,7 +94,7 @@ bool CrossCheckSlot::offer(const Motion& motion, const Results& results) {
   effort_ = results.effort.head(effort_.size());  // those of closures come after them
   child_axes_ = results.child_axes;
   root_axes_ = results.root_axes;
-  if (closed_) load_.wrenches = results.loops.tree_wrenches;
+  load_.wrenches = closed_ ? results.loops.tree_wrenches : load.wrenches;
   state_.store(State::kFull, std::memory_order_release);
   return true;
 }

@@ -39,8 +39,8 @@ class CrossCheckSlot {
   CrossCheckSlot(const Mechanism& mechanism, const Dynamics& plan);
 
   /// For the computing thread: copies the sample over the one before if it is drawn, and returns
-  /// whether it is. Motion and results are the plan's.
-  bool offer(const Motion& motion, const Results& results);
+  /// whether it is. Motion, load and results are the plan's.
+  bool offer(const Motion& motion, const Load& load, const Results& results);
 
   /// For any thread: true while a sample waits to be checked.
   bool full() const { return state_.load(std::memory_order_acquire) == State::kFull; }

@@ -50,7 +50,11 @@ class MotionDeviations : public JointDeviations {
   void fill(const OutputSample& sample) override {
     exists_ = sample.covariance != nullptr;
     if (!exists_) return;
-    deviations_.computeMotion(sample.motion, *sample.covariance, workspace_);
+    if (sample.law) {
+      deviations_.computeMotion(sample.motion, *sample.covariance, *sample.law, workspace_);
+    } else {
+      deviations_.computeMotion(sample.motion, *sample.covariance, workspace_);
+    }
     if (deviations_.hasTolerances()) deviations_.computeDescription(sample.motion, workspace_);
     record_->record(sample.results.effort, workspace_, deviations_.hasTolerances());
     write(sample.stamp_ns, workspace_.motion().effort);

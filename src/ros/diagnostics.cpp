@@ -163,6 +163,8 @@ void Diagnostics::addCounts(DiagnosticStatusWrapper& status) const {
   status.add("joint states with velocities that are not finite",
              counters_.velocity_not_finite.value());
   status.add("samples with a joint held", counters_.held.value());
+  status.add("wrenches received", counters_.wrenches.value());
+  status.add("samples with a wrench held", counters_.wrench_held.value());
   status.add("late outputs", counters_.late.value());
   status.add("dropped", counters_.allDropped());
   for (std::size_t i = 0; i < kDropReasonNames.size(); ++i) {

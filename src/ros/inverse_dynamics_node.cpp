@@ -39,7 +39,8 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       estimator_(task_.mechanism, task_.estimator),
       loops_(task_.everything, task_.reactions.size(), parameters.loop_limits),
       completer_(task_.mechanism, task_.scene, task_.everything, parameters.loop_limits.tolerance),
-      samples_(task_.everything.coordinates(), task_.scene.static_motion, completer_,
+      wrenches_(task_.mechanism, task_.scene, parameters.wrench_timeout),
+      samples_(task_.everything.coordinates(), task_.scene, completer_, wrenches_,
                {counters_, certificates_, loops_}),
       played_(parameters.trajectory_rate),
       streams_(task_.mechanism.coordinates().size()),
@@ -57,7 +58,9 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
                    StreamReport(streams_, task_.mechanism.coordinateNames(), task_.units()),
                    DeviationReport(task_.deviations, parameters.deviation_warn),
                    task_.mechanism.name(), parameters.diagnostic_period),
-      sim_time_(ros::Time::isSimTime()) {
+      sim_time_(ros::Time::isSimTime()),
+      wrench_inputs_(task_.mechanism, parameters.frame_prefix, wrenches_, parameters.wrench_timeout,
+                     counters_, [this](const auto&... what) { drop(what...); }) {
   task_.log(parameters);
   ros::NodeHandle node;
   if (task_.everything.closed()) estimator_.waitFor(completer_.needed());
@@ -74,6 +77,7 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       node.subscribe("joint_states", queue, &InverseDynamicsNode::receiveJointState, this, hints);
   trajectory_subscriber_ = node.subscribe("joint_trajectory", queue,
                                           &InverseDynamicsNode::receiveTrajectory, this, hints);
+  wrench_inputs_.subscribe(ros::NodeHandle("~"), task_.wrench_topics, queue);
   if (!at_once_) {
     const double period = std::max(1 / parameters.trajectory_rate, TrajectoryQueue::kTick);
     player_ = node.createSteadyTimer(
@@ -195,11 +199,8 @@ void InverseDynamicsNode::evaluate(ros::Time receipt) {
   if (estimator_.anyHeld()) counters_.held.add();
   const Outcome outcome = samples_.compute(plan, stamp_ns, covariance);
   if (outcome != Outcome::kDone) {
-    const bool open = outcome == Outcome::kOpenLoop;
-    drop(joint_state_subscriber_.getTopic(), open ? DropReason::kOpenLoop : DropReason::kOverflow,
-         (open ? completer_.problem(plan.dynamics, plan.workspace) + ","
-               : std::string("not finite")) +
-             " at stamp " + stampText(stamp_ns));
+    dropResult(joint_state_subscriber_, outcome, openLoop(outcome, plan),
+               "stamp " + stampText(stamp_ns));
     return;
   }
   if (const auto open = completer_.openStates()) {
@@ -305,30 +306,41 @@ void InverseDynamicsNode::play(ActivePlan& plan, const TrajectoryMotion& traject
   } else if (!trajectory.samples) {
     dropPoint(outcome, trajectory, place);
   } else {
-    const bool open = outcome == Outcome::kOpenLoop;
-    dropResult(outcome, open ? completer_.problem(plan.dynamics, plan.workspace) : std::string(),
+    dropResult(trajectory_subscriber_, outcome, openLoop(outcome, plan),
                "stamp " + stampText(trajectory.samples->stampNs(place)));
   }
 }
 
 void InverseDynamicsNode::dropPoint(Outcome outcome, const TrajectoryMotion& trajectory,
                                     std::size_t point) {
-  dropResult(outcome, trajectory.problem, "point " + std::to_string(point + 1));
+  dropResult(trajectory_subscriber_, outcome, trajectory.problem,
+             "point " + std::to_string(point + 1));
 }
 
-void InverseDynamicsNode::dropResult(Outcome outcome, const std::string& problem,
-                                     const std::string& where) {
-  const bool open = outcome == Outcome::kOpenLoop;
-  drop(trajectory_subscriber_.getTopic(), open ? DropReason::kOpenLoop : DropReason::kOverflow,
-       (open ? problem + "," : std::string("not finite")) + " at " + where);
+// Why the loops of the latest motion stay open, if that is the outcome.
+std::string InverseDynamicsNode::openLoop(Outcome outcome, ActivePlan& plan) const {
+  if (outcome != Outcome::kOpenLoop) return "";
+  return completer_.problem(plan.dynamics, plan.workspace);
+}
+
+void InverseDynamicsNode::dropResult(const ros::Subscriber& source, Outcome outcome,
+                                     const std::string& open_loop, const std::string& where) {
+  const std::string topic = source.getTopic();
+  if (outcome == Outcome::kOpenLoop) {
+    drop(topic, DropReason::kOpenLoop, open_loop + ", at " + where);
+  } else if (outcome == Outcome::kNoWrench) {
+    drop(topic, DropReason::kNoWrench,
+         wrench_inputs_.problem(samples_.unknownWrench()) + ", at " + where);
+  } else {
+    drop(topic, DropReason::kOverflow, "not finite at " + where);
+  }
 }
 
 void InverseDynamicsNode::drop(const std::string& topic, DropReason reason,
                                const std::string& text) {
   counters_.drop(reason, topic + ": " + text);
   if (!drop_throttles_[index(reason)].open()) return;
-  const bool result = reason == DropReason::kOverflow || reason == DropReason::kOpenLoop;
-  const char* what = result ? "result" : "message";
+  const char* what = concernsResult(reason) ? "result" : "message";
   ROS_WARN("%s: %s dropped (%s): %s", topic.c_str(), what, kDropReasonNames[index(reason)],
            text.c_str());
 }

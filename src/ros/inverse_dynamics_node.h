@@ -17,6 +17,7 @@
 #include <thread>
 #include <vector>
 
+#include "dynamics/live_wrenches.h"
 #include "ros/certificate_record.h"
 #include "ros/counters.h"
 #include "ros/cross_check.h"
@@ -34,6 +35,7 @@
 #include "ros/throttle.h"
 #include "ros/trajectory_conversion.h"
 #include "ros/trajectory_queue.h"
+#include "ros/wrench_inputs.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion_estimator.h"
 
@@ -72,8 +74,9 @@ class InverseDynamicsNode {
   void publishSample(const ActivePlan& plan);
   void dropPoint(SampleComputation::Outcome outcome, const TrajectoryMotion& trajectory,
                  std::size_t point);
-  void dropResult(SampleComputation::Outcome outcome, const std::string& problem,
-                  const std::string& where);
+  void dropResult(const ros::Subscriber& source, SampleComputation::Outcome outcome,
+                  const std::string& open_loop, const std::string& where);
+  std::string openLoop(SampleComputation::Outcome outcome, ActivePlan& plan) const;
   void drop(const std::string& topic, DropReason reason, const std::string& text);
 
   // The node's own thread.
@@ -95,6 +98,7 @@ class InverseDynamicsNode {
   CertificateRecord certificates_;
   LoopRecord loops_;
   MotionCompleter completer_;
+  LiveWrenches wrenches_;
   SampleComputation samples_;
   TrajectoryMotion trajectory_;
   TrajectoryQueue played_;
@@ -124,6 +128,7 @@ class InverseDynamicsNode {
   const bool sim_time_;
   ros::Subscriber joint_state_subscriber_;
   ros::Subscriber trajectory_subscriber_;
+  WrenchInputs wrench_inputs_;
   ros::SteadyTimer player_;  // runs while played_ has points
   std::atomic<bool> stopping_{false};
   std::thread manager_;

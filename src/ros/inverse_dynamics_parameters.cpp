@@ -195,6 +195,7 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   result.trajectory_sampling =
       readRate(parameters, "trajectory_sampling", "Hz", result.trajectory_sampling, 100000);
   result.diagnostic_period = readPeriod(parameters, "diagnostic_period", result.diagnostic_period);
+  result.wrench_timeout = readPeriod(parameters, "wrench_timeout", result.wrench_timeout);
   result.late_threshold = readPeriod(parameters, "late_threshold", result.late_threshold);
   result.self_check = readSelfCheck(parameters);
   result.loop_limits = readLoopLimits(parameters);

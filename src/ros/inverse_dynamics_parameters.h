@@ -43,6 +43,7 @@ struct InverseDynamicsParameters {
   double trajectory_rate = 0;      ///< points/s; 0: all points of a trajectory at once
   double trajectory_sampling = 0;  ///< Hz, of the motion between points; 0: at the points
   double diagnostic_period = 1.0;  ///< s
+  double wrench_timeout = 0.1;     ///< longest time that a live wrench stands for, s
   double late_threshold = 0.001;   ///< s, from receipt of a joint state to its published result
   double start_patience = 0;       ///< s to wait for joint states where loops cannot be assembled
   LoopLimits loop_limits;          ///< samples beyond them are a WARN

@@ -11,6 +11,7 @@ Efforts and joint reactions of a robot, live, from its joint states or trajector
 subscribes
   joint_states       sensor_msgs/JointState           joints by name, any order, all or some
   joint_trajectory   trajectory_msgs/JointTrajectory  one result for every point
+  ~wrench/<name>     geometry_msgs/WrenchStamped      each live applied wrench of the scene
 
 publishes (each only while somebody subscribes)
   ~effort            sensor_msgs/JointState           positions and velocities used, efforts
@@ -39,6 +40,8 @@ parameters
   ~estimator/acceleration    estimate | zero (estimate)
   ~hold_after                s without a sample after which a joint is held (0.25)
   ~rest                      [{name, position}] of joints that may never come ([])
+  ~wrench_timeout            longest time that a message of a live wrench stands for, s; results that need
+                             an older one are dropped (0.1)
   ~frame_prefix              put before every frame_id, such as left/ ("")
   ~twist                     fill in the twists of ~reactions (false)
   ~marker_rate               largest rate of ~markers, Hz, 0.001 to 1000 (20)

@@ -22,6 +22,7 @@ struct OutputSample {
   const Motion& motion;
   const Results& results;
   const MotionCovariance* covariance = nullptr;  ///< of the motion; null: not known
+  const LoadLaw* law = nullptr;                  ///< of the load of the sample; null: the scene's
 };
 
 /// The message of one output in one plan, with names, frames and sizes set once. Only the computing

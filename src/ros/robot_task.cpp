@@ -54,6 +54,14 @@ std::vector<std::pair<int, double>> restOf(const Mechanism& mechanism,
   return rest;
 }
 
+std::vector<std::string> liveWrenches(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const AppliedWrench& wrench : scene.applied_wrenches) {
+    if (wrench.live) names.push_back(wrench.name);
+  }
+  return names;
+}
+
 // Compiles all that the scene asks for.
 Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const std::string& key) {
   if (mechanism.coordinates().empty()) {
@@ -72,7 +80,8 @@ RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
     : mechanism(readRobot(parameters)),
       scene(assembledScene(mechanism, parameters)),
       reactions(requestedReactions(mechanism, scene)),
-      reaction_topics(legalTopicNames(reactions)),
+      reaction_topics(reactionTopics(reactions)),
+      wrench_topics(wrenchTopics(liveWrenches(scene))),
       estimator(checkedSettings(mechanism, parameters.estimator, scene)),
       rest(restOf(mechanism, parameters.rest)),
       everything(movableDynamics(mechanism, scene, parameters.robot_description_key)) {

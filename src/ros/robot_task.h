@@ -38,6 +38,7 @@ struct RobotTask {
   Scene scene;
   std::vector<std::string> reactions;        ///< joints and closures that the scene asks for
   std::vector<std::string> reaction_topics;  ///< their topics
+  std::vector<std::string> wrench_topics;    ///< topics of the live wrenches
   EstimatorSettings estimator;
   std::vector<std::pair<int, double>> rest;  ///< coordinates and their positions until they come
   tf2_msgs::TFMessage closure_frames;

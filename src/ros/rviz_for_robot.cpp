@@ -144,7 +144,7 @@ std::string configurationFor(const Options& options) {
   RvizScene scene;
   scene.reactions = requestedReactions(inputs.mechanism, inputs.scene);
   scene.view = modelView(inputs.mechanism, inputs.scene, scene.reactions);
-  scene.reaction_topics = legalTopicNames(scene.reactions);
+  scene.reaction_topics = reactionTopics(scene.reactions);
   for (std::string& topic : scene.reaction_topics) topic = node + "/reaction/" + topic;
   scene.marker_topic = node + "/markers";
   scene.robot_description = inputs.robot_description;

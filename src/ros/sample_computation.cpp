@@ -4,12 +4,20 @@
 
 namespace virtual_work_dynamics {
 
-SampleComputation::SampleComputation(Eigen::Index coordinates, bool static_motion,
-                                     MotionCompleter& completer, const SampleRecords& records)
-    : static_motion_(static_motion),
+SampleComputation::SampleComputation(Eigen::Index coordinates, const Scene& scene,
+                                     MotionCompleter& completer, LiveWrenches& wrenches,
+                                     const SampleRecords& records)
+    : static_motion_(scene.static_motion),
       completer_(completer),
+      wrenches_(wrenches),
       records_(records),
       motion_(coordinates),
+      load_(scene),
+      law_([this](const Eigen::VectorXd& q, Load& load) {
+        load.wrenches = load_.wrenches;
+        wrenches_.getLoad(q, load);
+      }),
+      point_loads_(wrenches.size() == 0 ? 0 : ActivePlan::kPointsAtOnce, load_),
       tree_effort_(coordinates) {}
 
 SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan, std::int64_t stamp_ns,
@@ -52,6 +60,7 @@ SampleComputation::Outcome SampleComputation::computeNext(ActivePlan& plan,
   takePoint(trajectory, point);
   if (trajectory.isOpen(point)) return Outcome::kOpenLoop;
   if (!motion_.finite()) return Outcome::kNotFinite;
+  if (!setLoad(trajectory.stamps_ns[point])) return Outcome::kNoWrench;
   return finish(plan, trajectory.stamps_ns[point], plan.points.read(place),
                 as_sample ? Of::kBoth : Of::kTrajectory);
 }
@@ -66,7 +75,13 @@ void SampleComputation::computeBlock(ActivePlan& plan, const TrajectoryMotion& t
                                      std::size_t first) {
   const std::size_t count = std::min(plan.points.capacity(), trajectory.stamps_ns.size() - first);
   const auto start = Clock::now();
-  plan.points.compute(trajectory.table, first, count);
+  for (std::size_t i = 0; i < count && !point_loads_.empty(); ++i) {
+    if (wrenches_.read(trajectory.stamps_ns[first + i])) continue;
+    takeRow(trajectory.table, first + i, motion_);
+    wrenches_.getLoad(motion_.q, point_loads_[i]);
+  }
+  plan.points.compute(trajectory.table, first, count,
+                      point_loads_.empty() ? nullptr : point_loads_.data());
   const std::chrono::nanoseconds share = (Clock::now() - start) / count;
   for (std::size_t i = 0; i < count; ++i) {
     if (!trajectory.isOpen(first + i)) records_.counters.run_times.record(share.count());
@@ -77,10 +92,22 @@ SampleComputation::Outcome SampleComputation::computeOne(ActivePlan& plan, std::
                                                          Clock::time_point start,
                                                          const MotionCovariance* covariance) {
   if (!motion_.finite()) return Outcome::kNotFinite;
-  plan.dynamics.compute(motion_, plan.workspace);
+  if (!setLoad(stamp_ns)) return Outcome::kNoWrench;
+  plan.dynamics.compute(motion_, load_, plan.workspace);
   const std::chrono::nanoseconds time = Clock::now() - start;
   records_.counters.run_times.record(time.count());
   return finish(plan, stamp_ns, plan.workspace.results(), Of::kSample, covariance);
+}
+
+// Sets the load of motion_ at an instant. Returns false where a live wrench is not known.
+bool SampleComputation::setLoad(std::int64_t stamp_ns) {
+  if (const auto unknown = wrenches_.read(stamp_ns)) {
+    unknown_wrench_ = *unknown;
+    return false;
+  }
+  if (wrenches_.anyHeld()) records_.counters.wrench_held.add();
+  wrenches_.getLoad(motion_.q, load_);
+  return true;
 }
 
 SampleComputation::Outcome SampleComputation::finish(ActivePlan& plan, std::int64_t stamp_ns,
@@ -89,7 +116,7 @@ SampleComputation::Outcome SampleComputation::finish(ActivePlan& plan, std::int6
   if (!results.finite()) return Outcome::kNotFinite;
   for (ActiveOutput& output : plan.outputs) {
     if (messages == (output.of_trajectories ? Of::kSample : Of::kTrajectory)) continue;
-    output.message->fill({stamp_ns, motion_, results, covariance});
+    output.message->fill({stamp_ns, motion_, results, covariance, &law_});
   }
   records_.loops.record(results, plan);
   check(plan, results);
@@ -99,9 +126,9 @@ SampleComputation::Outcome SampleComputation::finish(ActivePlan& plan, std::int6
 // Has a sample checked, unless its position is singular and so need not bear the load.
 void SampleComputation::check(ActivePlan& plan, const Results& results) {
   if (results.singular()) return;
-  if (plan.cross_check) plan.cross_check->offer(motion_, results);
+  if (plan.cross_check) plan.cross_check->offer(motion_, load_, results);
   if (!plan.certifier) return;
-  plan.dynamics.getTreeLoad(results, plan.tree_load);
+  plan.dynamics.getTreeLoad(results, load_, plan.tree_load);
   tree_effort_ = results.effort.head(tree_effort_.size());
   // The child axes of ground's reaction are those of the root link.
   const Wrench& ground = results.child_axes[plan.ground];

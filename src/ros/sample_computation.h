@@ -4,7 +4,9 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
+#include "dynamics/live_wrenches.h"
 #include "ros/active_plan.h"
 #include "ros/certificate_record.h"
 #include "ros/counters.h"
@@ -29,14 +31,17 @@ class SampleComputation {
  public:
   /// @param static_motion whether the scene takes velocities and accelerations as zero.
   /// @param completer of motions of joint states; must outlive this.
-  SampleComputation(Eigen::Index coordinates, bool static_motion, MotionCompleter& completer,
-                    const SampleRecords& records);
+  /// @param wrenches the live ones of `scene`; must outlive this.
+  SampleComputation(Eigen::Index coordinates, const Scene& scene, MotionCompleter& completer,
+                    LiveWrenches& wrenches, const SampleRecords& records);
+  SampleComputation(const SampleComputation&) = delete;
+  SampleComputation& operator=(const SampleComputation&) = delete;
 
   /// The motion of the sample to compute next, to be set by the caller.
   Motion& motion() { return motion_; }
 
   /// What became of a sample. Messages change only when it is kDone.
-  enum class Outcome { kDone, kNotFinite, kOpenLoop };
+  enum class Outcome { kDone, kNotFinite, kOpenLoop, kNoWrench };
 
   /// Computes the sample whose motion is motion() and writes messages of samples.
   /// @param covariance of motion(), of all coordinates; null: not known
@@ -51,10 +56,14 @@ class SampleComputation {
   Outcome computeNext(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t point,
                       bool as_sample);
 
+  /// Which live wrench was not known when the outcome was kNoWrench.
+  std::size_t unknownWrench() const { return unknown_wrench_; }
+
  private:
   using Clock = std::chrono::steady_clock;
 
   void takePoint(const TrajectoryMotion& trajectory, std::size_t point);
+  bool setLoad(std::int64_t stamp_ns);
   void computeBlock(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t first);
   Outcome computeOne(ActivePlan& plan, std::int64_t stamp_ns, Clock::time_point start,
                      const MotionCovariance* covariance);
@@ -65,8 +74,13 @@ class SampleComputation {
 
   const bool static_motion_;
   MotionCompleter& completer_;
+  LiveWrenches& wrenches_;
   SampleRecords records_;
   Motion motion_;
+  Load load_;                      // of motion_
+  const LoadLaw law_;              // that load_ is of, as the position changes
+  std::vector<Load> point_loads_;  // of the points of a block; none without live wrenches
+  std::size_t unknown_wrench_ = 0;
   Eigen::VectorXd tree_effort_;  // without efforts of actuated closures
 };
 

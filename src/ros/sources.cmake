@@ -38,6 +38,8 @@ foreach(file
     trajectory_publisher.cpp
     trajectory_samples.cpp
     trajectory_settings.cpp
+    wrench_conversion.cpp
+    wrench_inputs.cpp
     xmlrpc_to_yaml.cpp)
   list(APPEND ros_files ${CMAKE_CURRENT_LIST_DIR}/${file})
 endforeach()

@@ -18,6 +18,21 @@ bool isLegal(char c) {
   return isDigit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
+std::vector<std::string> topicsOf(const std::string& what, const std::string& folder,
+                                  const std::vector<std::string>& names) {
+  std::vector<std::string> topics;
+  std::unordered_map<std::string, std::string> name_of_topic;
+  for (const std::string& name : names) {
+    topics.push_back(legalTopicName(name));
+    const auto inserted = name_of_topic.emplace(topics.back(), name);
+    if (!inserted.second) {
+      throw SceneError(what + inQuotes(inserted.first->second) + " and " + inQuotes(name) +
+                       " would share the topic " + privateName(folder + topics.back()));
+    }
+  }
+  return topics;
+}
+
 }  // namespace
 
 std::string legalTopicName(const std::string& joint) {
@@ -26,19 +41,12 @@ std::string legalTopicName(const std::string& joint) {
   return topic;
 }
 
-std::vector<std::string> legalTopicNames(const std::vector<std::string>& joints) {
-  std::vector<std::string> topics;
-  std::unordered_map<std::string, std::string> joint_of_topic;
-  for (const std::string& joint : joints) {
-    topics.push_back(legalTopicName(joint));
-    const auto inserted = joint_of_topic.emplace(topics.back(), joint);
-    if (!inserted.second) {
-      throw SceneError("reactions: joints " + inQuotes(inserted.first->second) + " and " +
-                       inQuotes(joint) + " would share the topic " +
-                       privateName("reaction/" + topics.back()));
-    }
-  }
-  return topics;
+std::vector<std::string> reactionTopics(const std::vector<std::string>& reactions) {
+  return topicsOf("reactions: joints ", "reaction/", reactions);
+}
+
+std::vector<std::string> wrenchTopics(const std::vector<std::string>& wrenches) {
+  return topicsOf("applied_wrenches: ", "wrench/", wrenches);
 }
 
 }  // namespace virtual_work_dynamics

@@ -9,8 +9,12 @@ namespace virtual_work_dynamics {
 /// `_`, and a leading digit gets a `_` before it.
 std::string legalTopicName(const std::string& joint);
 
-/// The legalTopicName() of each joint. @throws SceneError naming both joints when two names
-/// collide.
-std::vector<std::string> legalTopicNames(const std::vector<std::string>& joints);
+/// The legalTopicName() of each reaction's joint or closure.
+/// @throws SceneError naming both when two names collide.
+std::vector<std::string> reactionTopics(const std::vector<std::string>& reactions);
+
+/// The legalTopicName() of each live wrench.
+/// @throws SceneError naming both when two names collide.
+std::vector<std::string> wrenchTopics(const std::vector<std::string>& wrenches);
 
 }  // namespace virtual_work_dynamics

@@ -9,7 +9,8 @@ namespace {
 
 const Names kFrameKeys = {"link", "xyz", "rpy"};
 const Names kClosureKeys = {"name", "type", "parent", "child", "length"};
-const Names kSpringKeys = {"name", "link_a", "at_a", "link_b", "at_b", "stiffness", "rest_length"};
+const Names kSpringKeys = {"name", "link_a",    "at_a",        "link_b",
+                           "at_b", "stiffness", "rest_length", "damping"};
 const Names kRedundancyKeys = {"policy",         "zero_at",        "stiffness",
                                "effort_weights", "rank_tolerance", "length"};
 
@@ -63,6 +64,7 @@ Closure readClosure(const YAML::Node& node, const std::string& where) {
 PointSpring readSpring(const YAML::Node& node, const std::string& where) {
   PointSpring spring;
   bool has_stiffness = false;
+  bool has_damping = false;
   readMap(node, where, kSpringKeys, [&](const auto& key, const auto& value, const auto& path) {
     if (key == "name") spring.name = scalarText(value, path, "a name");
     if (key == "link_a") spring.link_a = scalarText(value, path, "a link's name");
@@ -74,11 +76,15 @@ PointSpring readSpring(const YAML::Node& node, const std::string& where) {
       has_stiffness = true;
     }
     if (key == "rest_length") spring.rest_length = readNumber(value, path);
+    if (key == "damping") {
+      spring.damping = readNumber(value, path);
+      has_damping = true;
+    }
   });
   require(!spring.name.empty(), where, "name");
   require(!spring.link_a.empty(), where, "link_a");
   require(!spring.link_b.empty(), where, "link_b");
-  require(has_stiffness, where, "stiffness");
+  require(has_stiffness || has_damping, where, "stiffness");
   return spring;
 }
 

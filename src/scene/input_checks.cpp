@@ -66,6 +66,23 @@ std::vector<int> linksOf(const Mechanism& mechanism, const std::vector<std::stri
   return links;
 }
 
+void requireWrenchNames(const Scene& scene) {
+  std::set<std::string> seen;
+  for (std::size_t i = 0; i < scene.applied_wrenches.size(); ++i) {
+    const AppliedWrench& wrench = scene.applied_wrenches[i];
+    const std::string place = entryOf("applied_wrenches", i);
+    if (wrench.live && wrench.name.empty()) {
+      throw SceneError(place + ": a live wrench needs a name");
+    }
+    if (wrench.invert && !wrench.live) {
+      throw SceneError(place + ": invert: only a live wrench is inverted");
+    }
+    if (!wrench.name.empty() && !seen.insert(wrench.name).second) {
+      throw SceneError(place + ".name: " + inQuotes(wrench.name) + " is given twice");
+    }
+  }
+}
+
 int linkOf(const Mechanism& mechanism, const Scene& scene, std::size_t index) {
   return linkNamed(mechanism, scene.applied_wrenches[index].link,
                    entryOf("applied_wrenches", index) + ".link");

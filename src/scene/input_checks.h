@@ -30,6 +30,10 @@ void requireSoundInertias(const Mechanism& mechanism, const Scene& scene);
 /// root link. @throws SceneError when a name is not a joint's, or is given twice.
 std::vector<int> linksOf(const Mechanism& mechanism, const std::vector<std::string>& reactions);
 
+/// Checks the names of the applied wrenches. @throws SceneError for a name given twice, and for a
+/// live wrench without a name.
+void requireWrenchNames(const Scene& scene);
+
 /// Index of the link that an applied wrench of the scene acts on. @throws SceneError when the
 /// mechanism has no such link.
 int linkOf(const Mechanism& mechanism, const Scene& scene, std::size_t index);

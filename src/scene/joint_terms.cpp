@@ -24,6 +24,7 @@ void check(const JointTerms& terms) {
   requireAtLeastZero(where, "coulomb", terms.coulomb.value_or(0));
   requireAtLeastZero(where, "rotor_inertia", terms.rotor_inertia);
   if (!std::isfinite(terms.rest)) throw SceneError(where + ": rest is not finite");
+  if (!std::isfinite(terms.offset)) throw SceneError(where + ": offset is not finite");
   if (!(terms.coulomb_velocity >= 1e-12) || !std::isfinite(terms.coulomb_velocity)) {
     throw SceneError(where + ": coulomb_velocity = " + numberText(terms.coulomb_velocity) +
                      " is not a finite number from 1e-12 on");
@@ -66,9 +67,12 @@ std::vector<ResolvedJointTerms> resolveJointTerms(const Mechanism& mechanism, co
       terms.coulomb = terms.coulomb.value_or(joint.friction);
     }
     const double damping = terms.damping.value_or(0), coulomb = terms.coulomb.value_or(0);
-    if (terms.stiffness == 0 && damping == 0 && coulomb == 0 && terms.rotor_inertia == 0) continue;
+    if (terms.stiffness == 0 && damping == 0 && coulomb == 0 && terms.rotor_inertia == 0 &&
+        terms.offset == 0) {
+      continue;
+    }
     resolved.push_back({static_cast<int>(k), terms.stiffness, terms.rest, damping, coulomb,
-                        terms.coulomb_velocity, terms.rotor_inertia});
+                        terms.coulomb_velocity, terms.rotor_inertia, terms.offset});
   }
   return resolved;
 }

@@ -17,6 +17,7 @@ struct ResolvedJointTerms {
   double coulomb = 0;
   double coulomb_velocity = 1e-3;
   double rotor_inertia = 0;
+  double offset = 0;
 };
 
 /// The terms of all joints that have any, in the mechanism's order; joints whose terms are all zero

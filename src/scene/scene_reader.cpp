@@ -17,11 +17,13 @@ const Names kSceneKeys = {
     "strict_inertia", "applied_wrenches", "joints",    "use_urdf_dynamics", "tolerances"};
 // Bytes, beyond those of the most values that a scene may have.
 constexpr std::size_t kLongestScene = std::size_t{64} << 20;
-const Names kWrenchKeys = {"link", "at", "axes", "force", "torque"};
+const Names kWrenchKeys = {"name", "link", "at", "axes", "force", "torque", "live", "invert"};
+// What the messages or columns of a live wrench say instead.
+const Names kMeasured = {"at", "axes", "force", "torque"};
 const Names kMomentKeys = {"name", "frame", "link", "at"};
 const Names kToleranceKeys = {"mass", "inertia"};
-const Names kJointKeys = {"name",    "stiffness",        "rest",         "damping",
-                          "coulomb", "coulomb_velocity", "rotor_inertia"};
+const Names kJointKeys = {"name",    "stiffness",        "rest",          "damping",
+                          "coulomb", "coulomb_velocity", "rotor_inertia", "offset"};
 
 void readReactions(const YAML::Node& node, Scene& scene) {
   if (node.IsSequence()) {
@@ -38,8 +40,13 @@ void readReactions(const YAML::Node& node, Scene& scene) {
 
 AppliedWrench readAppliedWrench(const YAML::Node& node, const std::string& where) {
   AppliedWrench wrench;
+  std::string fixed;  // a key of kMeasured that is given
   readMap(node, where, kWrenchKeys, [&](const auto& key, const auto& value, const auto& path) {
+    if (key == "name") wrench.name = scalarText(value, path, "a name");
     if (key == "link") wrench.link = scalarText(value, path, "a link's name");
+    if (key == "live") wrench.live = readBool(value, path);
+    if (key == "invert") wrench.invert = readBool(value, path);
+    if (contains(kMeasured, key)) fixed = key;
     if (key == "at") wrench.at = readVector3(value, path);
     if (key == "axes") {
       wrench.axes = readWord(value, path, {"link", "root"}) == 0 ? Axes::kLink : Axes::kRoot;
@@ -48,6 +55,9 @@ AppliedWrench readAppliedWrench(const YAML::Node& node, const std::string& where
     if (key == "torque") wrench.torque = readVector3(value, path);
   });
   if (wrench.link.empty()) failAt(where, "names no link");
+  if (wrench.live && !fixed.empty()) {
+    failAt(where + "." + fixed, "a live wrench has none: what it receives says so");
+  }
   return wrench;
 }
 
@@ -85,6 +95,7 @@ JointTerms readJointTerms(const YAML::Node& node, const std::string& where) {
     if (key == "coulomb") terms.coulomb = number;
     if (key == "coulomb_velocity") terms.coulomb_velocity = number;
     if (key == "rotor_inertia") terms.rotor_inertia = number;
+    if (key == "offset") terms.offset = number;
   });
   if (terms.joint.empty()) failAt(where, "names no joint");
   return terms;

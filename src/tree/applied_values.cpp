@@ -23,21 +23,48 @@ PlainWrench<R> valueAt(const AppliedOutside<R>& where, const PlainWrench<R>& giv
            torque.z + (p.x * force.y - p.y * force.x)}};
 }
 
+template <typename R>
+PlainWrench<R> rounded(const Wrench& wrench) {
+  const Eigen::Vector3d &force = wrench.force, &torque = wrench.torque;
+  return {{R(force.x()), R(force.y()), R(force.z())},
+          {R(torque.x()), R(torque.y()), R(torque.z())}};
+}
+
 }  // namespace
 
 template <typename R>
-AppliedValues<R>::AppliedValues(const Plan<R>& plan) {
-  for (const auto& where : plan.applied) values_.push_back(valueAt(where, where.given));
+AppliedValues<R>::AppliedValues(const Plan<R>& plan, std::size_t samples)
+    : samples_(samples), values_(6 * plan.applied.size() * samples) {
+  for (std::size_t i = 0; i < plan.applied.size(); ++i) {
+    const PlainWrench<R> value = valueAt(plan.applied[i], plan.applied[i].given);
+    for (std::size_t sample = 0; sample < samples_; ++sample) store(i, sample, value);
+  }
 }
 
 template <typename R>
 void AppliedValues<R>::set(const Plan<R>& plan, const Load& load) {
-  requireLoad(load, values_.size());
-  for (std::size_t i = 0; i < values_.size(); ++i) {
-    const Eigen::Vector3d &force = load.wrenches[i].force, &torque = load.wrenches[i].torque;
-    values_[i] =
-        valueAt(plan.applied[i], PlainWrench<R>{{R(force.x()), R(force.y()), R(force.z())},
-                                                {R(torque.x()), R(torque.y()), R(torque.z())}});
+  requireLoad(load, plan.applied.size());
+  for (std::size_t i = 0; i < plan.applied.size(); ++i) {
+    const PlainWrench<R> value = valueAt(plan.applied[i], rounded<R>(load.wrenches[i]));
+    for (std::size_t sample = 0; sample < samples_; ++sample) store(i, sample, value);
+  }
+}
+
+template <typename R>
+void AppliedValues<R>::setSample(const Plan<R>& plan, const Load& load, std::size_t sample) {
+  for (std::size_t i = 0; i < plan.applied.size(); ++i) {
+    store(i, sample, valueAt(plan.applied[i], rounded<R>(load.wrenches[i])));
+  }
+}
+
+template <typename R>
+void AppliedValues<R>::store(std::size_t wrench, std::size_t sample, const PlainWrench<R>& value) {
+  R* to = values_.data() + 6 * wrench * samples_ + sample;
+  for (const Vec3<R>* vector : {&value.force, &value.torque}) {
+    for (const R number : {vector->x, vector->y, vector->z}) {
+      *to = number;
+      to += samples_;
+    }
   }
 }
 

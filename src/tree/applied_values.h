@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "tree/plan.h"
@@ -7,20 +8,29 @@
 
 namespace virtual_work_dynamics {
 
-/// Force and torque of the applied wrenches as the kernels read them.
+/// Force and torque of the applied wrenches as the kernels read them, for samples side by side.
 template <typename R>
 class AppliedValues {
  public:
-  explicit AppliedValues(const Plan<R>& plan);
+  /// Takes the scene's values. @param samples that are computed at once
+  explicit AppliedValues(const Plan<R>& plan, std::size_t samples = 1);
 
-  const PlainWrench<R>* data() const { return values_.data(); }
+  /// See KernelInputs::applied and applied_stride.
+  const R* data() const { return values_.data(); }
+  std::size_t stride() const { return samples_; }
 
-  /// Takes the values of a load. Does not allocate.
+  /// Takes the values of a load for all samples. Does not allocate.
   /// @throws SceneError when it has not one wrench for each applied one.
   void set(const Plan<R>& plan, const Load& load);
+  /// Takes the values of a load, which must have one wrench for each applied one, for one sample.
+  /// Does not allocate.
+  void setSample(const Plan<R>& plan, const Load& load, std::size_t sample);
 
  private:
-  std::vector<PlainWrench<R>> values_;
+  void store(std::size_t wrench, std::size_t sample, const PlainWrench<R>& value);
+
+  std::size_t samples_;
+  std::vector<R> values_;
 };
 
 }  // namespace virtual_work_dynamics

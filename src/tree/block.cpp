@@ -6,6 +6,7 @@
 
 #include "base/aligned_memory.h"
 #include "base/worker_threads.h"
+#include "scene/input_checks.h"
 #include "tree/applied_values.h"
 #include "tree/compiled_plan.h"
 #include "virtual_work_dynamics/error.h"
@@ -22,7 +23,8 @@ template <typename Real>
 struct BlockArrays {
   std::size_t samples;
   BlockLayout layout;
-  const PlainWrench<Real>* applied;
+  const AppliedValues<Real>* applied;  // of all samples; null: see loads
+  const Load* loads;                   // of each sample; null: see applied
   const Real* inputs[kInputs];
   Real* outputs[kArrays - kInputs];
 };
@@ -45,9 +47,10 @@ struct BlockInverseDynamics<Real>::Impl {
         instruction_set(set),
         kernel(kernelFor<Real>(set)),
         width(static_cast<std::size_t>(kernel.width)),
-        own(plan),
-        given(plan),
-        workers(checkedThreads(thread_count)) {
+        own(plan, width),
+        given(plan, width),
+        of_samples(static_cast<std::size_t>(checkedThreads(thread_count)), own),
+        workers(thread_count) {
     const std::size_t coordinates = static_cast<std::size_t>(plan.coordinates);
     const std::size_t in_root_axes = plan.root_axes.size();
     const std::size_t numbers[kArrays] = {coordinates,
@@ -87,17 +90,20 @@ struct BlockInverseDynamics<Real>::Impl {
     }
   }
 
+  // Computes with `applied` for all samples or, where it is null, with each sample's own load.
   void compute(BlockLayout layout, const MotionBlock<Real>& motion,
-               const AppliedValues<Real>& applied, const ResultBlock<Real>& results) {
+               const AppliedValues<Real>* applied, const Load* loads,
+               const ResultBlock<Real>& results) {
     const BlockArrays<Real> arrays = {
         motion.samples,
         layout,
-        applied.data(),
+        applied,
+        loads,
         {motion.q, motion.qd, motion.qdd},
         {results.effort, results.child_axes, results.root_axes, results.poses, results.twists}};
     check(arrays);
     struct Job {
-      const Impl* impl;
+      Impl* impl;
       const BlockArrays<Real>* arrays;
     } job = {this, &arrays};
     workers.run(
@@ -109,7 +115,7 @@ struct BlockInverseDynamics<Real>::Impl {
   }
 
   // Computes the samples of one thread, which are whole packs for all threads except the last.
-  void computeShare(const BlockArrays<Real>& arrays, int index) const {
+  void computeShare(const BlockArrays<Real>& arrays, int index) {
     const std::size_t packs = (arrays.samples + width - 1) / width;
     const std::size_t threads = tiles.size(), thread = static_cast<std::size_t>(index);
     const std::size_t begin = packs * thread / threads * width;
@@ -123,12 +129,23 @@ struct BlockInverseDynamics<Real>::Impl {
     }
   }
 
-  void computeInPlace(const BlockArrays<Real>& arrays, std::size_t first,
-                      std::size_t thread) const {
+  // The applied wrenches of a pack; the last sample fills it up.
+  const AppliedValues<Real>& appliedOf(const BlockArrays<Real>& arrays, std::size_t first,
+                                       std::size_t count, std::size_t thread) {
+    if (arrays.applied) return *arrays.applied;
+    AppliedValues<Real>& values = of_samples[thread];
+    for (std::size_t j = 0; j < width; ++j) {
+      values.setSample(plan, arrays.loads[first + std::min(j, count - 1)], j);
+    }
+    return values;
+  }
+
+  void computeInPlace(const BlockArrays<Real>& arrays, std::size_t first, std::size_t thread) {
+    const AppliedValues<Real>& applied = appliedOf(arrays, first, width, thread);
     const auto at = [first](auto* array) { return array ? array + first : nullptr; };
     kernel.pack(view,
                 {at(arrays.inputs[0]), at(arrays.inputs[1]), at(arrays.inputs[2]), arrays.samples,
-                 arrays.applied},
+                 applied.data(), applied.stride()},
                 {at(arrays.outputs[0]), at(arrays.outputs[1]), at(arrays.outputs[2]),
                  at(arrays.outputs[3]), at(arrays.outputs[4]), arrays.samples},
                 scratch[thread].get());
@@ -136,7 +153,8 @@ struct BlockInverseDynamics<Real>::Impl {
 
   // Copies a pack into columns of its width, and the results back.
   void computeInTile(const BlockArrays<Real>& arrays, std::size_t first, std::size_t count,
-                     std::size_t thread) const {
+                     std::size_t thread) {
+    const AppliedValues<Real>& applied = appliedOf(arrays, first, count, thread);
     Real* tile[kArrays];
     tile[0] = static_cast<Real*>(tiles[thread].get());
     for (int i = 1; i < kArrays; ++i) tile[i] = tile[i - 1] + columns[i - 1] * width;
@@ -157,7 +175,7 @@ struct BlockInverseDynamics<Real>::Impl {
       }
     }
     const auto wanted = [&](int i) { return arrays.outputs[i] ? tile[kInputs + i] : nullptr; };
-    kernel.pack(view, {tile[0], tile[1], tile[2], width, arrays.applied},
+    kernel.pack(view, {tile[0], tile[1], tile[2], width, applied.data(), applied.stride()},
                 {wanted(0), wanted(1), wanted(2), wanted(3), wanted(4), width},
                 scratch[thread].get());
     for (int i = kInputs; i < kArrays; ++i) {
@@ -187,11 +205,12 @@ struct BlockInverseDynamics<Real>::Impl {
   InstructionSet instruction_set;
   const Kernel<Real>& kernel;
   std::size_t width;
-  std::size_t columns[kArrays];               // numbers a sample of each array
-  bool requested[kArrays - kInputs];          // whether each output is
-  AppliedValues<Real> own;                    // values of the scene's applied wrenches
-  AppliedValues<Real> given;                  // values of a Load's wrenches
-  std::vector<AlignedMemory> scratch, tiles;  // by thread
+  std::size_t columns[kArrays];                 // numbers a sample of each array
+  bool requested[kArrays - kInputs];            // whether each output is
+  AppliedValues<Real> own;                      // values of the scene's applied wrenches
+  AppliedValues<Real> given;                    // values of a Load's wrenches
+  std::vector<AppliedValues<Real>> of_samples;  // of a pack whose samples differ; by thread
+  std::vector<AlignedMemory> scratch, tiles;    // by thread
   WorkerThreads workers;
 };
 
@@ -231,14 +250,23 @@ InstructionSet BlockInverseDynamics<Real>::instructionSet() const {
 template <typename Real>
 void BlockInverseDynamics<Real>::compute(BlockLayout layout, const MotionBlock<Real>& motion,
                                          const ResultBlock<Real>& results) {
-  impl_->compute(layout, motion, impl_->own, results);
+  impl_->compute(layout, motion, &impl_->own, nullptr, results);
 }
 
 template <typename Real>
 void BlockInverseDynamics<Real>::compute(BlockLayout layout, const MotionBlock<Real>& motion,
                                          const Load& load, const ResultBlock<Real>& results) {
   impl_->given.set(impl_->plan, load);
-  impl_->compute(layout, motion, impl_->given, results);
+  impl_->compute(layout, motion, &impl_->given, nullptr, results);
+}
+
+template <typename Real>
+void BlockInverseDynamics<Real>::compute(BlockLayout layout, const MotionBlock<Real>& motion,
+                                         const Load* loads, const ResultBlock<Real>& results) {
+  for (std::size_t i = 0; i < motion.samples; ++i) {
+    requireLoad(loads[i], impl_->plan.applied.size());
+  }
+  impl_->compute(layout, motion, nullptr, loads, results);
 }
 
 template class BlockInverseDynamics<float>;

@@ -106,7 +106,7 @@ void InverseDynamics::computeWith(const Load* load, const Motion& motion,
   if (load) scratch.given.set(plan, *load);
   const AppliedValues<double>& applied = load ? scratch.given : scratch.own;
   const KernelInputs<double> in = {motion.q.data(), motion.qd.data(), motion.qdd.data(), 1,
-                                   applied.data()};
+                                   applied.data(),  applied.stride()};
   const KernelOutputs<double> out = {plan.efforts ? results.effort.data() : nullptr,
                                      numbersOf(results.child_axes),
                                      numbersOf(results.root_axes),

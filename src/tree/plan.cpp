@@ -270,6 +270,7 @@ class Compiler {
   }
 
   void addApplied() {
+    requireWrenchNames(scene_);
     for (std::size_t i = 0; i < scene_.applied_wrenches.size(); ++i) {
       const AppliedWrench& wrench = scene_.applied_wrenches[i];
       const Placement& place = places_[linkOf(mechanism_, scene_, i)];
@@ -291,7 +292,7 @@ class Compiler {
         plan_.actuators.push_back({joint.coordinate, Real(joint.multiplier),
                                    Real(joint.offset) - Real(terms.rest), terms.stiffness,
                                    terms.damping, terms.coulomb, 1 / Real(terms.coulomb_velocity),
-                                   terms.rotor_inertia});
+                                   terms.rotor_inertia, terms.offset});
       }
     }
   }

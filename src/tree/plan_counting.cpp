@@ -99,7 +99,8 @@ PlanSummary summarize(const Plan<double>& plan) {
   std::vector<double> effort(zeros.size()), child(6 * plan.child_axes.size() + 1),
       root(6 * plan.root_axes.size() + 1);
   std::vector<double> poses(12 * plan.root_axes.size() + 1), twists(root.size());
-  const KernelInputs<double> in = {zeros.data(), zeros.data(), zeros.data(), 1, applied.data()};
+  const KernelInputs<double> in = {zeros.data(),   zeros.data(),    zeros.data(), 1,
+                                   applied.data(), applied.stride()};
   const KernelOutputs<double> out = {plan.efforts ? effort.data() : nullptr,
                                      child.data(),
                                      root.data(),

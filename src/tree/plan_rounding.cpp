@@ -76,8 +76,9 @@ AppliedOutside<T> rounded(const AppliedOutside<Real>& from) {
 
 template <typename T>
 ActuatorTerms<T> rounded(const ActuatorTerms<Real>& from) {
-  return {from.coordinate, T(from.multiplier), T(from.offset),       T(from.stiffness),
-          T(from.damping), T(from.coulomb),    T(from.per_velocity), T(from.rotor_inertia)};
+  return {from.coordinate,      T(from.multiplier),    T(from.offset),
+          T(from.stiffness),    T(from.damping),       T(from.coulomb),
+          T(from.per_velocity), T(from.rotor_inertia), T(from.constant)};
 }
 
 template <typename T, template <typename> class Item>

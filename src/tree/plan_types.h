@@ -122,6 +122,7 @@ struct ActuatorTerms {
   T coulomb = T(0);
   T per_velocity = T(0);  ///< 1 / JointTerms::coulomb_velocity
   T rotor_inertia = T(0);
+  T constant = T(0);  ///< JointTerms::offset
 };
 
 /// A reaction to report.

@@ -57,7 +57,8 @@ std::size_t SampleBlock::capacity() const {
   return impl_->capacity;
 }
 
-void SampleBlock::compute(const MotionTable& table, std::size_t first, std::size_t count) {
+void SampleBlock::compute(const MotionTable& table, std::size_t first, std::size_t count,
+                          const Load* loads) {
   Impl& impl = *impl_;
   const std::size_t coordinates = impl.block.coordinates();
   const Eigen::MatrixXd* const sources[] = {&table.positions, &table.velocities,
@@ -83,8 +84,12 @@ void SampleBlock::compute(const MotionTable& table, std::size_t first, std::size
       }
     }
   }
-  impl.block.compute(BlockLayout::kRowMajor, {count, impl.input(0), impl.input(1), impl.input(2)},
-                     impl.results);
+  const MotionBlock<double> motion = {count, impl.input(0), impl.input(1), impl.input(2)};
+  if (loads) {
+    impl.block.compute(BlockLayout::kRowMajor, motion, loads, impl.results);
+  } else {
+    impl.block.compute(BlockLayout::kRowMajor, motion, impl.results);
+  }
   impl.computed = count;
 }
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "virtual_work_dynamics/inverse_dynamics.h"
+#include "virtual_work_dynamics/load.h"
 #include "virtual_work_dynamics/motion_table.h"
 
 namespace virtual_work_dynamics {
@@ -24,9 +25,11 @@ class SampleBlock {
 
   /// Computes rows [first, first + count) of `table`, whose joints are the generalized coordinates
   /// in their order and which has velocities and accelerations. Does not allocate.
+  /// @param loads one for each of these rows; null: the scene's own
   /// @throws MotionError when the table is not such a one, or has fewer rows, or count is more than
   ///   capacity().
-  void compute(const MotionTable& table, std::size_t first, std::size_t count);
+  void compute(const MotionTable& table, std::size_t first, std::size_t count,
+               const Load* loads = nullptr);
 
   /// Results of sample `index` of the last block, into a workspace of the same InverseDynamics.
   /// Does not allocate. @throws MotionError when there is no such sample, or the workspace is

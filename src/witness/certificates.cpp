@@ -175,11 +175,11 @@ struct Certifier::Impl {
       const double s = std::max(-1.0, std::min(1.0, rate / term.coulomb_velocity));
       const double friction = s * (3 - s * s) / 2;
       power += rate * (term.stiffness * (turned + drive.offset - term.rest) + term.damping * rate +
-                       term.coulomb * friction + term.rotor_inertia * acceleration);
+                       term.coulomb * friction + term.rotor_inertia * acceleration + term.offset);
       scale += std::abs(rate) *
                (term.stiffness * (std::abs(turned) + std::abs(drive.offset) + std::abs(term.rest)) +
                 term.damping * std::abs(rate) + term.coulomb +
-                term.rotor_inertia * std::abs(acceleration));
+                term.rotor_inertia * std::abs(acceleration) + std::abs(term.offset));
     }
   }
 

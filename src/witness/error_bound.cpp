@@ -186,9 +186,10 @@ struct ErrorBound::Impl {
     const JointNorms& joint = joints[term.joint];
     const double friction = rests ? 0 : term.coulomb;
     efforts[joint.coordinate] +=
-        joint.multiplier * (term.stiffness * (position(joint, motion) + std::abs(term.rest)) +
-                            term.damping * rate(joint, motion) + friction +
-                            term.rotor_inertia * acceleration(joint, motion));
+        joint.multiplier *
+        (term.stiffness * (position(joint, motion) + std::abs(term.rest)) +
+         term.damping * rate(joint, motion) + friction +
+         term.rotor_inertia * acceleration(joint, motion) + std::abs(term.offset));
   }
 
   bool rests;

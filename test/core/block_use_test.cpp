@@ -180,6 +180,35 @@ void expectReplacedWrenches() {
   }
 }
 
+template <typename Real>
+void expectLoadsOfSamples() {
+  Chain chain;
+  const Scene scene = sceneWithWrenches();
+  const std::vector<Motion> motions = chain.builder.motions(21);
+  std::vector<Load> loads;
+  for (std::size_t n = 0; n < motions.size(); ++n) {
+    loads.emplace_back(scene);
+    for (Wrench& wrench : loads.back().wrenches) wrench.force *= static_cast<double>(n) - 7;
+  }
+  const InverseDynamics dynamics(chain.mechanism, scene, requestEveryJoint(chain.mechanism));
+  for (const InstructionSet set : supportedInstructionSets()) {
+    for (const BlockLayout layout : kLayouts) {
+      BlockInverseDynamics<Real> block(dynamics, 2, set);
+      const auto results =
+          blockResults(block, motions, layout, static_cast<const Load*>(loads.data()));
+      for (std::size_t n = 0; n < motions.size(); ++n) {
+        const auto expected = blockResults(block, {motions[n]}, layout, loads[n]);
+        EXPECT_EQ(differences(results[n], expected[0]), "") << n;
+      }
+    }
+  }
+}
+
+TEST(BlockUse, EachSampleMayHaveALoadOfItsOwn) {
+  expectLoadsOfSamples<double>();
+  expectLoadsOfSamples<float>();
+}
+
 TEST(BlockUse, ALoadReplacesTheAppliedWrenchesOfOneBlock) {
   expectReplacedWrenches<double>();
   expectReplacedWrenches<float>();

@@ -107,7 +107,11 @@ TEST(ClosedLoopRefusals, Springs) {
   refused([](PointSpring& s) { s.link_b = "link_0"; },
           "springs: 's': both ends are on link 'link_0'");
   refused([](PointSpring& s) { s.stiffness = 0; },
-          "springs: 's': stiffness = 0 is not a positive number");
+          "springs: 's': it has neither stiffness nor damping");
+  refused([](PointSpring& s) { s.stiffness = -1; },
+          "springs: 's': stiffness = -1 is neither zero nor a positive number");
+  refused([](PointSpring& s) { s.damping = -2; },
+          "springs: 's': damping = -2 is neither zero nor a positive number");
   refused([](PointSpring& s) { s.rest_length = -1; },
           "springs: 's': rest_length = -1 is neither zero nor a positive number");
   expectRefusal(

@@ -57,6 +57,7 @@ set(core_test_files
   test/core/kernel_accuracy_test.cpp
   test/core/lagrange_dynamics_test.cpp
   test/core/lagrange_load_test.cpp
+  test/core/live_wrenches_test.cpp
   test/core/loop_conditions_test.cpp
   test/core/loop_kinematics_test.cpp
   test/core/loop_moment_points_test.cpp
@@ -91,6 +92,7 @@ set(core_test_files
   test/core/offline_recordings_test.cpp
   test/core/offline_test.cpp
   test/core/offline_wrapped_test.cpp
+  test/core/offline_wrenches_test.cpp
   test/core/passive_joints_test.cpp
   test/core/plan_merging_test.cpp
   test/core/plan_reduction_test.cpp
@@ -131,6 +133,7 @@ set(core_test_files
   test/core/urdf_reader_test.cpp
   test/core/urdf_writer_test.cpp
   test/core/velocity_judge_test.cpp
+  test/core/wrench_history_test.cpp
   ${stability_scenes}
   src/offline/deviation_rows.cpp)  # the covariances of a motion cannot come from a file
 # Compiled for each: where its tool and its data are, and tests of code that is all in headers.

@@ -26,6 +26,7 @@ JointTerms allTerms(const std::string& joint) {
   terms.coulomb = 11;
   terms.coulomb_velocity = 0.5;
   terms.rotor_inertia = 3;
+  terms.offset = -17;
   return terms;
 }
 
@@ -51,8 +52,8 @@ TEST(JointTerms, AddToTheEffortAndToNoReaction) {
   Workspace a = with.makeWorkspace(), b = without.makeWorkspace();
   with.compute(motion, a);
   without.compute(motion, b);
-  // 300 (1.7 - 0.7) + 5 * 0.25 + 11 * 0.5 (3 - 0.25) / 2 + 3 * -4
-  const double expected = 300 + 1.25 + 7.5625 - 12;
+  // 300 (1.7 - 0.7) + 5 * 0.25 + 11 * 0.5 (3 - 0.25) / 2 + 3 * -4 - 17
+  const double expected = 300 + 1.25 + 7.5625 - 12 - 17;
   EXPECT_NEAR(a.effort()[1] - b.effort()[1], expected, 8 * kEps * 300);
   EXPECT_EQ(a.effort()[0], b.effort()[0]);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -89,7 +90,7 @@ TEST(JointTerms, DryFrictionIsAllThereBeyondItsVelocityAndOddBelow) {
   }
 }
 
-TEST(JointTerms, StaticScenesHaveSpringsOnly) {
+TEST(JointTerms, StaticScenesHaveSpringsAndOffsetsOnly) {
   RobotBuilder builder = chainOf(1);
   const Mechanism mechanism = builder.build();
   Scene scene, bare;
@@ -100,7 +101,27 @@ TEST(JointTerms, StaticScenesHaveSpringsOnly) {
   motion.qd[0] = motion.qdd[0] = 100;
   EXPECT_NEAR(singleResults(InverseDynamics(mechanism, scene), motion).effort[0] -
                   singleResults(InverseDynamics(mechanism, bare), motion).effort[0],
-              300, 8 * kEps * 300);
+              300 - 17, 8 * kEps * 300);
+}
+
+// An offset alone is a term, and that of a mimic joint reaches its master by the ratio.
+TEST(JointTerms, OffsetsAreConstantEfforts) {
+  RobotBuilder builder = arm();
+  const Mechanism mechanism = builder.build();
+  Scene scene;
+  for (const char* name : {"joint_1", "joint_3", "joint_4"}) {
+    scene.joints.emplace_back();
+    scene.joints.back().joint = name;
+    scene.joints.back().offset = 8;
+  }
+  for (const Motion& motion : builder.motions(3)) {
+    const auto with = singleResults(InverseDynamics(mechanism, scene), motion);
+    const auto without = singleResults(InverseDynamics(mechanism, Scene()), motion);
+    EXPECT_NEAR(with.effort[0] - without.effort[0], 8 - 0.75 * 8, 64 * kEps * 8);
+    EXPECT_EQ(with.effort[1], without.effort[1]);
+    EXPECT_NEAR(with.effort[2] - without.effort[2], 8, 64 * kEps * 8);
+    EXPECT_EQ(with.root_axes, without.root_axes);
+  }
 }
 
 TEST(JointTerms, CostNothingWhenNoEffortIsRequested) {
@@ -176,6 +197,9 @@ TEST(JointTerms, RefusesByName) {
   terms = allTerms("joint_1");
   terms.rotor_inertia = -0.5;
   expectRefusal(mechanism, terms, "'joint_1': rotor_inertia = -0.5");
+  terms = allTerms("joint_1");
+  terms.offset = INFINITY;
+  expectRefusal(mechanism, terms, "'joint_1': offset is not finite");
   terms = allTerms("joint_1");
   terms.coulomb_velocity = 0;
   expectRefusal(mechanism, terms, "'joint_1': coulomb_velocity = 0");

@@ -290,7 +290,7 @@ class MaximalCoordinates {
       terms_[joint.coordinate] +=
           m * (terms.stiffness * (q - terms.rest) + terms.damping.value_or(0) * m * rate +
                terms.coulomb.value_or(0) * s * (3 - s * s) / 2 +
-               terms.rotor_inertia * m * acceleration);
+               terms.rotor_inertia * m * acceleration + terms.offset);
     }
     for (std::size_t i = 0; i < terms_.size(); ++i) {
       if (actuated(mechanism_.coordinateNames()[i])) continue;

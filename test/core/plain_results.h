@@ -112,8 +112,10 @@ class FencedBlock {
   }
 
   void compute(BlockInverseDynamics<Real>& dynamics) { dynamics.compute(layout_, in(), out()); }
-  void compute(BlockInverseDynamics<Real>& dynamics, const Load& load) {
-    dynamics.compute(layout_, in(), load, out());
+  /// With a load, or with the first of the loads of all samples.
+  template <typename Loads>
+  void compute(BlockInverseDynamics<Real>& dynamics, const Loads& loads) {
+    dynamics.compute(layout_, in(), loads, out());
   }
 
   MotionBlock<Real> in() { return {samples_, array(0), array(1), array(2)}; }
@@ -172,6 +174,17 @@ std::vector<PlainResults<Real>> blockResults(BlockInverseDynamics<Real>& dynamic
                                              const Load& load) {
   FencedBlock<Real> block(dynamics, motions, layout);
   block.compute(dynamics, load);
+  EXPECT_TRUE(block.surroundingsUntouched());
+  return block.samples();
+}
+
+/// All samples through one block, each with its load.
+template <typename Real>
+std::vector<PlainResults<Real>> blockResults(BlockInverseDynamics<Real>& dynamics,
+                                             const std::vector<Motion>& motions, BlockLayout layout,
+                                             const Load* loads) {
+  FencedBlock<Real> block(dynamics, motions, layout);
+  block.compute(dynamics, loads);
   EXPECT_TRUE(block.surroundingsUntouched());
   return block.samples();
 }

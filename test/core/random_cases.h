@@ -200,6 +200,7 @@ class RandomCases {
       if (chance(0.5)) terms.coulomb = uniform(0, 10);
       if (chance(0.5)) terms.coulomb_velocity = uniform(1e-3, 1);
       if (chance(0.5)) terms.rotor_inertia = uniform(0, 1);
+      terms.offset = 20 * terms.rest;  // no draw of its own: all cases stay what they were
       scene.joints.push_back(terms);
     }
   }

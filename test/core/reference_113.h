@@ -232,7 +232,7 @@ class Reference113 {
     const Real113 sum =
         terms.stiffness * (multiplier * motion.q[c] + joint.offset - Real113(terms.rest)) +
         terms.damping * rate + terms.coulomb * s * (3 - s * s) / 2 +
-        terms.rotor_inertia * acceleration;
+        terms.rotor_inertia * acceleration + terms.offset;
     actuators_[c] += multiplier * sum;
   }
 

@@ -102,6 +102,46 @@ TEST(SampleRows, AreComputedLikeSingleSamples) {
   }
 }
 
+// Rows with loads of their own, on a link in its axes and on another one in those of the root.
+TEST(SampleRows, MayHaveLoadsOfTheirOwn) {
+  for (Recorded recorded : {openChain(), closedLinkage()}) {
+    const std::vector<Link>& links = recorded.mechanism.links();
+    recorded.scene.applied_wrenches.resize(2);
+    recorded.scene.applied_wrenches[0].link = links.back().name;
+    recorded.scene.applied_wrenches[0].at << 0.1, 0.2, 0;
+    recorded.scene.applied_wrenches[1].link = links[2].name;
+    recorded.scene.applied_wrenches[1].axes = Axes::kRoot;
+    const Dynamics dynamics(recorded.mechanism, recorded.scene, everythingOf(recorded));
+    const MotionTable table = tableOf(recorded.motions);
+    std::vector<Load> loads(kRows, Load(recorded.scene));
+    RobotBuilder numbers(9);
+    for (Load& load : loads) {
+      for (Wrench& wrench : load.wrenches) {
+        wrench.force = numbers.vector(20).cast<double>();
+        wrench.torque = numbers.vector(5).cast<double>();
+      }
+    }
+    Dynamics::Workspace expected = dynamics.makeWorkspace(), own = dynamics.makeWorkspace();
+    for (const int threads : {1, 3}) {
+      SampleRows rows(dynamics, kCapacity, threads);
+      for (std::size_t first = 0; first < kRows; first += kCapacity) {
+        const std::size_t count = std::min(kCapacity, kRows - first);
+        rows.compute(table, first, count, &loads[first]);
+        for (std::size_t i = 0; i < count; ++i) {
+          dynamics.compute(recorded.motions[first + i], loads[first + i], expected);
+          EXPECT_EQ(differences(rows.read(i), expected.results()), "") << first + i;
+        }
+      }
+      rows.compute(table, 0, 3);
+      dynamics.compute(recorded.motions[2], own);
+      EXPECT_EQ(differences(rows.read(2), own.results()), "");
+      loads[2].wrenches.pop_back();
+      EXPECT_THROW(rows.compute(table, 0, 3, loads.data()), SceneError);
+      loads[2] = loads[3];
+    }
+  }
+}
+
 TEST(SampleRows, AreMovedWithTheirMemory) {
   const Recorded recorded = closedLinkage();
   const Dynamics dynamics(recorded.mechanism, recorded.scene, everythingOf(recorded));

@@ -92,12 +92,17 @@ TEST(SceneReaderLoops, ReadsEveryTypeOfClosure) {
 TEST(SceneReaderLoops, ReadsSpringsActuatedAndAssembly) {
   const Scene scene = read(R"(
 springs:
-  - {name: s, link_a: a, at_a: [1, 2, 3], link_b: b, at_b: [4, 5, 6], stiffness: 4530, rest_length: 0.07785}
+  - {name: s, link_a: a, at_a: [1, 2, 3], link_b: b, at_b: [4, 5, 6], stiffness: 4530, rest_length: 0.07785, damping: 12}
   - {name: t, link_a: a, link_b: b, stiffness: "1e9"}
+  - {name: u, link_a: a, link_b: b, damping: 7}
 actuated: [motor, pin]
 assembly: [{name: elbow, position: -0.5}, {position: 2, name: knee}]
 )");
-  ASSERT_EQ(scene.springs.size(), 2u);
+  ASSERT_EQ(scene.springs.size(), 3u);
+  EXPECT_EQ(scene.springs[0].damping, 12);
+  EXPECT_EQ(scene.springs[1].damping, 0);
+  EXPECT_EQ(scene.springs[2].stiffness, 0);
+  EXPECT_EQ(scene.springs[2].damping, 7);
   EXPECT_EQ(scene.springs[0].name, "s");
   EXPECT_EQ(scene.springs[0].link_a, "a");
   EXPECT_EQ(scene.springs[0].at_a, Eigen::Vector3d(1, 2, 3));
@@ -189,7 +194,7 @@ TEST(SceneReaderLoops, RefusesSpringsByKey) {
   EXPECT_EQ(refusal("springs: s"), "springs: expected a list");
   EXPECT_EQ(refusal("springs: [s]"),
             "springs[0]: expected a map with name, link_a, at_a, link_b, at_b, stiffness, "
-            "rest_length");
+            "rest_length, damping");
   EXPECT_EQ(spring("rest: 1"), "springs[0].rest: unknown key; did you mean 'rest_length'?");
   EXPECT_EQ(spring("at_a: 1"), "springs[0].at_a: expected a list of three numbers");
   EXPECT_EQ(spring("stiffness: stiff"), "springs[0].stiffness: 'stiff' is not a finite number");

@@ -46,8 +46,9 @@ strict_inertia: true
 applied_wrenches:
   - {link: hand, at: [1, 2, 3], axes: root, force: [4, 5, 6], torque: [7, 8, 9]}
   - {link: foot}
+  - {name: sole, link: foot, live: true, invert: true}
 joints:
-  - {name: hip, stiffness: 1e9, rest: -1, damping: 2, coulomb: "3", coulomb_velocity: 4, rotor_inertia: 5}
+  - {name: hip, stiffness: 1e9, rest: -1, damping: 2, coulomb: "3", coulomb_velocity: 4, rotor_inertia: 5, offset: -6}
   - {name: knee}
 use_urdf_dynamics: true
 )");
@@ -57,13 +58,18 @@ use_urdf_dynamics: true
   EXPECT_EQ(scene.reaction_names, (std::vector<std::string>{"b", "ground"}));
   EXPECT_FALSE(scene.include_active);
   EXPECT_TRUE(scene.strict_inertia);
-  ASSERT_EQ(scene.applied_wrenches.size(), 2u);
+  ASSERT_EQ(scene.applied_wrenches.size(), 3u);
   EXPECT_EQ(scene.applied_wrenches[0].link, "hand");
   EXPECT_EQ(scene.applied_wrenches[0].at, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(scene.applied_wrenches[0].axes, Axes::kRoot);
   EXPECT_EQ(scene.applied_wrenches[0].force, Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(scene.applied_wrenches[0].torque, Eigen::Vector3d(7, 8, 9));
   EXPECT_EQ(scene.applied_wrenches[1].axes, Axes::kLink);
+  EXPECT_FALSE(scene.applied_wrenches[0].live);
+  EXPECT_FALSE(scene.applied_wrenches[0].invert);
+  EXPECT_EQ(scene.applied_wrenches[2].name, "sole");
+  EXPECT_TRUE(scene.applied_wrenches[2].live);
+  EXPECT_TRUE(scene.applied_wrenches[2].invert);
   ASSERT_EQ(scene.joints.size(), 2u);
   EXPECT_EQ(scene.joints[0].joint, "hip");
   EXPECT_EQ(scene.joints[0].stiffness, 1e9);
@@ -72,6 +78,7 @@ use_urdf_dynamics: true
   EXPECT_EQ(scene.joints[0].coulomb, 3.0);
   EXPECT_EQ(scene.joints[0].coulomb_velocity, 4);
   EXPECT_EQ(scene.joints[0].rotor_inertia, 5);
+  EXPECT_EQ(scene.joints[0].offset, -6);
   EXPECT_FALSE(scene.joints[1].damping);
   EXPECT_FALSE(scene.joints[1].coulomb);
   EXPECT_TRUE(scene.use_urdf_dynamics);
@@ -99,6 +106,13 @@ TEST(SceneReader, RefusesByKey) {
   expectRefusal("applied_wrenches: [{at: [0, 0, 0]}]", "applied_wrenches[0]: names no link");
   expectRefusal("applied_wrenches: [{link: a, frce: [0, 0, 0]}]", "applied_wrenches[0].frce");
   expectRefusal("applied_wrenches: [{link: a, axes: world}]", "'world'");
+  for (const char* key : {"at", "force", "torque"}) {
+    expectRefusal(
+        std::string("applied_wrenches: [{name: w, link: a, live: true, ") + key + ": [0, 0, 0]}]",
+        std::string("applied_wrenches[0].") + key + ": a live wrench has none");
+  }
+  expectRefusal("applied_wrenches: [{axes: link, name: w, link: a, live: true}]",
+                "applied_wrenches[0].axes: a live wrench has none");
   expectRefusal("joints: {name: a}", "joints");
   expectRefusal("joints: [a]", "joints[0]");
   expectRefusal("joints: [{stiffness: 1}]", "joints[0]: names no joint");

@@ -25,7 +25,8 @@ inline std::string yamlJointTerms(const JointTerms& terms) {
   std::string text = "{name: " + terms.joint + ", stiffness: " + numberText(terms.stiffness) +
                      ", rest: " + numberText(terms.rest) +
                      ", rotor_inertia: " + numberText(terms.rotor_inertia) +
-                     ", coulomb_velocity: " + numberText(terms.coulomb_velocity);
+                     ", coulomb_velocity: " + numberText(terms.coulomb_velocity) +
+                     ", offset: " + numberText(terms.offset);
   if (terms.damping) text += ", damping: " + numberText(*terms.damping);
   if (terms.coulomb) text += ", coulomb: " + numberText(*terms.coulomb);
   return text + "}";

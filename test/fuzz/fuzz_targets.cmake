@@ -38,7 +38,8 @@ if(VWD_ROS_MESSAGES_DIR AND VWD_ROS_TIME)
     src/ros/joint_state_conversion.cpp
     src/ros/sample_times.cpp
     src/ros/trajectory_conversion.cpp
-    src/ros/trajectory_samples.cpp)
+    src/ros/trajectory_samples.cpp
+    src/ros/wrench_conversion.cpp)
   target_include_directories(messages_fuzz SYSTEM PRIVATE ${VWD_ROS_MESSAGES_DIR})
   target_link_libraries(messages_fuzz PRIVATE ${VWD_ROS_TIME})
 endif()

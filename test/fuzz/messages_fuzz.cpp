@@ -1,4 +1,4 @@
-// Joint states and trajectories whose values come from bytes, up to the core's motions.
+// Joint states, trajectories and wrenches whose values come from bytes, up to the core's motions.
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "ros/joint_state_conversion.h"
 #include "ros/private_name.h"
 #include "ros/trajectory_conversion.h"
+#include "ros/wrench_conversion.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 using namespace virtual_work_dynamics;
@@ -130,10 +131,42 @@ void useTrajectory(Values& values) {
   }
 }
 
+void useWrenches(Values& values) {
+  Scene scene;
+  scene.applied_wrenches.resize(1);
+  scene.applied_wrenches[0].name = "push";
+  scene.applied_wrenches[0].link = robot().links().back().name;
+  scene.applied_wrenches[0].live = true;
+  LiveWrenches wrenches(robot(), scene, 0.1);
+  WrenchConversion conversion(robot(), values.yes() ? "" : "left/", wrenches);
+  Load load(scene);
+  geometry_msgs::WrenchStamped message;
+  for (std::size_t left = values.count(32); left > 0; --left) {
+    const std::size_t link = values.count(robot().links().size());
+    message.header.frame_id = link < robot().links().size() ? robot().links()[link].name
+                              : values.names().empty()      ? ""
+                                                            : "a";
+    message.header.stamp.sec = values.yes() ? values.integer<std::uint32_t>() : 7;
+    message.header.stamp.nsec = values.integer<std::uint32_t>() % 1000000000;
+    geometry_msgs::Vector3& force = message.wrench.force;
+    geometry_msgs::Vector3& torque = message.wrench.torque;
+    for (double* number : {&force.x, &force.y, &force.z, &torque.x, &torque.y, &torque.z}) {
+      *number = values.number();
+    }
+    if (const auto rejection = conversion.take(0, message)) requireWord(*rejection);
+    const auto stamp = static_cast<std::int64_t>(message.header.stamp.toNSec());
+    if (wrenches.read(stamp + values.integer<std::int32_t>())) continue;
+    wrenches.getLoad(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(robot().coordinates().size())),
+                     load);
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Values values(data, size);
-  acceptOrRefuse([&] { (values.yes() ? useJointStates : useTrajectory)(values); });
+  acceptOrRefuse([&] {
+    (values.yes() ? useJointStates : values.yes() ? useTrajectory : useWrenches)(values);
+  });
   return 0;
 }

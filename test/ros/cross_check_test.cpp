@@ -50,7 +50,7 @@ struct Sample {
     bound.compute(motion);
   }
 
-  bool offer() { return slot->offer(motion, results); }
+  bool offer() { return slot->offer(motion, Load(scene), results); }
 
   CrossCheckSlot::Finding check() {
     EXPECT_TRUE(offer());
@@ -173,7 +173,7 @@ TEST(CrossCheckSlot, KeepsSamplesOfTwoThreadsWhole) {
   std::thread computing([&] {
     while (!done) {
       one.offer();
-      one.slot->offer(other.motion, other.results);
+      one.slot->offer(other.motion, Load(one.scene), other.results);
     }
   });
   for (int i = 0; i < kChecks;) {

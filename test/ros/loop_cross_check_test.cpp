@@ -50,7 +50,7 @@ struct LoopSample {
   }
 
   CrossCheckSlot::Finding check() {
-    EXPECT_TRUE(slot.offer(motion, results));
+    EXPECT_TRUE(slot.offer(motion, Load(), results));
     return slot.check().value_or(CrossCheckSlot::Finding());
   }
 
@@ -202,7 +202,7 @@ CrossCheckSlot::Finding withLastClosureScaled(const NamedMotion& named, double s
   tampered.root_axes = results.rootAxes();
   tampered.loops.tree_wrenches = load.wrenches;
   CrossCheckSlot slot(mechanism, loops);
-  EXPECT_TRUE(slot.offer(motion, tampered));
+  EXPECT_TRUE(slot.offer(motion, Load(), tampered));
   const CrossCheckSlot::Finding finding = slot.check().value_or(CrossCheckSlot::Finding());
   for (std::size_t i = 0; i < loops.actuated().size(); ++i) {
     if (!loops.actuated()[i] && finding.where == "effort of " + mechanism.coordinateNames()[i]) {

@@ -32,7 +32,8 @@ struct PlanMaker {
             {reactions, reactions, frame_prefix, twist, limits.condition, scene, deviations})),
         loops(everything, reactions.size(), limits),
         completer(mechanism, scene, everything),
-        samples(everything.coordinates(), scene.static_motion, completer,
+        wrenches(mechanism, scene, 0.1),
+        samples(everything.coordinates(), scene, completer, wrenches,
                 {counters, certificates, loops}) {}
 
   /// The audience of these topics.
@@ -72,6 +73,7 @@ struct PlanMaker {
   CertificateRecord certificates;
   LoopRecord loops;
   MotionCompleter completer;
+  LiveWrenches wrenches;
   SampleComputation samples;
 };
 

@@ -42,8 +42,10 @@ struct KernelInputs {
   const R* qdd;
   std::size_t stride;
   /// Force and torque of each applied wrench: in Z axes and about O_k for those given in link axes,
-  /// as given for those in root axes.
-  const PlainWrench<R>* applied;
+  /// as given for those in root axes. Number c of wrench i is at [(6 i + c) * applied_stride];
+  /// neighbouring samples follow each other.
+  const R* applied;
+  std::size_t applied_stride;
 };
 
 /// Where results go, laid out as those of a ResultBlock; null: not wanted.

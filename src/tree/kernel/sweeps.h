@@ -87,6 +87,11 @@ VWD_INLINE void sweepOut(const PlanView<R>& plan, const KernelInputs<R>& in,
   }
 }
 
+template <typename T, typename R>
+VWD_INLINE Vec3<T> loadVector(const R* from, std::size_t stride) {
+  return {load<T>(from), load<T>(from + stride), load<T>(from + 2 * stride)};
+}
+
 /// Subtracts the applied wrenches: -f* and -m* of (3.8).
 template <typename T, typename R>
 VWD_INLINE void subtractApplied(const PlanView<R>& plan, const KernelInputs<R>& in,
@@ -94,7 +99,9 @@ VWD_INLINE void subtractApplied(const PlanView<R>& plan, const KernelInputs<R>& 
   for (int i = 0; i < plan.applied_count; ++i) {
     const AppliedOutside<R>& where = plan.applied[i];
     if (where.body < 0) continue;
-    PlainWrench<T> applied = constantWrench<T>(in.applied[i]);
+    const R* const from = in.applied + 6 * static_cast<std::size_t>(i) * in.applied_stride;
+    PlainWrench<T> applied{loadVector<T>(from, in.applied_stride),
+                           loadVector<T>(from + 3 * in.applied_stride, in.applied_stride)};
     if (where.in_root_axes) {
       const Mat3<T>& R_0Z = scratch.poses[where.body].R_0Z;
       applied.force = transposeTimes(R_0Z, applied.force);
@@ -240,7 +247,7 @@ VWD_INLINE void storeKnownZeros(const PlanView<R>& plan, const KernelOutputs<R>&
   }
 }
 
-/// Adds to the efforts what the joints' springs, dampers, friction and rotors demand.
+/// Adds to the efforts what the joints' terms demand.
 template <bool kStatic, typename T, typename R>
 VWD_INLINE void addActuators(const PlanView<R>& plan, const KernelInputs<R>& in,
                              const KernelOutputs<R>& out) {
@@ -248,7 +255,8 @@ VWD_INLINE void addActuators(const PlanView<R>& plan, const KernelInputs<R>& in,
     const ActuatorTerms<R>& joint = plan.actuators[i];
     const std::size_t at = static_cast<std::size_t>(joint.coordinate);
     const T q = load<T>(in.q + at * in.stride);
-    T sum = joint.stiffness * mulAdd(joint.multiplier, q, T(joint.offset));
+    const T stretch = mulAdd(joint.multiplier, q, T(joint.offset));
+    T sum = mulAdd(joint.stiffness, stretch, T(joint.constant));
     if (!kStatic) {
       const T rate = joint.multiplier * load<T>(in.qd + at * in.stride);
       const T acceleration = joint.multiplier * load<T>(in.qdd + at * in.stride);

@@ -176,8 +176,8 @@ VelocityNumber<Real, 1> frictionPotential(const VelocityNumber<Real, 1>& s) {
   return squared * (squared * (Real(-1) / 8) + Real(3) / 4);
 }
 
-/// Generalized force of what acts in a joint: of its spring and rotor, and of damping and friction
-/// by a dissipation function of Rayleigh's.
+/// Generalized force of what acts in a joint: of its spring, constant effort and rotor, and of
+/// damping and friction by a dissipation function of Rayleigh's.
 template <typename Real>
 Real termsForce(const ResolvedJointTerms& terms, const JointState<Real>& state, Real multiplier) {
   const std::array<Real, 1> along{multiplier};
@@ -185,7 +185,8 @@ Real termsForce(const ResolvedJointTerms& terms, const JointState<Real>& state, 
   const VelocityNumber<Real, 1> qd = state.velocity(along), squared = qd * qd;
   const Real v = terms.coulomb_velocity;
   const VelocityNumber<Real, 1> E = squared * (Real(terms.rotor_inertia) / 2);
-  const PositionNumber<Real, 1> force_function = (stretch * stretch) * (-Real(terms.stiffness) / 2);
+  const PositionNumber<Real, 1> force_function =
+      (stretch * stretch) * (-Real(terms.stiffness) / 2) + stretch * -Real(terms.offset);
   const VelocityNumber<Real, 1> dissipation =
       squared * (Real(terms.damping) / 2) +
       frictionPotential(qd * (1 / v)) * (Real(terms.coulomb) * v);

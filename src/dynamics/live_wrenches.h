@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "dynamics/wrench_history.h"
+#include "loops/link_kinematics.h"
+#include "virtual_work_dynamics/load.h"
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/scene.h"
+
+namespace virtual_work_dynamics {
+
+/// The live wrenches of a scene as they are measured, and the loads that they make. Poses of the
+/// frames that they are measured in are those of the mechanism's own kinematics at the position of
+/// the sample. Serves one thread. Does not allocate after construction.
+class LiveWrenches {
+ public:
+  /// @param timeout s, positive; see WrenchHistory
+  /// @throws SceneError when the mechanism lacks the link of a live wrench.
+  LiveWrenches(const Mechanism& mechanism, const Scene& scene, double timeout);
+
+  /// Number of live wrenches, which have the scene's order.
+  std::size_t size() const { return wrenches_.size(); }
+  const std::string& name(std::size_t i) const { return wrenches_[i].name; }
+
+  /// Takes a measurement of a wrench, as its sensor says.
+  WrenchHistory::Verdict push(std::size_t i, const MeasuredWrench& wrench) {
+    return wrenches_[i].history.push(wrench);
+  }
+  const WrenchHistory& history(std::size_t i) const { return wrenches_[i].history; }
+
+  /// Reads all live wrenches at an instant, for getLoad().
+  /// @returns the first one that is not known there, or nothing.
+  std::optional<std::size_t> read(std::int64_t stamp_ns);
+  /// Whether one of those read last is an older one that is held.
+  bool anyHeld() const;
+
+  /// Writes the load of the instant read last at a position.
+  /// @param q of all coordinates, rad or m
+  /// @param load has one wrench for each applied wrench of the scene; those that are not live keep
+  ///   their values
+  void getLoad(const Eigen::VectorXd& q, Load& load);
+
+ private:
+  struct Live {
+    std::string name;
+    std::size_t applied;  // place in the scene
+    int link;
+    double sign;
+    WrenchHistory history;
+    WrenchHistory::Reading reading;
+  };
+
+  bool movesFrames() const;
+  Wrench onLink(const Live& live, const MeasuredWrench& measured) const;
+
+  std::vector<Live> wrenches_;
+  LinkKinematics links_;
+};
+
+}  // namespace virtual_work_dynamics

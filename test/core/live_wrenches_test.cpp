@@ -1,0 +1,243 @@
+#include "dynamics/live_wrenches.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "allocation_guard.h"
+#include "robot_builder.h"
+#include "virtual_work_dynamics/deviations.h"
+#include "virtual_work_dynamics/error.h"
+#include "virtual_work_dynamics/inverse_dynamics.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+// Rotations through six joints and back: a few roundings each, relative to the largest number.
+constexpr double kRounding = 1e-13;
+constexpr std::int64_t kStamp = 1600000000123456789;
+
+// Two arms of three joints on one root, each with a sensor welded to its last link.
+struct TwoArms {
+  TwoArms() : builder(3) {
+    for (const int parent : {0, 1, 2}) builder.add(parent);
+    builder.add(JointType::kFixed, 3, Vector3l::Zero(), builder.rotation(), builder.vector(0.2));
+    for (const int parent : {0, 5, 6}) builder.add(parent);
+    mechanism = std::make_unique<Mechanism>(builder.build());
+    wrench.force << 10, -20, 5;
+    wrench.torque << 1, 2, -3;
+  }
+
+  // A live wrench on a link.
+  Scene live(const std::string& link) const {
+    Scene scene;
+    scene.applied_wrenches.resize(1);
+    scene.applied_wrenches[0].name = "push";
+    scene.applied_wrenches[0].link = link;
+    scene.applied_wrenches[0].live = true;
+    return scene;
+  }
+
+  // Its load, measured in the frame of a link.
+  Load loadOf(const Scene& scene, int frame, const Motion& motion) const {
+    LiveWrenches wrenches(*mechanism, scene, 0.1);
+    wrenches.push(0, {kStamp, frame, wrench});
+    EXPECT_FALSE(wrenches.read(kStamp));
+    Load load(scene);
+    wrenches.getLoad(motion.q, load);
+    return load;
+  }
+
+  Eigen::VectorXd efforts(const Scene& scene, const Load& load, const Motion& motion) const {
+    const InverseDynamics dynamics(*mechanism, scene);
+    Workspace workspace = dynamics.makeWorkspace();
+    dynamics.compute(motion, load, workspace);
+    return workspace.effort();
+  }
+
+  // Poses of links by the recursion, which shares nothing with the kinematics of loops.
+  Pose poseOf(const std::string& joint, const Motion& motion) const {
+    Request request;
+    request.root_axes = {joint};
+    request.poses = true;
+    const InverseDynamics dynamics(*mechanism, Scene(), request);
+    Workspace workspace = dynamics.makeWorkspace();
+    dynamics.compute(motion, workspace);
+    return workspace.poses()[0];
+  }
+
+  RobotBuilder builder;
+  std::unique_ptr<Mechanism> mechanism;
+  Wrench wrench;
+};
+
+// What a sensor measures acts like a wrench that the scene applies to the sensor's own link.
+TEST(LiveWrenches, OfASensorActAsOnItsLink) {
+  TwoArms arms;
+  Scene on_sensor;
+  on_sensor.applied_wrenches.resize(1);
+  on_sensor.applied_wrenches[0].link = "link_4";
+  on_sensor.applied_wrenches[0].force = arms.wrench.force;
+  on_sensor.applied_wrenches[0].torque = arms.wrench.torque;
+  const Scene live = arms.live("link_3");
+  for (const Motion& motion : arms.builder.motions(4)) {
+    const Eigen::VectorXd expected = arms.efforts(on_sensor, Load(on_sensor), motion);
+    const Eigen::VectorXd found = arms.efforts(live, arms.loadOf(live, 4, motion), motion);
+    EXPECT_LE((found - expected).norm(), kRounding * expected.norm());
+    EXPECT_GT((found - arms.efforts(live, Load(live), motion)).norm(), 1);
+  }
+}
+
+// One that is measured on another arm or on the root is turned and moved by the poses of both.
+TEST(LiveWrenches, OfOtherLinksAreMovedByTheirPoses) {
+  TwoArms arms;
+  const Scene live = arms.live("link_3");
+  for (const Motion& motion : arms.builder.motions(4)) {
+    const Pose link = arms.poseOf("joint_3", motion);
+    for (const int frame : {0, 7}) {
+      const Pose sensor =
+          frame == 0 ? Pose() : arms.poseOf("joint_" + std::to_string(frame), motion);
+      const Eigen::Vector3d force = sensor.orientation * arms.wrench.force;
+      const Eigen::Vector3d moment =
+          sensor.orientation * arms.wrench.torque + (sensor.position - link.position).cross(force);
+      const Load load = arms.loadOf(live, frame, motion);
+      const Eigen::Quaterniond to_link = link.orientation.conjugate();
+      EXPECT_LE((load.wrenches[0].force - to_link * force).norm(), kRounding * force.norm());
+      EXPECT_LE((load.wrenches[0].torque - to_link * moment).norm(),
+                kRounding * (moment.norm() + force.norm()));
+    }
+  }
+}
+
+TEST(LiveWrenches, AreInterpolatedAndInverted) {
+  TwoArms arms;
+  Scene scene = arms.live("link_3");
+  for (const bool invert : {false, true}) {
+    scene.applied_wrenches[0].invert = invert;
+    LiveWrenches wrenches(*arms.mechanism, scene, 0.1);
+    const Wrench later{{20, 0, -5}, {3, -2, 1}};
+    wrenches.push(0, {kStamp, 3, arms.wrench});
+    wrenches.push(0, {kStamp + 80000000, 3, later});
+    Load load(scene);
+    ASSERT_FALSE(wrenches.read(kStamp + 20000000));
+    wrenches.getLoad(Eigen::VectorXd::Zero(6), load);
+    const double sign = invert ? -1 : 1;
+    EXPECT_EQ(load.wrenches[0].force, sign * Eigen::Vector3d(12.5, -15, 2.5));
+    EXPECT_EQ(load.wrenches[0].torque, sign * Eigen::Vector3d(1.5, 1, -2));
+    EXPECT_FALSE(wrenches.anyHeld());
+    ASSERT_FALSE(wrenches.read(kStamp + 90000000));
+    EXPECT_TRUE(wrenches.anyHeld());
+    wrenches.getLoad(Eigen::VectorXd::Zero(6), load);
+    EXPECT_EQ(load.wrenches[0].force, sign * later.force);
+  }
+}
+
+TEST(LiveWrenches, LeaveOthersAloneAndNameWhatIsNotKnown) {
+  TwoArms arms;
+  Scene scene = arms.live("link_3");
+  scene.applied_wrenches.push_back(scene.applied_wrenches[0]);
+  scene.applied_wrenches[1].name = "pull";
+  AppliedWrench constant;
+  constant.link = "link_2";
+  constant.force << 7, 8, 9;
+  scene.applied_wrenches.insert(scene.applied_wrenches.begin(), constant);
+  LiveWrenches wrenches(*arms.mechanism, scene, 0.1);
+  ASSERT_EQ(wrenches.size(), 2u);
+  EXPECT_EQ(wrenches.name(1), "pull");
+  EXPECT_EQ(wrenches.read(kStamp), 0u);
+  wrenches.push(0, {kStamp, 3, arms.wrench});
+  EXPECT_EQ(wrenches.read(kStamp), 1u);
+  wrenches.push(1, {kStamp, 3, arms.wrench});
+  EXPECT_EQ(wrenches.read(kStamp), std::nullopt);
+  Load load(scene);
+  wrenches.getLoad(Eigen::VectorXd::Zero(6), load);
+  EXPECT_EQ(load.wrenches[0].force, constant.force);
+  EXPECT_EQ(load.wrenches[1].force, arms.wrench.force);
+  scene.applied_wrenches[2].link = "nowhere";
+  EXPECT_THROW(LiveWrenches(*arms.mechanism, scene, 0.1), SceneError);
+}
+
+TEST(LiveWrenches, ReadWithoutAllocation) {
+  TwoArms arms;
+  const Scene scene = arms.live("link_3");
+  LiveWrenches wrenches(*arms.mechanism, scene, 0.1);
+  Load load(scene);
+  const Motion motion = arms.builder.motion();
+  const AllocationGuard guard;
+  for (int i = 0; i < 10; ++i) wrenches.push(0, {kStamp + 1000 * i, 7, arms.wrench});
+  const bool unknown = wrenches.read(kStamp + 1500).has_value();
+  wrenches.getLoad(motion.q, load);
+  const std::size_t allocations = guard.allocations();
+  EXPECT_FALSE(unknown);
+  EXPECT_EQ(allocations, 0u);
+}
+
+// A force F that is measured on the root has the lever from the elbow to it: when the shoulder is
+// uncertain, so is the elbow's effort.
+TEST(LiveWrenches, OfOtherLinksMakeEffortsUncertain) {
+  RobotBuilder builder(1);
+  const Matrix3l R = Matrix3l::Identity();
+  builder.add(JointType::kContinuous, 0, Vector3l::UnitZ(), R, Vector3l::Zero());
+  builder.add(JointType::kContinuous, 1, Vector3l::UnitZ(), R, Vector3l(0.5L, 0, 0));
+  for (const int link : {1, 2}) builder.removeInertia(link);
+  const Mechanism mechanism = builder.build();
+  Scene scene;
+  scene.applied_wrenches.resize(1);
+  scene.applied_wrenches[0].name = "push";
+  scene.applied_wrenches[0].link = "link_2";
+  scene.applied_wrenches[0].live = true;
+  LiveWrenches wrenches(mechanism, scene, 0.1);
+  MeasuredWrench measured{kStamp, 0, {}};
+  measured.value.force << 30, -40, 0;
+  wrenches.push(0, measured);
+  ASSERT_FALSE(wrenches.read(kStamp));
+  Request request;
+  const Deviations deviations(mechanism, scene, request);
+  Deviations::Workspace workspace = deviations.makeWorkspace();
+  Motion motion(2);
+  motion.q << -0.6, -1.1;
+  MotionCovariance covariance;
+  covariance.coordinates.assign(2, Eigen::Matrix3d::Zero());
+  const double deviation = 1e-4;
+  covariance.coordinates[0](0, 0) = deviation * deviation;
+  const LoadLaw law = [&](const Eigen::VectorXd& q, Load& load) { wrenches.getLoad(q, load); };
+  deviations.computeMotion(motion, covariance, law, workspace);
+  const AllocationGuard guard;
+  deviations.computeMotion(motion, covariance, law, workspace);
+  const std::size_t allocations = guard.allocations();
+  EXPECT_EQ(allocations, 0u);
+  // The elbow at 0.5 (cos, sin) moves by 0.5 (-sin, cos) per radian.
+  const double slope = 0.5 * (std::sin(-0.6) * -40 + std::cos(-0.6) * 30);
+  // Differences over 1e-4 rad err by half of it, relative.
+  EXPECT_NEAR(workspace.motion().effort[1], deviation * std::abs(slope), 1e-4 * deviation * 25);
+  // The shoulder's lever is fixed on the root.
+  EXPECT_NEAR(workspace.motion().effort[0], 0, 1e-9);
+}
+
+TEST(LiveWrenches, NamesAreChecked) {
+  TwoArms arms;
+  const auto messageOf = [&](const Scene& scene) -> std::string {
+    try {
+      InverseDynamics(*arms.mechanism, scene);
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  Scene scene = arms.live("link_3");
+  EXPECT_EQ(messageOf(scene), "accepted");
+  scene.applied_wrenches.push_back(scene.applied_wrenches[0]);
+  EXPECT_EQ(messageOf(scene), "applied_wrenches[1].name: 'push' is given twice");
+  scene.applied_wrenches[1].name.clear();
+  EXPECT_EQ(messageOf(scene), "applied_wrenches[1]: a live wrench needs a name");
+  scene.applied_wrenches[1].live = false;
+  EXPECT_EQ(messageOf(scene), "accepted");
+  scene.applied_wrenches[1].invert = true;
+  EXPECT_EQ(messageOf(scene), "applied_wrenches[1]: invert: only a live wrench is inverted");
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics
