@@ -7,8 +7,8 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// Of the distance of its origins from the root, the least that counts as the size of a loop: with
-// the default tolerance of the rank, some ten rounding errors of their positions are then no gap.
+// Of the distance of its origins from the root, the least that is the size of a loop: with the
+// default tolerance of the rank, some ten rounding errors of their positions are then no gap.
 constexpr double kLeastShare = 1e-4;
 
 int rootOf(const std::vector<int>& leaders, int i) {
@@ -95,7 +95,8 @@ double loopLength(const std::vector<LoopGroup>& groups, const LoopKinematics& ki
       for (const Eigen::Vector3d& b : origins) longest = std::max(longest, (a - b).norm());
     }
   }
-  return farthest > 0 ? std::max(longest, kLeastShare * farthest) : 1;
+  if (longest > kLeastShare * farthest) return longest;
+  return farthest > 0 ? farthest : 1;
 }
 
 }  // namespace virtual_work_dynamics

@@ -31,8 +31,9 @@ struct LoopGroup {
 std::vector<LoopGroup> loopGroups(const Mechanism& mechanism, const LoopKinematics& kinematics);
 
 /// A characteristic size, m: the largest distance between two origins of joints and closure frames
-/// that lie on a loop, at the present position, and at least 1e-4 of their distance from the root,
-/// as rounding errors of positions are no size; 1 where there are none, or all are at the root's.
+/// that lie on a loop, at the present position; where it is less than 1e-4 of their distance from
+/// the root, that distance, as rounding errors of positions are no size; 1 where all are at the
+/// root's origin, or there are none.
 double loopLength(const std::vector<LoopGroup>& groups, const LoopKinematics& kinematics);
 
 }  // namespace virtual_work_dynamics
