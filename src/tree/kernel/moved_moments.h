@@ -33,11 +33,6 @@ VWD_INLINE Vec3<T> pointOf(const PlanView<R>& plan, const MovedMoment<R>& moved,
   return p;
 }
 
-template <typename T, typename R>
-VWD_INLINE Vec3<T> loadVector(const R* from, std::size_t stride) {
-  return {load<T>(from), load<T>(from + stride), load<T>(from + 2 * stride)};
-}
-
 /// Moves reported moments, with poses and twists, to the points that they are wanted about.
 template <typename T, typename R>
 VWD_INLINE void moveMoments(const PlanView<R>& plan, const KernelInputs<R>& in,

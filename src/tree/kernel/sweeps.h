@@ -87,11 +87,6 @@ VWD_INLINE void sweepOut(const PlanView<R>& plan, const KernelInputs<R>& in,
   }
 }
 
-template <typename T, typename R>
-VWD_INLINE Vec3<T> loadVector(const R* from, std::size_t stride) {
-  return {load<T>(from), load<T>(from + stride), load<T>(from + 2 * stride)};
-}
-
 /// Subtracts the applied wrenches: -f* and -m* of (3.8).
 template <typename T, typename R>
 VWD_INLINE void subtractApplied(const PlanView<R>& plan, const KernelInputs<R>& in,

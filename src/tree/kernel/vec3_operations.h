@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "tree/kernel/number.h"
 #include "tree/vec3.h"
 
@@ -7,6 +9,12 @@ namespace virtual_work_dynamics {
 namespace {  // see kernel.h
 
 // S: a constant of the plan, T: a number of the samples (a vector of samples, or the same as S).
+
+/// Returns the vector whose components lie `stride` numbers apart.
+template <typename T, typename R>
+VWD_INLINE Vec3<T> loadVector(const R* from, std::size_t stride) {
+  return {load<T>(from), load<T>(from + stride), load<T>(from + 2 * stride)};
+}
 
 template <typename T>
 VWD_INLINE Vec3<T> operator+(const Vec3<T>& a, const Vec3<T>& b) {
