@@ -35,6 +35,7 @@ ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compil
   determined.effort.assign(effort_freedoms_.size(), true);
   determined.child_axes.assign(child_axes_.size(), kAllComponents);
   determined.root_axes.assign(root_axes_.size(), kAllComponents);
+  if (plan.request.determinacy) publishFlags();
   child_axes_ranks.resize(child_axes_.size());
   root_axes_ranks.resize(root_axes_.size());
   loops.effort_exists = determined.effort;
@@ -62,7 +63,10 @@ void ClosedLoopDynamics::Workspace::Impl::compute(const Motion& motion, const Lo
   if (plan.request.determinacy || results.singular()) setDetermined();
   setExistence();
   leaveOutSprings();
-  if (!plan.request.determinacy) return;
+  if (plan.request.determinacy) publishFlags();
+}
+
+void ClosedLoopDynamics::Workspace::Impl::publishFlags() {
   results.loops.effort_determined = determined.effort;
   results.loops.child_axes_determined = determined.child_axes;
   results.loops.root_axes_determined = determined.root_axes;

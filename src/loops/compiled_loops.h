@@ -106,6 +106,7 @@ struct ClosedLoopDynamics::Workspace::Impl {
   void solve();
   void react(const Motion& motion);
   void setActuatedClosures();
+  void publishFlags();
   void setExistence();
   void leaveOutSprings();
   void setDeterminacy();

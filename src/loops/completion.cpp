@@ -117,6 +117,13 @@ LoopCompletion::LoopCompletion(const Mechanism& mechanism, const LoopKinematics&
     systems_.emplace_back(mechanism, kinematics, group, rank_tolerance, length);
     for (const int i : group.coordinates) in_loop_[static_cast<std::size_t>(i)] = true;
   }
+  for (System& system : systems_) {
+    std::size_t most = 0;
+    for (const std::vector<int>& moved : system.group.moved) most += moved.size();
+    system.entries.reserve(most);
+  }
+  given_.assign(in_loop_.size(), true);
+  want(std::vector<bool>(in_loop_.size(), false));
   step_.setZero(static_cast<Eigen::Index>(in_loop_.size()));
   tried_ = step_;
 }

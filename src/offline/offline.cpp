@@ -132,7 +132,7 @@ void printMomentPoints(const Scene& scene, const Request& request) {
   for (const MomentPoint& point : scene.moments_about) {
     if (std::count(asked.begin(), asked.end(), point.name) > 0) places.push_back(placeOf(point));
   }
-  if (!places.empty()) printNames(std::cout, "moments about", places);
+  if (!places.empty()) printNames(std::cout, "moments at", places);
 }
 
 void printMotion(const MotionFile& motion) {

@@ -63,7 +63,7 @@ TEST_F(DeviationRowsOf, CellsAreThoseOfTheirColumnsAndRows) {
     takeRow(table_, row, motion);
     dynamics.compute(motion, computed);
     std::vector<double> cells{42};
-    rows.add(row, motion, computed.results(), cells);
+    rows.add(row, motion, Load(scene), computed.results(), cells);
     deviations.computeMotion(motion, randomCovariance(7 + static_cast<unsigned>(row), 3, 1e-4),
                              workspace);
     deviations.computeDescription(motion, workspace);

@@ -112,12 +112,12 @@ TEST_F(OfflineLoopChecks, PointsOfMomentsAreListed) {
   write("s.yaml", pinned("0.5") + kPoints);
   const Run listed = run("--urdf l.urdf --scene s.yaml --check");
   EXPECT_EQ(listed.exit_code, 0) << listed.err;
-  EXPECT_NE(listed.out.find("moments about: wrist: parent frame at 0 0 0.1, "
+  EXPECT_NE(listed.out.find("moments at:   wrist: parent frame at 0 0 0.1, "
                             "pin: link base at 0.1 0 0.2\n"),
             std::string::npos)
       << listed.out;
   const Run others = run("--urdf l.urdf --scene s.yaml --reactions drive --check");
-  EXPECT_EQ(others.out.find("moments about"), std::string::npos) << others.out;
+  EXPECT_EQ(others.out.find("moments at"), std::string::npos) << others.out;
 }
 
 TEST_F(OfflineLoopChecks, LagrangesEquationsGiveTheSame) {
