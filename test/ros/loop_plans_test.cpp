@@ -131,11 +131,19 @@ TEST_F(LoopPlans, LeaveOutWhatHasNoValueAndTakeItInAgain) {
 
 // Out of plane nothing is determined in any position, so nothing is left out.
 TEST_F(LoopPlans, PublishWhatRedundantConstraintsLeaveOpen) {
-  const auto plan = compile(kEverything);
+  Topics topics = kEverything;
+  topics.push_back("determinacy");
+  const auto plan = compile(topics);
   ASSERT_EQ(compute(*plan, SliderCrank::motion(0.7, 0, 0)), Outcome::kDone);
   EXPECT_FALSE(plan->workspace.results().loops.root_axes_determined[0][2]);
   const auto& message = maker.message<sensor_msgs::MultiDOFJointState>(*plan, "reactions");
   EXPECT_EQ(message.message().joint_names, maker.reactions);
+}
+
+TEST_F(LoopPlans, FindWhatIsDeterminedOnRequestOnly) {
+  const auto plan = compile(kEverything);
+  ASSERT_EQ(compute(*plan, SliderCrank::motion(0.7, 0, 0)), Outcome::kDone);
+  EXPECT_TRUE(plan->workspace.results().loops.root_axes_determined.empty());
 }
 
 TEST_F(LoopPlans, WrenchesAreThoseOfTheirJointsWithDeterminacyToo) {
