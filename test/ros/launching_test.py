@@ -178,10 +178,15 @@ class Launching(LaunchTest):
             for arg in arguments:
                 self.assertTrue(arg.get('doc'), arg.get('name'))
 
+    # Some at a time: forty processes at once are busy with each other.
     def test_all_examples_in_namespaces(self):
         examples = sorted(name[:-len('.launch')] for name in os.listdir(launch_folder())
                           if name not in ('inverse_dynamics.launch', 'demo.launch',
                                           'closed_loop_example.launch'))
+        for i in range(0, len(examples), 3):
+            self.launch_in_namespaces(examples[i:i + 3])
+
+    def launch_in_namespaces(self, examples):
         text = ''.join(
             '<group ns="{0}"><include file="$(find {1})/launch/{0}.launch">'
             '<arg name="frame_prefix" value="{0}"/><arg name="bag" value="{0}\'s bag.bag"/>'
@@ -190,7 +195,7 @@ class Launching(LaunchTest):
                  '<arg name="example" value="four_bar"/></include></group>' % PACKAGE)
         efforts = {example: self.record('/%s/inverse_dynamics/effort' % example, JointState)
                    for example in examples + ['by_name']}
-        launch = self.launch(self.write('all.launch', '<launch>%s</launch>' % text))
+        launch = self.launch(self.write('some.launch', '<launch>%s</launch>' % text))
         for example, effort in efforts.items():
             frame = self.first(launch, effort).header.frame_id
             self.assertEqual(frame.startswith(example + '/'), example != 'by_name', frame)
