@@ -8,7 +8,7 @@ Usage: scripts/test.sh [--portable] [--no-install]
 
 Builds with warnings as errors and runs: unit tests, tests through ROS, the core's tests under the
 address and undefined-behaviour sanitizers, the measurements' agreement with other libraries, users
-of the installed core and of the catkin package, twenty seconds of fuzzing for each reader, the numbered
+of the installed core and of the catkin package, ten seconds of fuzzing for each reader, the numbered
 examples, the format check, the rules of the folders, tests of scripts and guides, pages of the headers
 without a warning, catkin_lint, and checks that the core library links nothing of ROS and that code
 compiled for special instructions cannot serve elsewhere. Each check counts like a test. Results are in
@@ -106,7 +106,7 @@ sanitized_core_tests() {
 # Each target starts from what is known to be hard, and from what earlier runs on this machine learnt; with
 # the same changes each time, so that what fails has to do with what was changed.
 fuzz() {
-  scripts/fuzz.sh --seconds 20 --seed 1
+  scripts/fuzz.sh --seconds 10 --seed 1
 }
 
 # Every contender of a scene is compared with the reference before it is timed.
