@@ -97,21 +97,9 @@ TEST(GivenMotions, PosesOutOfReachAreNamed) {
 
 // The slide as the free axis of a closure on a table that turns.
 TEST(GivenMotions, TheSlideOfAClosureMovesOnATable) {
-  RobotBuilder builder(1);
-  const Matrix3l R = Matrix3l::Identity();
-  const Vector3l z = Vector3l::UnitZ();
-  builder.add(JointType::kContinuous, 0, z, R, Vector3l::Zero());
-  builder.add(JointType::kContinuous, 1, z, R, Vector3l::Zero());
-  builder.add(JointType::kContinuous, 2, z, R, Vector3l(SliderCrank::kCrank, 0, 0));
-  builder.add(JointType::kContinuous, 3, z, R, Vector3l(SliderCrank::kRod, 0, 0));
-  const Mechanism mechanism = builder.build();
+  const Mechanism mechanism = sliderCrankOfPins(true);
   Scene scene;
-  Closure slide;
-  slide.name = "slide";
-  slide.type = ClosureType::kPrismatic;
-  slide.parent = {"link_1", {0.2, 0.3, 0}, {0, 1.5707963267948966, 0}};
-  slide.child = {"link_4", {0, 0.3, 0}, {0, 1.5707963267948966, 0}};
-  scene.closures = {slide};
+  scene.closures = {slideOfPins(true)};
   scene.actuated = std::vector<std::string>{"joint_1", "slide"};
   scene.given = scene.actuated;
   scene.assembly = {{"joint_2", 0.7}, {"joint_3", -1.0}, {"joint_4", 0.3}};
@@ -136,22 +124,9 @@ TEST(GivenMotions, TheSlideOfAClosureMovesOnATable) {
 
 // The slide as the free axis of a closure, which a slider-crank of three pins has.
 TEST(GivenMotions, TheSlideOfAClosureMovesTheCrank) {
-  RobotBuilder builder(1);
-  const Matrix3l R = Matrix3l::Identity();
-  const Vector3l z = Vector3l::UnitZ();
-  builder.add(JointType::kContinuous, 0, z, R, Vector3l::Zero());
-  builder.add(JointType::kContinuous, 1, z, R, Vector3l(SliderCrank::kCrank, 0, 0));
-  builder.add(JointType::kContinuous, 2, z, R, Vector3l(SliderCrank::kRod, 0, 0));
-  const Mechanism mechanism = builder.build();
+  const Mechanism mechanism = sliderCrankOfPins(false);
   Scene scene;
-  Closure slide;
-  slide.name = "slide";
-  slide.type = ClosureType::kPrismatic;
-  slide.parent.link = "link_0";
-  slide.child.link = "link_3";
-  slide.parent.rpy << 0, 1.5707963267948966, 0;
-  slide.child.rpy = slide.parent.rpy;
-  scene.closures = {slide};
+  scene.closures = {slideOfPins(false)};
   scene.actuated = std::vector<std::string>{"slide"};
   scene.given = scene.actuated;
   scene.assembly = {{"joint_1", 0.7}, {"joint_2", -1.0}, {"joint_3", 0.3}};

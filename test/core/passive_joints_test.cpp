@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "closed_loops.h"
+#include "loop_examples.h"
 #include "robot_builder.h"
 #include "slider_crank.h"
 
@@ -148,25 +149,9 @@ TEST(ActuatedClosures, SayHowFarTheyHaveTurned) {
 
 TEST(ActuatedClosures, SayHowFarTheyHaveSlid) {
   // A slider-crank with a pin as third joint and the slide as closure, on a table that turns.
-  RobotBuilder builder(1);
-  const Matrix3l R = Matrix3l::Identity();
-  const Vector3l z = Vector3l::UnitZ();
-  builder.add(JointType::kContinuous, 0, z, R, Vector3l::Zero());
-  builder.add(JointType::kContinuous, 1, z, R, Vector3l::Zero());
-  builder.add(JointType::kContinuous, 2, z, R, Vector3l(SliderCrank::kCrank, 0, 0));
-  builder.add(JointType::kContinuous, 3, z, R, Vector3l(SliderCrank::kRod, 0, 0));
-  const Mechanism mechanism = builder.build();
+  const Mechanism mechanism = sliderCrankOfPins(true);
   Scene scene;
-  Closure slide;
-  slide.name = "slide";
-  slide.type = ClosureType::kPrismatic;
-  slide.parent.link = "link_1";
-  slide.child.link = "link_4";
-  slide.parent.rpy << 0, kTurn / 4, 0;
-  slide.child.rpy = slide.parent.rpy;
-  slide.parent.xyz << 0.2, 0.3, 0;
-  slide.child.xyz << 0, 0.3, 0;
-  scene.closures = {slide};
+  scene.closures = {slideOfPins(true)};
   scene.actuated = std::vector<std::string>{"joint_1", "slide"};
   const Motion crank = SliderCrank::motion(2.0, 1.5, 0);
   Motion motion(4);
@@ -179,6 +164,47 @@ TEST(ActuatedClosures, SayHowFarTheyHaveSlid) {
   dynamics.compute(motion);
   EXPECT_NEAR(dynamics.actuatedPositions()[0], crank.q[2] - 0.2, kClosed);
   EXPECT_NEAR(dynamics.actuatedVelocities()[0], crank.qd[2], kClosed);
+}
+
+/// How the actuated joints of an example move.
+struct Driving {
+  const char* name;
+  double noise;   // of positions, rad
+  double period;  // s
+  double factor;  // of velocities that a driver gets wrong
+};
+
+// A search begins where rates and accelerations lead. What it finds is what one finds that knows of
+// no motion, whatever a driver says of the rates and however far the steps.
+TEST(PassiveJoints, FindTheSameWhateverTheRates) {
+  constexpr Driving kDrivings[] = {{"clean", 0, 1e-3, 1},       {"noise", 1e-3, 1e-3, 1},
+                                   {"slow", 0, 0.1, 1},         {"zero rates", 1e-4, 1e-2, 0},
+                                   {"deg/s", 1e-4, 1e-2, 57.3}, {"reversed", 1e-4, 1e-2, -1}};
+  RobotBuilder random(7);
+  for (const char* name : {"four_bar", "slider_crank", "stewart_gough", "andrews_squeezer"}) {
+    const LoopExample example(name);
+    const Dynamics dynamics(example.mechanism, example.scene, kNothing);
+    Dynamics::Workspace workspace = dynamics.makeWorkspace();
+    for (const Driving& driving : kDrivings) {
+      PassiveJoints led(example.mechanism, dynamics), fresh(example.mechanism, dynamics);
+      for (int k = 0; k < 100; ++k) {
+        const double t = k * driving.period;
+        Motion motion(dynamics.coordinates());
+        motion.q = dynamics.assembly();
+        for (Eigen::Index i = 0; i < motion.q.size(); ++i) {
+          if (!dynamics.actuated()[static_cast<std::size_t>(i)]) continue;
+          motion.q[i] += 0.15 * std::sin(5 * t) + random.uniform(-driving.noise, driving.noise);
+          motion.qd[i] = driving.factor * 0.75 * std::cos(5 * t);
+          motion.qdd[i] = -3.75 * std::sin(5 * t);
+        }
+        Motion other = motion;
+        fresh.moveTo(Eigen::VectorXd(fresh.position()));
+        ASSERT_TRUE(led.complete(motion, dynamics, workspace)) << name << ", " << driving.name;
+        ASSERT_TRUE(fresh.complete(other, dynamics, workspace)) << name << ", " << driving.name;
+        EXPECT_LE((motion.q - other.q).norm(), kClosed) << name << ", " << driving.name;
+      }
+    }
+  }
 }
 
 /// A bar on equal parallel cranks, driven at the first. Twice a turn all lie in one line.

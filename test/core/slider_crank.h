@@ -74,4 +74,34 @@ class SliderCrank {
   RobotBuilder builder_;
 };
 
+/// The slider-crank with a pin in place of the slider, whose slide is a closure; on a table, its
+/// joints are the ones after the table's.
+inline Mechanism sliderCrankOfPins(bool on_table) {
+  RobotBuilder builder(1);
+  const Matrix3l R = Matrix3l::Identity();
+  const Vector3l z = Vector3l::UnitZ();
+  int link = 0;
+  if (on_table) link = builder.add(JointType::kContinuous, link, z, R, Vector3l::Zero());
+  link = builder.add(JointType::kContinuous, link, z, R, Vector3l::Zero());
+  link = builder.add(JointType::kContinuous, link, z, R, Vector3l(SliderCrank::kCrank, 0, 0));
+  builder.add(JointType::kContinuous, link, z, R, Vector3l(SliderCrank::kRod, 0, 0));
+  return builder.build();
+}
+
+/// Its slide, along x; on a table 0.2 m farther, and beside the pins.
+inline Closure slideOfPins(bool on_table) {
+  Closure slide;
+  slide.name = "slide";
+  slide.type = ClosureType::kPrismatic;
+  slide.parent.link = on_table ? "link_1" : "link_0";
+  slide.child.link = on_table ? "link_4" : "link_3";
+  slide.parent.rpy << 0, 1.5707963267948966, 0;
+  slide.child.rpy = slide.parent.rpy;
+  if (on_table) {
+    slide.parent.xyz << 0.2, 0.3, 0;
+    slide.child.xyz << 0, 0.3, 0;
+  }
+  return slide;
+}
+
 }  // namespace virtual_work_dynamics
