@@ -22,6 +22,8 @@ constexpr double kUnclear = 100;
 constexpr double kMostTrusted = 10;
 // The exact system of a load that is borne is violated by rounding errors only.
 constexpr double kBorne = 1e-12;
+// A larger share of the load that nothing bears must be told.
+constexpr double kNotBorne = 1e-7;
 // Off by so much, rad or of the size, is what the completion starts from.
 constexpr double kOffAtStart = 1e-3;
 // Up to this condition a motion must be completed; the package gives up from 1e7 on, by the
@@ -64,6 +66,7 @@ void LoopVerdict::include(const LoopVerdict& other) {
   open = std::max(open, other.open);
   if (apart == 0) worst_apart = other.worst_apart;
   apart += other.apart;
+  unborne = unborne || other.unborne;
   clear = clear && other.clear;
   residual = std::max(residual, other.residual);
   completed += other.completed;
@@ -115,7 +118,6 @@ LoopJudge::Exact LoopJudge::exactOf(const Motion& motion) const {
   const auto put = [&](const ExactComponent& component) {
     const long double size = std::abs(component.value);
     exact.components.push_back(component);
-    exact.largest = std::max(exact.largest, size / (component.turns ? size_ : 1));
     if (!component.determined()) return;
     long double& largest = component.turns ? exact.moment : exact.force;
     largest = std::max(largest, size);
@@ -140,7 +142,7 @@ LoopJudge::Exact LoopJudge::exactOf(const Motion& motion) const {
   exact.free_motions = oracle.freeMotions();
   exact.least_counted = oracle.leastCounted();
   exact.largest_left_out = oracle.largestLeftOut();
-  exact.violation = oracle.relativeResidual();
+  exact.unborne = oracle.unborne();
   return exact;
 }
 
@@ -181,13 +183,14 @@ long double LoopJudge::loadOf(const Motion& motion) const {
   return load;
 }
 
+// Of a component that is not determined any value is exact: the one that was chosen counts.
 long double LoopJudge::largestOf(const Exact& exact, const LoopComponents& computed) const {
   long double largest = 0;
   for (std::size_t i = 0; i < computed.size(); ++i) {
-    const bool turns = exact.components[i].turns;
-    if (!std::isfinite(computed[i].value)) continue;
-    largest = std::max(largest,
-                       std::abs(static_cast<long double>(computed[i].value)) / (turns ? size_ : 1));
+    const ExactComponent& right = exact.components[i];
+    const long double value = right.determined() ? right.value : computed[i].value;
+    if (!std::isfinite(value)) continue;
+    largest = std::max(largest, std::abs(value) / (right.turns ? size_ : 1));
   }
   return largest;
 }
@@ -203,10 +206,10 @@ LoopVerdict LoopJudge::compare(const Motion& motion, const LoopComponents& compu
   verdict.free_motions = found.free_motions;
   verdict.components = static_cast<int>(computed.size());
   verdict.states = 1;
+  verdict.unborne = exact.free_motions > 0 && exact.unborne > kBorne;
   compareCountsAndFlags(exact, computed, found, verdict);
-  const long double largest = std::max(exact.largest, largestOf(exact, computed));
   const long double scale =
-      4 * (depth_ + found.rank + found.redundancy) * (loadOf(motion) + largest);
+      4 * (depth_ + found.rank + found.redundancy) * (loadOf(motion) + largestOf(exact, computed));
   compareValues(exact, computed, scale, lossOf(exact, found), verdict);
   return verdict;
 }
@@ -228,7 +231,7 @@ void LoopJudge::compareCountsAndFlags(const Exact& exact, const LoopComponents& 
     const ExactComponent& right = exact.components[i];
     if (!computed[i].determined) ++verdict.open;
     // A load that a singular position does not bear leaves more open than the null space does.
-    const bool borne = found.free_motions == 0 || exact.violation <= kBorne;
+    const bool borne = found.free_motions == 0 || exact.unborne <= kBorne;
     const bool may_be_open = !borne && right.determined();
     if (computed[i].determined != right.determined() && !may_be_open &&
         !near(right.freedom, MaximalCoordinatesOracle::kFree)) {
@@ -238,20 +241,24 @@ void LoopJudge::compareCountsAndFlags(const Exact& exact, const LoopComponents& 
       differs("existence of " + nameOf(i));
     }
   }
+  const bool all_exist =
+      std::all_of(computed.begin(), computed.end(),
+                  [](const LoopComponent& component) { return component.exists; });
+  if (all_exist && exact.unborne > kNotBorne) differs("existence of what nothing bears");
 }
 
 // What a step of the computation loses: eps and what the rank leaves out, times the condition.
 long double LoopJudge::lossOf(const Exact& exact, const Determinacy& found) const {
   const long double condition =
       std::min<long double>(found.condition, kMostTrusted / exact.least_counted);
-  return condition * (kEps + exact.largest_left_out);
+  return condition * (kEps + exact.largest_left_out + exact.unborne);
 }
 
 void LoopJudge::compareValues(const Exact& exact, const LoopComponents& computed, long double scale,
                               long double loss, LoopVerdict& verdict) const {
   const bool same_rank =
       verdict.redundancy == exact.redundancy && verdict.free_motions == exact.free_motions;
-  const bool comparable = same_rank && (exact.free_motions == 0 || exact.violation <= kBorne);
+  const bool comparable = same_rank && (exact.free_motions == 0 || exact.unborne <= kBorne);
   for (std::size_t i = 0; i < computed.size(); ++i) {
     const ExactComponent& right = exact.components[i];
     if (!(comparable && computed[i].determined) && std::isfinite(computed[i].value)) continue;

@@ -40,14 +40,16 @@ using ExactComponents = std::vector<ExactComponent>;
 ///
 /// An error is compared with 4 (L + n) eps condition S. Here n is the number of unknowns of the
 /// loops and L the depth of the tree; S is the largest sum of the norms of loads (ErrorBound of the
-/// tree) plus the largest force of the exact solution, or of the one that was chosen where many are
-/// exact, moments over the size of the mechanism. The
-/// condition that the package reports counts up to ten times the exact system's. Entries that do
-/// not count for the rank are left out of the system: the largest such pivot is added to eps. A
-/// component that null vectors change by f of a newton may also be off by f S. Where a singular
-/// position does not bear its load there are no exact values, and only counts and flags are judged.
-/// Everything exists where nothing moves freely, and in singular positions what is determined of a
-/// load that is borne.
+/// tree) plus the largest force, of the exact solution where it is determined, else of the one that
+/// was chosen, as errors of the equations grow with the solution that they are put in; moments over
+/// the size of the mechanism. The condition that the package reports counts up to ten times the
+/// exact system's. Entries that do not count for the rank are left out of the system: the largest
+/// such pivot is added to eps, and so is the share of the load's work along a free motion that
+/// nothing bears, while it is small enough to be rounding. A component that null vectors change by
+/// f of a newton may also be off by f S. Where a singular position does not bear its load there are
+/// no exact values, and only counts and flags are judged. Everything exists where nothing moves
+/// freely, and in singular positions what is determined of a load that is borne; where a load is
+/// clearly not borne, something does not exist.
 /// Within a factor of 100 of the tolerances of rank and flags either answer is right.
 class LoopJudge {
  public:
@@ -71,9 +73,8 @@ class LoopJudge {
   struct Exact {
     ExactComponents components;
     long double force = 0, moment = 0;  // the largest ones that are determined
-    long double largest = 0;            // the largest force of all, moments over the size
     long double largest_left_out = 0, least_counted = 1;
-    long double violation = 0;  // violation of an equation, where the load is not borne
+    long double unborne = 0;  // share of a load that nothing bears
     Eigen::Index redundancy = 0, free_motions = 0;
   };
   Exact exactOf(const Motion& motion) const;

@@ -12,6 +12,10 @@ namespace {
 
 // Within this factor of the rank's tolerance either answer may be the right one.
 constexpr long double kUnclear = 100;
+// Size of all loops over that of the mechanism. The exact equations compare moments with forces by
+// the size of the mechanism, the package by that of the loops: further apart than this, they call
+// different changes rounding errors.
+constexpr long double kSmall = 1e-4L;
 
 bool isUnclear(const MaximalCoordinatesOracle& oracle, long double tolerance) {
   const auto near = [&](long double pivot) {
@@ -20,10 +24,9 @@ bool isUnclear(const MaximalCoordinatesOracle& oracle, long double tolerance) {
   return near(oracle.leastCounted()) || near(oracle.largestLeftOut());
 }
 
-SceneVerdict judgeRefusal(const ClosedCase& loops, const std::string& reason) {
+SceneVerdict judgeRefusal(const MaximalCoordinatesOracle& oracle, double tolerance,
+                          const std::string& reason) {
   SceneVerdict verdict;
-  const double tolerance = loops.scene.redundancy.rank_tolerance;
-  const MaximalCoordinatesOracle oracle(loops.mechanism, loops.scene, loops.motion, tolerance);
   if (oracle.freeMotions() > 0) {
     verdict.refused = 1;
   } else if (isUnclear(oracle, tolerance)) {
@@ -35,15 +38,23 @@ SceneVerdict judgeRefusal(const ClosedCase& loops, const std::string& reason) {
 }
 
 SceneVerdict judgeCase(const ClosedCase& loops) {
+  const MaximalCoordinatesOracle oracle(loops.mechanism, loops.scene, loops.motion,
+                                        loops.scene.redundancy.rank_tolerance);
+  if (oracle.sizeOfLoops() < kSmall) {
+    SceneVerdict verdict;
+    verdict.small = 1;
+    return verdict;
+  }
   LoopVerdict found;
   try {
     LoopJudge judge(loops.mechanism, loops.scene);
     found = judge.judgeForces(loops.motion);
   } catch (const SceneError& error) {
-    return judgeRefusal(loops, error.what());
+    return judgeRefusal(oracle, loops.scene.redundancy.rank_tolerance, error.what());
   }
   SceneVerdict verdict;
   verdict.singular = found.free_motions > 0;
+  verdict.unborne = found.unborne;
   verdict.unclear = !found.clear;
   verdict.components = found.components;
   verdict.open = found.open;
@@ -64,6 +75,8 @@ void SceneVerdict::include(const SceneVerdict& other) {
   scenes += other.scenes;
   refused += other.refused;
   singular += other.singular;
+  unborne += other.unborne;
+  small += other.small;
   unclear += other.unclear;
   components += other.components;
   open += other.open;

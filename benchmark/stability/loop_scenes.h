@@ -16,11 +16,13 @@ namespace virtual_work_dynamics {
 /// What became of one scene of StructuredLoops, or the sum of many.
 struct SceneVerdict {
   int scenes = 0;
-  int refused = 0;     ///< of scenes with too few actuated joints in the assembly, as they must be
-  int singular = 0;    ///< computed in a singular position
-  int unclear = 0;     ///< of these the rank is too close to its tolerance to say what is right
-  int components = 0;  ///< number of efforts and components of reactions
-  int open = 0;        ///< of these, flagged as not determined
+  int refused = 0;   ///< of scenes with too few actuated joints in the assembly, as they must be
+  int small = 0;     ///< not judged, as all loops are below 1e-4 of the mechanism's size
+  int singular = 0;  ///< computed in a singular position
+  int unborne = 0;   ///< of these, those whose load nothing bears: only counts and flags are judged
+  int unclear = 0;   ///< of these the rank is too close to its tolerance to say what is right
+  int components = 0;              ///< number of efforts and components of reactions
+  int open = 0;                    ///< of these, flagged as not determined
   double over_bound = 0;           ///< largest error of what is determined, over its bound
   double condition = 0;            ///< largest
   std::vector<std::string> wrong;  ///< a line for each scene that is not right

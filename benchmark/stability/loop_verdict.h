@@ -24,6 +24,7 @@ struct LoopVerdict {
   std::string worst_apart;  ///< name of one that differs
   double residual = 0;      ///< residual of completed motions over its limit
   int completed = 0;        ///< number of completed motions
+  bool unborne = false;     ///< whether nothing bears a load, so that there are no exact values
   bool clear = true;        ///< whether the exact rank is far from the tolerance
   int states = 0;
 

@@ -25,13 +25,12 @@ Matrix3l rotationOf(const Eigen::Vector3d& rpy) {
   return turn(2, rpy.z()) * turn(1, rpy.y()) * turn(0, rpy.x());
 }
 
+// Roll is found after yaw is turned back, as near a pitch of a right angle each alone is uncertain.
 Eigen::Vector3d rpyOf(const Matrix3l& R) {
-  const long double pitch = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
-  if (std::hypot(R(0, 0), R(1, 0)) <
-      1e-15L) {  // only the sum or the difference of the other two matters
-    return Vector3l(0, pitch, std::atan2(-R(0, 1), R(1, 1))).cast<double>();
-  }
-  return Vector3l(std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))).cast<double>();
+  const long double yaw = std::atan2(R(1, 0), R(0, 0));
+  const Matrix3l back = turn(2, -yaw) * R;
+  return Vector3l(std::atan2(-back(1, 2), back(1, 1)), std::atan2(-R(2, 0), back(0, 0)), yaw)
+      .cast<double>();
 }
 
 // The coordinates that move a link.
@@ -92,10 +91,7 @@ void StructuredLoops::chooseStyle() {
   spread_of_masses_ = random_.chance(0.3) ? random_.uniform(0, 12) : 0;
   spread_of_sizes_ = random_.chance(0.2) ? random_.uniform(0, 1) : 0;
   special_positions_ = random_.chance(0.5);
-  // Where origins of joints coincide, this is the size of loops: what is large beside it is a
-  // matter of the scale that moments are compared at.
-  const bool may_be_small = axes_ == Axes::kThroughOnePoint || axes_ == Axes::kInOneLine;
-  beside_ = random_.chance(0.5) ? std::pow(10, random_.uniform(may_be_small ? -4 : -14, -1)) : 0;
+  beside_ = random_.chance(0.5) ? std::pow(10, random_.uniform(-14, -1)) : 0;
 }
 
 Link StructuredLoops::link(int index) {

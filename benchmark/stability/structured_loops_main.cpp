@@ -72,12 +72,14 @@ int run(const Options& options) {
   for (std::size_t i = 0; i < std::min(kMostLines, sum.wrong.size()); ++i) {
     std::printf("%s\n", sum.wrong[i].c_str());
   }
-  std::printf(
-      "%d scenes: %d refused, as too few joints are actuated, %d in singular positions, %d whose "
-      "rank is too close to the tolerance to judge\n%d components, %d of them not determined; "
-      "largest error %.3g of the bound, largest condition %.3g\n%zu wrong\n",
-      sum.scenes, sum.refused, sum.singular, sum.unclear, sum.components, sum.open, sum.over_bound,
-      sum.condition, sum.wrong.size());
+  std::printf("%d scenes: %d refused, as too few joints are actuated\n", sum.scenes, sum.refused);
+  std::printf("%d not judged, as all loops are below 1e-4 of the mechanism\n", sum.small);
+  std::printf("%d in singular positions, of %d of which nothing bears the load\n", sum.singular,
+              sum.unborne);
+  std::printf("%d whose rank is too close to the tolerance to judge\n", sum.unclear);
+  std::printf("%d components, %d of them not determined; largest error %.3g of the bound\n",
+              sum.components, sum.open, sum.over_bound);
+  std::printf("largest condition %.3g\n%zu wrong\n", sum.condition, sum.wrong.size());
   return sum.wrong.empty() ? 0 : 1;
 }
 

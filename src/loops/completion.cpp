@@ -67,8 +67,8 @@ std::vector<RowBlock> conditionBlocks(const LoopGroup& group, const LoopKinemati
 }
 
 Eigen::VectorXd sizesOf(const Mechanism& mechanism, const LoopKinematics& kinematics,
-                        const LoopGroup& group, double length) {
-  const ConditionSizes sizes(mechanism, kinematics, group, length);
+                        const LoopGroup& group, double length, double rank_tolerance) {
+  const ConditionSizes sizes(mechanism, kinematics, group, length, rank_tolerance);
   Eigen::VectorXd by_row(ownConditions(group, kinematics));
   Eigen::Index row = 0;
   for (std::size_t local = 0; local < group.sets.size(); ++local) {
@@ -89,7 +89,8 @@ LoopCompletion::System::System(const Mechanism& mechanism, const LoopKinematics&
                                const LoopGroup& own, double rank_tolerance, double length)
     : group(own),
       qr(conditionBlocks(own, kinematics), static_cast<int>(own.coordinates.size())),
-      rank(sizesOf(mechanism, kinematics, own, length), qr.columns(), rank_tolerance),
+      rank(sizesOf(mechanism, kinematics, own, length, rank_tolerance), qr.columns(),
+           rank_tolerance),
       wanted(own.coordinates.size()) {}
 
 LoopCompletion::LoopCompletion(const Mechanism& mechanism, const LoopKinematics& kinematics,

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 namespace virtual_work_dynamics {
 
 namespace {
 
-// Least extent of a loop that counts, as a fraction of the length: what lies closer together may do
-// so by rounding errors of positions only.
-constexpr double kLeastExtent = 1e-4;
+// Least lever of a row, as a fraction of the length: times the default tolerance of the rank it is
+// some ten rounding errors of positions.
+constexpr double kLeastLever = 1e-4;
 
 // The largest distance between these origins and those of joints on a path.
 double extentOf(const LoopKinematics& kinematics, const std::vector<PathStep>& path,
@@ -23,29 +24,36 @@ double extentOf(const LoopKinematics& kinematics, const std::vector<PathStep>& p
   return extent;
 }
 
+// The lever of a row that misses none of a loop's axes, over the length.
+double leverOf(double extent, double length, double tolerance) {
+  const double lever = extent / length;
+  return lever > tolerance ? std::max(lever, kLeastLever) : 1;
+}
+
 }  // namespace
 
 ConditionSizes::ConditionSizes(const Mechanism& mechanism, const LoopKinematics& kinematics,
-                               const LoopGroup& group, double length) {
+                               const LoopGroup& group, double length, double tolerance) {
+  const auto add = [&](const std::vector<PathStep>& path, std::vector<Eigen::Vector3d> origins) {
+    const double extent = extentOf(kinematics, path, std::move(origins));
+    sizes_.push_back(sizesOf(mechanism, path, leverOf(extent, length, tolerance), length));
+  };
   for (const std::size_t closure : group.closures) {
-    const std::vector<PathStep>& path = kinematics.path(closure);
-    sizes_.push_back(
-        sizesOf(mechanism, path,
-                extentOf(kinematics, path,
-                         {kinematics.parentOrigin(closure), kinematics.childOrigin(closure)}),
-                length));
+    add(kinematics.path(closure),
+        {kinematics.parentOrigin(closure), kinematics.childOrigin(closure)});
   }
   for (std::size_t local = sizes_.size(); local < group.sets.size(); ++local) {
-    const std::vector<PathStep>* path = kinematics.set(group.sets[local]).levers();
-    sizes_.push_back(path ? sizesOf(mechanism, *path, extentOf(kinematics, *path, {}), length)
-                          : Sizes{0, 0});
+    if (const std::vector<PathStep>* path = kinematics.set(group.sets[local]).levers()) {
+      add(*path, {});
+    } else {
+      sizes_.push_back({0, 0});
+    }
   }
 }
 
 ConditionSizes::Sizes ConditionSizes::sizesOf(const Mechanism& mechanism,
-                                              const std::vector<PathStep>& path, double extent,
+                                              const std::vector<PathStep>& path, double lever,
                                               double length) {
-  const double lever = std::max(extent / length, kLeastExtent);
   Sizes sizes{0, 0};
   std::map<int, Sizes> by_coordinate;
   for (const PathStep& step : path) {

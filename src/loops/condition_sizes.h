@@ -16,9 +16,13 @@ namespace virtual_work_dynamics {
 /// or on which joint of a loop is cut.
 class ConditionSizes {
  public:
-  /// Takes the extents of loops at the present position of `kinematics`. `length`, m.
+  /// Takes the extents of loops at the present position of `kinematics`.
+  /// @param length of all loops, m
+  /// @param tolerance of the rank. Origins within the tolerance times the length of each other are
+  ///   one point, as closing and rounding leave them apart: a loop of one point has no extent, and
+  ///   the length is its lever.
   ConditionSizes(const Mechanism& mechanism, const LoopKinematics& kinematics,
-                 const LoopGroup& group, double length);
+                 const LoopGroup& group, double length, double tolerance);
 
   /// Size of a row of one of the group's sets. Zero when the set has no levers: its rows have the
   /// size that their entries show.
@@ -30,8 +34,8 @@ class ConditionSizes {
   struct Sizes {
     double force, moment;  // of a unit force; of a unit moment over the length, times the length
   };
-  // `extent` of the path, m
-  static Sizes sizesOf(const Mechanism& mechanism, const std::vector<PathStep>& path, double extent,
+  // `lever` over the length
+  static Sizes sizesOf(const Mechanism& mechanism, const std::vector<PathStep>& path, double lever,
                        double length);
   std::vector<Sizes> sizes_;  // by set of the group; its closures are the first
 };

@@ -39,8 +39,9 @@ Eigen::Index passages(const LoopGroup& group) {
 }
 
 Eigen::VectorXd sizesOf(const Mechanism& mechanism, const LoopKinematics& kinematics,
-                        const LoopGroup& group, const LoopUnknowns& unknowns, double length) {
-  const ConditionSizes sizes(mechanism, kinematics, group, length);
+                        const LoopGroup& group, const LoopUnknowns& unknowns, double length,
+                        double rank_tolerance) {
+  const ConditionSizes sizes(mechanism, kinematics, group, length, rank_tolerance);
   Eigen::VectorXd by_unknown(unknowns.count);
   for (std::size_t j = 0; j < unknowns.effort_rows.size(); ++j) {
     const std::size_t row = static_cast<std::size_t>(unknowns.effort_rows[j]);
@@ -69,8 +70,8 @@ LoopForces::LoopForces(const Mechanism& mechanism, const LoopKinematics& kinemat
       rank_tolerance_(scene.rank_tolerance),
       length_(length),
       qr_(unknowns_.rowBlocks(), static_cast<int>(group.coordinates.size())),
-      rank_(sizesOf(mechanism, kinematics, group, unknowns_, length), qr_.columns(),
-            rank_tolerance_),
+      rank_(sizesOf(mechanism, kinematics, group, unknowns_, length, rank_tolerance_),
+            qr_.columns(), rank_tolerance_),
       all_(group.coordinates.size(), true),
       norms_(unknowns(), mostCosts(group, unknowns())),
       load_(coordinates()),

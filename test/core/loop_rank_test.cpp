@@ -169,6 +169,35 @@ TEST(LoopRank, RoundingErrorsAreNotTheSizeOfALoop) {
   }
 }
 
+// A ball on an arm's axis holds the arm by what positions are rounded by, if by anything: 1e-13 of
+// the size of the other loop is nothing, and 1e-7 is a lever.
+TEST(LoopRank, ALoopOfOnePointIsHeldByMoreThanRoundingErrors) {
+  for (const double beside : {0.0, 1e-16, 1e-13, 1e-11, 1e-7, 1e-5, 1e-3}) {
+    for (const double size : {1e-6, 1.0, 1e6}) {
+      SCOPED_TRACE(beside * size);
+      RobotBuilder builder(2);
+      const Vector3l z = Vector3l::UnitZ(), out(size, 0, 0);
+      builder.add(JointType::kContinuous, 0, z, Matrix3l::Identity(), Vector3l::Zero());
+      builder.add(JointType::kContinuous, 1, Vector3l::UnitY(), Matrix3l::Identity(), out);
+      Scene scene;
+      Closure hinge = closureOf(ClosureType::kRevolute, frameAt("link_0", {0, 0, size}),
+                                frameAt("link_1", {0, 0, size}));
+      hinge.name = "hinge";
+      const Eigen::Vector3d ball(0, 0, beside * size);
+      scene.closures = {hinge, closureOf(ClosureType::kSpherical, frameAt("link_2", ball),
+                                         frameAt("link_1", out.cast<double>() + ball))};
+      scene.actuated = std::vector<std::string>{"joint_1"};
+      const Mechanism mechanism = builder.build();
+      if (beside > 1e-10) {
+        const ClosedLoopResults results(mechanism, scene, Motion(2));
+        EXPECT_FALSE(results.dynamics.results().singular());
+      } else {
+        EXPECT_THROW(ClosedLoopResults(mechanism, scene), SceneError);
+      }
+    }
+  }
+}
+
 // Other loops, units and the joint that is cut change neither rank nor condition.
 TEST(LoopRank, DoesNotDependOnOtherLoops) {
   for (const double y : {1e-3, 1e-8, 3e-10, 3e-11}) {

@@ -74,10 +74,29 @@ class MaximalCoordinates {
   Real largestLeftOut() const { return largest_left_out_; }
   /// The largest violation of an equation by the solution, relative to the largest load or 1 N.
   Real residual() const { return violation(x_); }
-  /// That violation relative to the largest load however small it is; 0 without loads.
-  Real relativeResidual() const {
-    const Real load = b_.cwiseAbs().maxCoeff();
-    return load == 0 ? Real(0) : (G_ * x_ - b_).cwiseAbs().maxCoeff() / load;
+  /// The largest distance of loops, of their joints and of the frames of closures, from the root's
+  /// origin, over the length that moments are compared with forces by, which counts all joints and
+  /// centres of mass.
+  Real sizeOfLoops() const {
+    long double size = 0;
+    for (const Closure& closure : scene_.closures) size = std::max(size, reachOf(closure));
+    return static_cast<Real>(size / length_);
+  }
+  /// The largest share of the loads' work along a motion that nothing holds, which nothing bears:
+  /// the sum of the works of all balances over the sum of their magnitudes; 0 without such a
+  /// motion. It does not depend on loads elsewhere.
+  Real unborne() const {
+    Real most = 0;
+    if (freeMotions() == 0) return most;
+    Eigen::FullPivLU<Matrix> lu;
+    lu.setThreshold(pivot_tolerance_);
+    const Matrix motions = lu.compute(G_.transpose()).kernel();
+    for (Eigen::Index i = 0; i < motions.cols(); ++i) {
+      const Real work = motions.col(i).dot(b_);
+      const Real largest = motions.col(i).cwiseAbs().dot(b_.cwiseAbs());
+      if (largest > 0) most = std::max(most, std::abs(work) / largest);
+    }
+    return most;
   }
 
   struct Reaction {
@@ -167,6 +186,27 @@ class MaximalCoordinates {
     std::size_t cut = 0;
     while (cuts_.at(cut).name != name) ++cut;
     return cut;
+  }
+
+  // The largest distance of a closure's frames and the joints of its loop from the root's origin.
+  long double reachOf(const Closure& closure) const {
+    long double reach = 0;
+    const auto include = [&](const Vector3l& o) {
+      reach = std::max(reach, (o - bodies_.origin(0)).norm());
+    };
+    std::vector<bool> on_loop(mechanism_.joints().size(), false);
+    for (const LinkFrame* frame : {&closure.parent, &closure.child}) {
+      include(PlacedFrame(mechanism_, bodies_, *frame).o);
+      int link = mechanism_.linkIndex(frame->link);
+      for (; link > 0; link = mechanism_.joint(mechanism_.link(link).parent_joint).parent_link) {
+        const auto joint = static_cast<std::size_t>(mechanism_.link(link).parent_joint);
+        on_loop[joint] = !on_loop[joint];
+      }
+    }
+    for (std::size_t k = 0; k < on_loop.size(); ++k) {
+      if (on_loop[k]) include(cuts_[k].o);
+    }
+    return reach;
   }
 
   static Matrix3l cross(const Vector3l& r) {
@@ -295,7 +335,9 @@ class MaximalCoordinates {
     for (std::size_t i = 0; i < terms_.size(); ++i) {
       if (actuated(mechanism_.coordinateNames()[i])) continue;
       const Vector row = effortRow(static_cast<int>(i));
-      addRow(row / static_cast<Real>(length_), static_cast<Real>(-terms_[i] / length_));
+      const bool turns = mechanism_.unitOf(static_cast<int>(i)) == Unit::kRadian;
+      const Real unit = turns ? static_cast<Real>(length_) : Real(1);
+      addRow(row / unit, static_cast<Real>(-terms_[i]) / unit);
     }
   }
 
