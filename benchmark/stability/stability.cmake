@@ -50,6 +50,12 @@ target_include_directories(structured_loops PRIVATE . ../src ../test/core)  # th
 target_link_libraries(structured_loops
   PRIVATE ${PROJECT_NAME} ${VWD_REAL113_LIBRARIES} Threads::Threads ${PROJECT_NAME}_warnings)
 
+# Assemblies from starts at which loops are open.
+add_executable(assembly_starts command_line.cpp stability/assembly_starts.cpp)
+target_include_directories(assembly_starts PRIVATE . ../src ../test/core)
+target_link_libraries(assembly_starts
+  PRIVATE ${PROJECT_NAME} Threads::Threads ${PROJECT_NAME}_warnings)
+
 if(NOT VWD_CORE_ONLY)
-  install(TARGETS stability structured_loops RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+  install(TARGETS stability structured_loops assembly_starts RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endif()
