@@ -14,25 +14,23 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// Requests the moving joints of loops when the policy weighs their reactions.
-Request effortRequest(const Mechanism& mechanism, const LoopScene& loops,
-                      const std::vector<LoopGroup>& groups) {
-  Request request;
-  if (loops.policy != RedundancyPolicy::kStiffness) return request;
-  for (const LoopGroup& group : groups) {
-    for (const LoopGroup::CrossedJoint& crossed : group.joints) {
-      const Joint& joint = mechanism.joint(crossed.joint);
-      if (crossed.moves) request.root_axes.push_back(joint.name);
-    }
-  }
+Request openTreeRequest(const Mechanism& mechanism, const Request& wanted) {
+  Request request = treeRequest(mechanism, wanted);
+  request.efforts = true;
+  request.poses = wanted.poses;
+  request.twists = wanted.twists;
   return request;
 }
 
-Request reactionRequest(const Mechanism& mechanism, const Request& wanted) {
-  Request request = treeRequest(mechanism, wanted);
+// Requests the moving joints of loops.
+Request weighedRequest(const Mechanism& mechanism, const std::vector<LoopGroup>& groups) {
+  Request request;
   request.efforts = false;
-  request.poses = wanted.poses;
-  request.twists = wanted.twists;
+  for (const LoopGroup& group : groups) {
+    for (const LoopGroup::CrossedJoint& crossed : group.joints) {
+      if (crossed.moves) request.root_axes.push_back(mechanism.joint(crossed.joint).name);
+    }
+  }
   return request;
 }
 
@@ -78,13 +76,16 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& of, const Scene& scene, const Re
                                                Axes::kLink);
   root_axes = std::make_unique<LoopReactions>(mechanism, scene, loops, groups, wanted.root_axes,
                                               &points, Axes::kRoot);
-  first_pass = std::make_unique<InverseDynamics>(mechanism, openTreeScene(scene, springs),
-                                                 effortRequest(mechanism, loops, groups));
-  for (const std::string& name : first_pass->request().root_axes) {
-    reaction_joints.push_back(mechanism.jointIndex(name));
+  const Scene open_tree = openTreeScene(scene, springs);
+  tree_pass =
+      std::make_unique<InverseDynamics>(mechanism, open_tree, openTreeRequest(mechanism, wanted));
+  if (loops.policy == RedundancyPolicy::kStiffness) {
+    weighed_pass = std::make_unique<InverseDynamics>(mechanism, wholeReactionsScene(open_tree),
+                                                     weighedRequest(mechanism, groups));
+    for (const std::string& name : weighed_pass->request().root_axes) {
+      weighed_joints.push_back(mechanism.jointIndex(name));
+    }
   }
-  second_pass =
-      std::make_unique<InverseDynamics>(mechanism, tree, reactionRequest(mechanism, wanted));
   setUsual();
 }
 

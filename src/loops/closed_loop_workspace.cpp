@@ -15,15 +15,14 @@ constexpr double kOpenEffort = 2;
 ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compiled)
     : plan(compiled),
       solvers(plan.mechanism, plan.loops, plan.groups, plan.kinematics, plan.length, plan.closures),
-      first_(plan.first_pass->makeWorkspace()),
-      second_(plan.second_pass->makeWorkspace()),
+      tree_(plan.tree_pass->makeWorkspace()),
       child_axes_(*plan.child_axes),
       root_axes_(*plan.root_axes),
       tree_reactions_(plan.mechanism.joints().size()),
       closures_(plan.closures),
       rest_(plan.assembly.size()) {
-  first_load_.wrenches.resize(plan.own_wrenches + 2 * plan.springs.size());
-  second_load_.wrenches.resize(plan.tree.applied_wrenches.size());
+  if (plan.weighed_pass) weighed_ = plan.weighed_pass->makeWorkspace();
+  load_.wrenches.resize(plan.own_wrenches + 2 * plan.springs.size());
   const auto actuated_closures = static_cast<Eigen::Index>(plan.actuated_closures.size());
   results.effort.setZero(plan.assembly.size() + actuated_closures);
   results.child_axes.resize(child_axes_.size());
@@ -47,7 +46,7 @@ ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compil
   loops.relative_residuals.resize(plan.closures);
   loops.actuated_positions.setZero(actuated_closures);
   loops.actuated_velocities.setZero(actuated_closures);
-  loops.tree_wrenches.resize(second_load_.wrenches.size());
+  loops.tree_wrenches.resize(plan.tree.applied_wrenches.size());
 }
 
 void ClosedLoopDynamics::Workspace::Impl::compute(const Motion& motion, const Load& load) {
@@ -58,7 +57,7 @@ void ClosedLoopDynamics::Workspace::Impl::compute(const Motion& motion, const Lo
   results.loops.relative_residuals = solvers.residuals.relative();
   setActuatedClosures();
   solve();
-  react(motion);
+  react();
   setDeterminacy();
   if (plan.request.determinacy || results.singular()) setDetermined();
   setExistence();
@@ -72,20 +71,22 @@ void ClosedLoopDynamics::Workspace::Impl::publishFlags() {
   results.loops.root_axes_determined = determined.root_axes;
 }
 
-// Computes the efforts of the open tree, which closures and actuators have to balance, at the
-// position and motion of the kinematics.
+// Computes efforts and reactions of the open tree, which closures and actuators have to balance, at
+// the position and motion of the kinematics.
 void ClosedLoopDynamics::Workspace::Impl::push(const Motion& motion, const Load& load) {
-  std::copy(load.wrenches.begin(), load.wrenches.end(), first_load_.wrenches.begin());
+  std::copy(load.wrenches.begin(), load.wrenches.end(), load_.wrenches.begin());
   for (std::size_t i = 0; i < plan.springs.size(); ++i) {
     const Eigen::Vector3d force = plan.springs.force(i, solvers.kinematics);
     results.loops.springs_directed[i] = plan.springs.directed(i, solvers.kinematics);
     const std::size_t end = plan.own_wrenches + 2 * i;
-    first_load_.wrenches[end] = {force, Eigen::Vector3d::Zero()};
-    first_load_.wrenches[end + 1] = {-force, Eigen::Vector3d::Zero()};
+    load_.wrenches[end] = {force, Eigen::Vector3d::Zero()};
+    load_.wrenches[end + 1] = {-force, Eigen::Vector3d::Zero()};
   }
-  plan.first_pass->compute(motion, first_load_, first_);
-  for (std::size_t i = 0; i < plan.reaction_joints.size(); ++i) {
-    tree_reactions_[static_cast<std::size_t>(plan.reaction_joints[i])] = first_.rootAxes()[i];
+  plan.tree_pass->compute(motion, load_, tree_);
+  if (!weighed_) return;
+  plan.weighed_pass->compute(motion, load_, *weighed_);
+  for (std::size_t i = 0; i < plan.weighed_joints.size(); ++i) {
+    tree_reactions_[static_cast<std::size_t>(plan.weighed_joints[i])] = weighed_->rootAxes()[i];
   }
 }
 
@@ -102,11 +103,11 @@ void ClosedLoopDynamics::Workspace::Impl::setActuatedClosures() {
 void ClosedLoopDynamics::Workspace::Impl::solve() {
   for (std::size_t i = 0; i < plan.loops.actuated.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    results.effort[row] = plan.loops.actuated[i] ? first_.effort()[row] : 0;
+    results.effort[row] = plan.loops.actuated[i] ? tree_.effort()[row] : 0;
   }
   for (LoopForces& group : solvers.forces) {
     group.setPosition();
-    group.solve(first_.effort(), tree_reactions_);
+    group.solve(tree_.effort(), tree_reactions_);
     const LoopForces::State& solution = group.solution();
     for (const LoopUnknowns::Effort& actuator : group.efforts()) {
       results.effort[static_cast<Eigen::Index>(actuator.index)] =
@@ -118,25 +119,24 @@ void ClosedLoopDynamics::Workspace::Impl::solve() {
   }
 }
 
-// Computes reactions by (3.8) with the closures' wrenches applied to both of their links.
-void ClosedLoopDynamics::Workspace::Impl::react(const Motion& motion) {
+// Adds the closures' wrenches, applied to both of their links, to the reactions of the open tree:
+// (3.8) is linear in the loads, and they change the joints between these links only.
+void ClosedLoopDynamics::Workspace::Impl::react() {
   const LoopKinematics& kinematics = solvers.kinematics;
-  std::vector<Wrench>& load = second_load_.wrenches;
-  std::copy(first_load_.wrenches.begin(), first_load_.wrenches.end(), load.begin());
+  std::vector<Wrench>& load = results.loops.tree_wrenches;
+  std::copy(load_.wrenches.begin(), load_.wrenches.end(), load.begin());
   for (std::size_t c = 0; c < closures_.size(); ++c) {
     const ClosureWrench& wrench = closures_[c];
-    const std::size_t child = first_load_.wrenches.size() + 2 * c;
+    const std::size_t child = load_.wrenches.size() + 2 * c;
     const Eigen::Vector3d lever = kinematics.childOrigin(c) - kinematics.parentOrigin(c);
     load[child] = {wrench.force, wrench.moment};
     load[child + 1] = {-wrench.force, -(wrench.moment + lever.cross(wrench.force))};
   }
-  results.loops.tree_wrenches = load;
   if (!plan.reacts) return;
-  plan.second_pass->compute(motion, second_load_, second_);
-  child_axes_.setValues(kinematics, second_.childAxes(), closures_, results.child_axes);
-  root_axes_.setValues(kinematics, second_.rootAxes(), closures_, results.root_axes);
-  if (plan.request.poses) root_axes_.setPoses(kinematics, second_.poses(), results.poses);
-  if (plan.request.twists) root_axes_.setTwists(kinematics, second_.twists(), results.twists);
+  child_axes_.setValues(kinematics, tree_.childAxes(), closures_, results.child_axes);
+  root_axes_.setValues(kinematics, tree_.rootAxes(), closures_, results.root_axes);
+  if (plan.request.poses) root_axes_.setPoses(kinematics, tree_.poses(), results.poses);
+  if (plan.request.twists) root_axes_.setTwists(kinematics, tree_.twists(), results.twists);
 }
 
 void ClosedLoopDynamics::Workspace::Impl::setDetermined() {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,9 +62,9 @@ struct ClosedLoopDynamics::Impl {
   Eigen::VectorXd assembly;
   double way = 0;  // from the scene's start, rad or over the length
   std::unique_ptr<LoopReactions> child_axes, root_axes;  // to be copied
-  // The first pass gives efforts of the tree without closures, the second reactions with them.
-  std::unique_ptr<InverseDynamics> first_pass, second_pass;
-  std::vector<int> reaction_joints;  // of the first pass
+  std::unique_ptr<InverseDynamics> tree_pass;            // efforts and reactions without closures
+  std::unique_ptr<InverseDynamics> weighed_pass;  // reactions that the policy weighs, or null
+  std::vector<int> weighed_joints;
   /// What regular positions leave open of a reaction, in some axes; see LoopResults::effort_exists.
   struct UsuallyOpen {
     Determined determined = kAllComponents;
@@ -104,16 +105,17 @@ struct ClosedLoopDynamics::Workspace::Impl {
  private:
   void push(const Motion& motion, const Load& load);
   void solve();
-  void react(const Motion& motion);
+  void react();
   void setActuatedClosures();
   void publishFlags();
   void setExistence();
   void leaveOutSprings();
   void setDeterminacy();
 
-  virtual_work_dynamics::Workspace first_, second_;  // of the two passes
+  virtual_work_dynamics::Workspace tree_;
+  std::optional<virtual_work_dynamics::Workspace> weighed_;
   LoopReactions child_axes_, root_axes_;
-  Load first_load_, second_load_;
+  Load load_;                            // without closures
   std::vector<Wrench> tree_reactions_;   // by joint
   std::vector<ClosureWrench> closures_;  // by closure
   std::vector<double> effort_freedoms_;  // sums of squared changes over leastChange()

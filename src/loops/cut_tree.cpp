@@ -34,24 +34,23 @@ std::vector<std::string> withoutClosures(const Mechanism& mechanism,
   return found;
 }
 
-Scene withSprings(const Scene& scene, const PointSprings& springs) {
+}  // namespace
+
+Scene openTreeScene(const Scene& scene, const PointSprings& springs) {
   Scene tree = withoutLoops(scene);
   const std::vector<AppliedWrench> ends = springs.wrenches();
   tree.applied_wrenches.insert(tree.applied_wrenches.end(), ends.begin(), ends.end());
   return tree;
 }
 
-}  // namespace
-
-Scene openTreeScene(const Scene& scene, const PointSprings& springs) {
-  Scene tree = withSprings(scene, springs);
-  tree.include_active = true;
-  tree.moments_about.clear();  // reactions of the open tree are about the joints' origins
-  return tree;
+Scene wholeReactionsScene(Scene open_tree) {
+  open_tree.include_active = true;
+  open_tree.moments_about.clear();
+  return open_tree;
 }
 
 Scene closedTreeScene(const Scene& scene, const PointSprings& springs) {
-  Scene tree = withSprings(scene, springs);
+  Scene tree = openTreeScene(scene, springs);
   for (const Closure& closure : scene.closures) {
     for (const LinkFrame* frame : {&closure.child, &closure.parent}) {
       AppliedWrench wrench;

@@ -13,13 +13,16 @@ namespace virtual_work_dynamics {
 /// The scene without closures, springs, passive joints and reactions.
 Scene withoutLoops(const Scene& scene);
 
-/// The scene for efforts without closures. Each spring has two wrenches after the scene's own, on
-/// link_a and on link_b. Reactions of joints are whole, even where the scene leaves the active part
-/// out.
+/// The scene without closures. Each spring has two wrenches after the scene's own, on link_a and on
+/// link_b.
 Scene openTreeScene(const Scene& scene, const PointSprings& springs);
 
-/// The scene for reactions with closures. After the springs' wrenches each closure has two, on its
-/// child and on its parent, at the origins of its frames.
+/// The same with reactions of joints that are whole, even where the scene leaves the active part
+/// out, and about the joints' origins.
+Scene wholeReactionsScene(Scene open_tree);
+
+/// The scene with closures as loads. After the springs' wrenches each closure has two, on its child
+/// and on its parent, at the origins of its frames.
 Scene closedTreeScene(const Scene& scene, const PointSprings& springs);
 
 /// Whether a name of a reaction is that of a closure, which the tree does not have.

@@ -360,17 +360,13 @@ void LoopForces::setClosures(State& state) const {
   }
 }
 
-// A closure that bears a link relieves the joints that carry that link.
 ClosureWrench LoopForces::jointWrench(const LoopGroup::CrossedJoint& crossed,
                                       const State& state) const {
   ClosureWrench sum;
   const Eigen::Vector3d& origin = kinematics_.originOf(crossed.joint + 1);
   for (const LoopGroup::Passage& passage : crossed.passages) {
-    const ClosureWrench& wrench = state.closures[passage.closure];
-    const Eigen::Vector3d lever =
-        kinematics_.childOrigin(group_.closures[passage.closure]) - origin;
-    sum.force -= passage.sign * wrench.force;
-    sum.moment -= passage.sign * (wrench.moment + lever.cross(wrench.force));
+    kinematics_.addRelief(group_.closures[passage.closure], passage.sign,
+                          state.closures[passage.closure], origin, sum);
     if (passage.closure == state.shifted) sum.moment -= passage.sign * state.shift;
   }
   return sum;

@@ -92,6 +92,17 @@ class LoopKinematics {
     }
   }
 
+  /// Adds what a closure's wrench on its child, and its opposite on the parent, change of the
+  /// wrench of a joint on the closure's path, about `origin`: a closure that bears a link relieves
+  /// the joints that carry that link.
+  /// @param sign PathStep::sign of the joint
+  void addRelief(std::size_t closure, double sign, const ClosureWrench& wrench,
+                 const Eigen::Vector3d& origin, ClosureWrench& sum) const {
+    const Eigen::Vector3d lever = childOrigin(closure) - origin;
+    sum.force -= sign * wrench.force;
+    sum.moment -= sign * (wrench.moment + lever.cross(wrench.force));
+  }
+
   const LinkKinematics& links() const { return state_.links; }
   const Eigen::Matrix3d& axesOf(int link) const { return links().axesOf(link); }
   const Eigen::Vector3d& originOf(int link) const { return links().originOf(link); }

@@ -54,6 +54,7 @@ LoopReactions::LoopReactions(const Mechanism& mechanism, const Scene& scene, con
     }
     if (points) setPoint(*points, items_.back());
   }
+  addPassages(groups);
   addChanges(groups);
   freedoms_.resize(names.size());
   spans_.resize(names.size());
@@ -88,6 +89,25 @@ void LoopReactions::setPoint(const MomentPoints& points, Item& item) {
                                      : points.ofJoint(item.joint);
   if (!point) return;
   item.point = {point->link, Eigen::Matrix3d::Identity(), point->p_LoPo_L.cast<double>()};
+}
+
+void LoopReactions::addPassages(const std::vector<LoopGroup>& groups) {
+  std::vector<std::vector<Item*>> items_of;  // by joint
+  for (Item& item : items_) {
+    if (item.joint < 0) continue;
+    items_of.resize(std::max(items_of.size(), static_cast<std::size_t>(item.joint) + 1));
+    items_of[static_cast<std::size_t>(item.joint)].push_back(&item);
+  }
+  for (const LoopGroup& group : groups) {
+    for (const LoopGroup::CrossedJoint& crossed : group.joints) {
+      if (static_cast<std::size_t>(crossed.joint) >= items_of.size()) continue;
+      for (Item* item : items_of[static_cast<std::size_t>(crossed.joint)]) {
+        for (const LoopGroup::Passage& passage : crossed.passages) {
+          item->passages.push_back({group.closures[passage.closure], passage.sign});
+        }
+      }
+    }
+  }
 }
 
 void LoopReactions::addChanges(const std::vector<LoopGroup>& groups) {
@@ -153,13 +173,23 @@ void LoopReactions::setValues(const LoopKinematics& kinematics, const std::vecto
                               std::vector<Wrench>& values) const {
   std::size_t of_tree = 0;
   for (std::size_t i = 0; i < items_.size(); ++i) {
-    if (items_[i].closure < 0) {
-      values[i] = tree[of_tree++];
-    } else {
-      const auto wrench =
-          reported(kinematics, items_[i], closures[static_cast<std::size_t>(items_[i].closure)]);
+    const Item& item = items_[i];
+    if (item.closure >= 0) {
+      const ClosureWrench wrench =
+          reported(kinematics, item, closures[static_cast<std::size_t>(item.closure)]);
       values[i] = {wrench.force, wrench.moment};
+      continue;
     }
+    values[i] = tree[of_tree++];
+    if (item.passages.empty()) continue;
+    ClosureWrench sum;
+    const Eigen::Vector3d& origin = kinematics.originOf(item.joint + 1);
+    for (const LoopGroup::Passage& passage : item.passages) {
+      kinematics.addRelief(passage.closure, passage.sign, closures[passage.closure], origin, sum);
+    }
+    const ClosureWrench added = reported(kinematics, item, sum);
+    values[i].force += added.force;
+    values[i].torque += added.moment;
   }
 }
 

@@ -25,9 +25,9 @@ class LoopReactions {
                 const std::vector<LoopGroup>& groups, const std::vector<std::string>& names,
                 const MomentPoints* points, Axes axes);
 
-  /// Sets the reactions.
+  /// Sets the reactions: those of the open tree, and on the joints of loops what closures add.
   /// @param tree those of joints and ground, in the order of treeRequest()
-  /// @param closures by closure
+  /// @param closures wrenches on the child, root axes, about the child frame's origin; by closure
   void setValues(const LoopKinematics& kinematics, const std::vector<Wrench>& tree,
                  const std::vector<ClosureWrench>& closures, std::vector<Wrench>& values) const;
   /// Sets the poses of the joints' frames and of the closures' child frames, at the points of their
@@ -69,6 +69,7 @@ class LoopReactions {
     Unit active = Unit::kRadian;  ///< what its motion about or along its axis measures
     bool drops_active = false;
     std::optional<LinkKinematics::Frame> point;  ///< of the moment, where it is not the origin
+    std::vector<LoopGroup::Passage> passages;    ///< of all closures through a joint, by closure
   };
   /// An item that a group of loops can change.
   struct Change {
@@ -83,6 +84,7 @@ class LoopReactions {
   static void setPoint(const MomentPoints& points, Item& item);
   static Item itemOfClosure(const Scene& scene, const LoopScene& loops, std::size_t closure);
   static Item itemOfJoint(const Mechanism& mechanism, const Scene& scene, const std::string& name);
+  void addPassages(const std::vector<LoopGroup>& groups);
   static Eigen::Vector3d originOf(const LoopKinematics& kinematics, const Item& item);
   static Eigen::Vector3d leverOf(const LoopKinematics& kinematics, const Item& item);
   template <typename Visit>
