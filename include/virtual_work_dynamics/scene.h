@@ -150,7 +150,8 @@ enum class ReactionSelection {
 /// What acts on a mechanism and which of its forces a user asks for; names are resolved when the
 /// scene is compiled (InverseDynamics).
 struct Scene {
-  Eigen::Vector3d gravity{0, 0, -9.81};  ///< m/s^2, axes of the root link
+  Eigen::Vector3d gravity{0, 0, -9.81};  ///< m/s^2, inertial axes: those of a root link that rests
+  bool root_moves = false;               ///< motions say how the root link moves, Motion::root
   bool static_motion = false;            ///< velocities and accelerations are taken as zero
   ReactionSelection reactions = ReactionSelection::kAll;
   std::vector<std::string> reaction_names;

@@ -13,7 +13,7 @@ namespace virtual_work_dynamics {
 namespace {
 
 const Names kSceneKeys = {
-    "gravity",        "motion",           "reactions", "include_active",    "moments_about",
+    "gravity",        "root",             "motion",           "reactions", "include_active",    "moments_about",
     "strict_inertia", "applied_wrenches", "joints",    "use_urdf_dynamics", "tolerances"};
 // Bytes, beyond those of the most values that a scene may have.
 constexpr std::size_t kLongestScene = std::size_t{64} << 20;
@@ -125,6 +125,7 @@ void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
     failAtUnknownKey("", key, known);
   }
   if (key == "gravity") scene.gravity = readVector3(value, key);
+  if (key == "root") scene.root_moves = readWord(value, key, {"fixed", "moving"}) == 1;
   if (key == "motion") scene.static_motion = readWord(value, key, {"full", "static"}) == 1;
   if (key == "reactions") readReactions(value, scene);
   if (key == "include_active") scene.include_active = readBool(value, key);
