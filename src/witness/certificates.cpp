@@ -9,6 +9,7 @@
 #include "base/aligned_memory.h"
 #include "scene/input_checks.h"
 #include "scene/joint_terms.h"
+#include "scene/payloads.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/instruction_set.h"
 #include "witness/geared_angle.h"
@@ -233,7 +234,7 @@ struct Certifier::Impl {
 };
 
 Certifier::Certifier(const Mechanism& mechanism, const Scene& scene)
-    : impl_(new Impl(mechanism, openChain(scene))) {}
+    : impl_(new Impl(LoadedMechanism(mechanism, scene).get(), openChain(scene))) {}
 
 Certifier::~Certifier() = default;
 Certifier::Certifier(Certifier&&) noexcept = default;

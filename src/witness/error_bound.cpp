@@ -6,6 +6,7 @@
 
 #include "scene/input_checks.h"
 #include "scene/joint_terms.h"
+#include "scene/payloads.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -219,7 +220,7 @@ struct ErrorBound::Impl {
 };
 
 ErrorBound::ErrorBound(const Mechanism& mechanism, const Scene& scene)
-    : impl_(new Impl(mechanism, openChain(scene))) {}
+    : impl_(new Impl(LoadedMechanism(mechanism, scene).get(), openChain(scene))) {}
 
 ErrorBound::~ErrorBound() = default;
 ErrorBound::ErrorBound(ErrorBound&&) noexcept = default;

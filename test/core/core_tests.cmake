@@ -100,6 +100,7 @@ set(core_test_files
   test/core/plan_merging_test.cpp
   test/core/plan_reduction_test.cpp
   test/core/plan_summary_test.cpp
+  test/core/payload_test.cpp
   test/core/point_springs_test.cpp
   test/core/power_test.cpp
   test/core/printable_test.cpp

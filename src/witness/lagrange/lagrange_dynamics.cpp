@@ -4,6 +4,7 @@
 #include <string>
 
 #include "scene/input_checks.h"
+#include "scene/payloads.h"
 #include "virtual_work_dynamics/error.h"
 #include "witness/geared_angle.h"
 #include "witness/lagrange/lagrange_equations.h"
@@ -274,7 +275,7 @@ void LagrangeDynamics<Real>::Impl::output() {
 template <typename Real>
 LagrangeDynamics<Real>::LagrangeDynamics(const Mechanism& mechanism, const Scene& scene,
                                          const Request& request)
-    : impl_(new Impl(mechanism, scene, request)) {}
+    : impl_(new Impl(LoadedMechanism(mechanism, scene).get(), scene, request)) {}
 
 template <typename Real>
 LagrangeDynamics<Real>::~LagrangeDynamics() = default;
