@@ -23,6 +23,8 @@ struct MotionBlock {
   const Real* q = nullptr;    ///< positions, coordinates() numbers a sample, rad or m
   const Real* qd = nullptr;   ///< velocities, as many numbers a sample, rad/s or m/s
   const Real* qdd = nullptr;  ///< accelerations, as many numbers a sample, rad/s^2 or m/s^2
+  /// The RootState of each sample, 9 numbers in its order; read where the scene's root moves.
+  const Real* root = nullptr;
 };
 
 /// Where results of N samples go; the arrays belong to the caller, and results whose array is null

@@ -41,6 +41,10 @@ class InverseDynamics {
   Eigen::Index coordinates() const;
   const Request& request() const;
   InstructionSet instructionSet() const;
+  /// Whether the scene's root link moves: motions then say how, Motion::root.
+  bool rootMoves() const;
+  /// What a MotionBlock takes of the motion of a root link, in the scene's gravity.
+  RootState rootState(const RootMotion& motion) const;
   /// Says what was left out, and counts the operations that remain. Allocates; runs the recursion
   /// once.
   PlanSummary summary() const;

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "virtual_work_dynamics/root_motion.h"
+
 namespace virtual_work_dynamics {
 
 /// A motion as a table: row i of each matrix belongs to times[i], column j to joints[j]. Wrenches
@@ -17,6 +19,10 @@ struct MotionTable {
   /// Covariances of (q, qd, qdd), see MotionCovariance: rows x joints, row after row; empty: not
   /// known.
   std::vector<Eigen::Matrix3d> covariances;
+
+  std::vector<RootMotion> roots;  ///< by row: how the root link moves; empty: not given
+  std::vector<std::string> roots_lack;  ///< members of RootMotion that `roots` were not given
+  double orientation_error = 0;  ///< how far the lengths of given orientations were off 1
 
   std::vector<std::string> wrenches;  ///< names of applied wrenches
   Eigen::MatrixXd wrench_values;      ///< rows x 6 wrenches: fx fy fz tx ty tz of each, N and N m

@@ -29,6 +29,14 @@ struct AppliedWrench {
   bool invert = false;
 };
 
+/// A rigid body that is fixed on a link, besides what the description says of the link.
+struct Payload {
+  std::string link;
+  double mass = 0;                                  ///< kg, more than zero
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();     ///< centre of mass, link frame, m
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about it, axes of the link, kg m^2
+};
+
 /// Frame of a joint or closure.
 enum class JointFrame {
   kParent,  ///< fixed on the parent link: a joint's at its position zero, a closure's parent frame
@@ -150,7 +158,8 @@ enum class ReactionSelection {
 /// What acts on a mechanism and which of its forces a user asks for; names are resolved when the
 /// scene is compiled (InverseDynamics).
 struct Scene {
-  Eigen::Vector3d gravity{0, 0, -9.81};  ///< m/s^2, axes of the root link
+  Eigen::Vector3d gravity{0, 0, -9.81};  ///< m/s^2, inertial axes: those of a root link that rests
+  bool root_moves = false;               ///< motions say how the root link moves, Motion::root
   bool static_motion = false;            ///< velocities and accelerations are taken as zero
   ReactionSelection reactions = ReactionSelection::kAll;
   std::vector<std::string> reaction_names;
@@ -159,6 +168,7 @@ struct Scene {
   /// Moments that are reported about points of their own, of reactions that are asked for.
   std::vector<MomentPoint> moments_about;
   bool strict_inertia = false;  ///< impossible inertias are an error rather than a doubt
+  std::vector<Payload> payloads;
   std::vector<AppliedWrench> applied_wrenches;
   std::vector<JointTerms> joints;  ///< terms of some joints, each once
   /// True: damping and friction of the description count for joints whose terms do not give them.

@@ -3,9 +3,10 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// The scene without what does not come from masses and inertias of links.
+// The scene without what does not come from masses and inertias of the description.
 Scene bare(Scene scene) {
   scene.applied_wrenches.clear();
+  scene.payloads.clear();
   scene.springs.clear();
   scene.joints.clear();
   scene.use_urdf_dynamics = false;

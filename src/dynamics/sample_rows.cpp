@@ -44,6 +44,7 @@ struct SampleRows::Loops {
                           std::to_string(dynamics.coordinates()) + " coordinates is needed");
       }
     }
+    if (dynamics.tree().root_moves) requireRoots(table, first + count);
     for (std::size_t i = 0; loads && i < count; ++i) requireLoad(loads[i], wrenches);
     struct Job {
       Loops& all;
@@ -123,6 +124,7 @@ const Results& SampleRows::read(std::size_t index) {
 }
 
 void takeRow(const MotionTable& table, std::size_t row, Motion& motion) {
+  if (!table.roots.empty()) motion.root = table.roots[row];
   if (motion.q.size() == 0) return;  // a table without columns has no rows
   const auto index = static_cast<Eigen::Index>(row);
   motion.q = table.positions.row(index);

@@ -46,11 +46,13 @@ void markKnown(const Results& results, std::vector<bool>& known) {
 }
 
 ShiftedChain::ShiftedChain(const InverseDynamics& dynamics, const Load& own, int levels)
-    : block_(dynamics, 1, dynamics.instructionSet()),
+    : dynamics_(dynamics),
+      block_(dynamics, 1, dynamics.instructionSet()),
       coordinates_(block_.coordinates()),
       samples_(wholePacks(1 + static_cast<std::size_t>(levels) * coordinates_,
                           packWidth(dynamics.instructionSet()))),
       inputs_(3 * coordinates_ * samples_),
+      root_(dynamics.rootMoves() ? RootState::kNumbers * samples_ : 0),
       position_(dynamics.coordinates()),
       loads_(samples_, own) {
   const ResultNumbers numbers(dynamics.makeWorkspace().results());
@@ -82,10 +84,21 @@ void ShiftedChain::compute(const Motion& motion, const Eigen::MatrixXd& shifts,
       samples[1 + level * coordinates_ + i] = value + shifts(row, static_cast<Eigen::Index>(level));
     }
   }
+  setRoots(motion);
   setLoads(motion, shifts, law);
   const double* const inputs = inputs_.data();
   block_.compute(BlockLayout::kStructureOfArrays,
-                 {samples_, inputs, inputs + size, inputs + 2 * size}, loads_.data(), results_);
+                 {samples_, inputs, inputs + size, inputs + 2 * size, root_.data()},
+                 loads_.data(), results_);
+}
+
+// The root's motion is the same in all samples.
+void ShiftedChain::setRoots(const Motion& motion) {
+  if (root_.empty()) return;
+  const RootState state = dynamics_.rootState(motion.root);
+  for (std::size_t c = 0; c < RootState::kNumbers; ++c) {
+    std::fill_n(&root_[c * samples_], samples_, state.data()[c]);
+  }
 }
 
 // Only shifts of positions change the load.

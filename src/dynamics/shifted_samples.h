@@ -63,6 +63,7 @@ class ShiftedSamples {
 /// Samples of an open chain: a block, in which all values of a number lie one after the other.
 class ShiftedChain : public ShiftedSamples {
  public:
+  /// @param dynamics must outlive it
   /// @param own the scene's load
   ShiftedChain(const InverseDynamics& dynamics, const Load& own, int levels);
 
@@ -73,12 +74,14 @@ class ShiftedChain : public ShiftedSamples {
   const std::vector<bool>& known() const override { return known_; }
 
  private:
+  void setRoots(const Motion& motion);
   void setLoads(const Motion& motion, const Eigen::MatrixXd& shifts, const LoadLaw& law);
 
+  const InverseDynamics& dynamics_;
   BlockInverseDynamics<double> block_;
   const std::size_t coordinates_;
   std::size_t samples_;  // whole packs of vector instructions
-  std::vector<double> inputs_, outputs_;
+  std::vector<double> inputs_, root_, outputs_;
   ResultBlock<double> results_;
   Eigen::VectorXd position_;  // of a sample
   std::vector<Load> loads_;   // of the samples

@@ -13,6 +13,7 @@
 #include "base/text_file.h"
 #include "base/wrench_components.h"
 #include "motion/motion_text.h"
+#include "motion/root_columns.h"
 #include "motion/wrench_columns.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -61,6 +62,7 @@ std::string columnHelp(std::string_view column) {
            "inverse_dynamics_node, or rename them";
   }
   if (column.substr(0, 7) == "wrench.") return std::string(", ") + kWrenchColumns;
+  if (column.substr(0, 5) == "root.") return std::string(", ") + kRootColumns;
   const std::size_t point = std::min(column.find('.'), column.size());
   const std::vector<std::string> kinds(kKinds.begin(), kKinds.end());
   const std::string time = nearestName(std::string(column), {kTime});
@@ -231,7 +233,7 @@ class CsvReader {
     }
     std::vector<std::size_t> numbers;
     const std::vector<double> values = readRows(numbers);
-    fillTable(values);
+    fillTable(values, numbers);
     if (line_numbers != nullptr) *line_numbers = std::move(numbers);
     return std::move(table_);
   }
@@ -267,7 +269,7 @@ class CsvReader {
 
   void checkKind(std::size_t column, const std::string& column_name) const {
     if (column_name == kTime || isOf(kKinds, column_name) || isOf(kIgnored, column_name) ||
-        !wrenchOf(column_name).empty()) {
+        !wrenchOf(column_name).empty() || isRootColumn(column_name)) {
       return;
     }
     throw FileError(atCell(header_line_, column) + ": " + inQuotes(column_name) +
@@ -286,7 +288,8 @@ class CsvReader {
   }
 
   // Decides for each column where its value goes in a row of targets, or -1 for nowhere. The
-  // targets are the time, then each kind that is given, joint by joint, then the wrenches.
+  // targets are the time, then each kind that is given, joint by joint, then the wrenches and the
+  // root.
   void assignColumns() {
     target_of_column_.assign(header_.size(), -1);
     assign(kTime, 0);
@@ -308,6 +311,10 @@ class CsvReader {
       for (const char* component : kWrenchComponents) {
         assign(wrenchColumn(wrench, component), target++, ": a wrench has all six");
       }
+    }
+    root_columns_ = rootColumnsOf(header_);
+    for (const std::string& column : root_columns_) {
+      assign(column, target++, ", though other components of it are there");
     }
     targets_ = static_cast<std::size_t>(target);
   }
@@ -391,7 +398,7 @@ class CsvReader {
         "): " + (cell.empty() ? "the cell is empty" : inQuotes(cell) + " is not a finite number"));
   }
 
-  void fillTable(const std::vector<double>& values) {
+  void fillTable(const std::vector<double>& values, const std::vector<std::size_t>& numbers) {
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const Eigen::Map<const RowMajor> rows(values.data(),
                                           static_cast<Eigen::Index>(values.size() / targets_),
@@ -409,7 +416,14 @@ class CsvReader {
       *matrices[kind] = rows.middleCols(start, joints);
       start += joints;
     }
-    table_.wrench_values = rows.rightCols(rows.cols() - start);
+    const auto wrenches = static_cast<Eigen::Index>(6 * table_.wrenches.size());
+    table_.wrench_values = rows.middleCols(start, wrenches);
+    const std::size_t row =
+        takeRoots(root_columns_, rows.rightCols(rows.cols() - start - wrenches), table_);
+    if (row < numbers.size()) {
+      throw FileError(atLine(numbers[row]) + ": " + rootColumnsText("orientation") + " has the length " +
+                      numberText(table_.roots[row].orientation.norm()) + ", not 1");
+    }
   }
 
   Lines lines_;
@@ -418,6 +432,7 @@ class CsvReader {
   bool ends_with_comma_ = false;    // the header, and so its rows may
   std::vector<std::string> cells_;  // of a line with quotes
   std::vector<std::string> header_;
+  std::vector<std::string> root_columns_;
   std::map<std::string, std::size_t> column_of_name_;
   std::vector<int> target_of_column_;
   std::size_t targets_ = 0;

@@ -8,6 +8,7 @@ vwd_core(
   motion_estimator.cpp
   motion_law.cpp
   recording.cpp
+  root_columns.cpp
   sample_blocks.cpp
   sample_clock.cpp
   shown_noise.cpp

@@ -21,6 +21,7 @@
 #include "offline/output_file.h"
 #include "offline/recorded_motion.h"
 #include "offline/result_writer.h"
+#include "offline/root_rows.h"
 #include "offline/row_loads.h"
 #include "offline/rows.h"
 #include "virtual_work_dynamics/dynamics.h"
@@ -148,6 +149,7 @@ void printMotion(const MotionFile& motion) {
 RecordedMotion readStart(const Arguments& arguments, const Mechanism& mechanism, Scene& scene) {
   RecordedMotion recorded =
       readRecordedMotion(arguments.motion, mechanism, scene, arguments.recording);
+  checkRoots(scene, recorded.file);
   if (!needsClosedLoops(scene)) return recorded;
   try {
     scene = startedBy(mechanism, scene, recorded.start(mechanism));
@@ -194,6 +196,7 @@ void check(const Arguments& arguments, const Mechanism& mechanism) {
   if (!arguments.motion.empty()) recorded = readStart(arguments, mechanism, scene);
   const Dynamics dynamics =
       dynamicsOf(mechanism, scene, requestOf(mechanism, scene, arguments), arguments);
+  if (scene.root_moves) printNames(std::cout, "root", {"moves as columns root.… say"});
   if (dynamics.closed()) printLoops(std::cout, mechanism, scene, dynamics);
   for (const std::string& doubt : dynamics.assemblyDoubts()) {
     std::cout << "warning: " << doubt << "\n";
@@ -261,6 +264,9 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   if (certified) {
     std::cerr << "note: " << arguments.motion
               << ": certificates judge arithmetic, not input: " << certified->summary() << "\n";
+  }
+  if (deviations && scene.root_moves) {
+    std::cerr << "note: " << arguments.motion << ": deviations take the root's motion as exact\n";
   }
   if (deviations) std::cerr << deviations->notes(arguments.deviation_warn.value_or(kDeviationWarn));
   writer.finish();

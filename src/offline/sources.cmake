@@ -13,6 +13,7 @@ foreach(file
     output_file.cpp
     recorded_motion.cpp
     result_writer.cpp
+    root_rows.cpp
     row_loads.cpp
     rows.cpp
     watched_file.cpp)

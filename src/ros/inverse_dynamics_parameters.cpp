@@ -206,6 +206,10 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   const YAML::Node scene = sceneDocument(parameters.raw("scene"));
   parameters.refuseUnknown();
   result.scene = readScene(scene);
+  if (result.scene.root_moves) {
+    throw SceneError("root: moving: the node is not told how the root link moves; "
+                     "inverse_dynamics_offline is, by columns root.…");
+  }
   readRobotDescription(private_node, result);
   return result;
 }

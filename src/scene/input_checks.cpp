@@ -25,6 +25,12 @@ void requireLengths(const Motion& motion, Eigen::Index coordinates) {
   requireLength("qdd", motion.qdd.size(), coordinates);
 }
 
+void requireRoots(const MotionTable& table, std::size_t rows) {
+  if (table.roots.size() >= rows) return;
+  throw MotionError("motion: the root moves, and " + std::to_string(table.roots.size()) +
+                    " of its motions are given; needed are " + std::to_string(rows));
+}
+
 void requireLoad(const Load& load, std::size_t applied) {
   if (load.wrenches.size() == applied) return;
   throw SceneError("load: it has " + std::to_string(load.wrenches.size()) +

@@ -8,12 +8,17 @@
 #include "virtual_work_dynamics/load.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
+#include "virtual_work_dynamics/motion_table.h"
 #include "virtual_work_dynamics/scene.h"
 
 namespace virtual_work_dynamics {
 
 /// Checks a motion. @throws MotionError naming the first vector whose length is not `coordinates`.
 void requireLengths(const Motion& motion, Eigen::Index coordinates);
+
+/// Checks a table of a robot whose root moves. @throws MotionError unless its first `rows` have motions
+/// of the root.
+void requireRoots(const MotionTable& table, std::size_t rows);
 
 /// Checks a load. @throws SceneError when it has not one wrench for each of the `applied` ones of
 /// the scene.

@@ -13,13 +13,15 @@ namespace virtual_work_dynamics {
 namespace {
 
 const Names kSceneKeys = {
-    "gravity",        "motion",           "reactions", "include_active",    "moments_about",
-    "strict_inertia", "applied_wrenches", "joints",    "use_urdf_dynamics", "tolerances"};
+    "gravity",        "root",             "motion",           "reactions", "include_active",    "moments_about",
+    "strict_inertia", "applied_wrenches", "joints",    "use_urdf_dynamics", "tolerances",
+    "payload"};
 // Bytes, beyond those of the most values that a scene may have.
 constexpr std::size_t kLongestScene = std::size_t{64} << 20;
 const Names kWrenchKeys = {"name", "link", "at", "axes", "force", "torque", "live", "invert"};
 // What the messages or columns of a live wrench say instead.
 const Names kMeasured = {"at", "axes", "force", "torque"};
+const Names kPayloadKeys = {"link", "mass", "at", "inertia"};
 const Names kMomentKeys = {"name", "frame", "link", "at"};
 const Names kToleranceKeys = {"mass", "inertia"};
 const Names kJointKeys = {"name",    "stiffness",        "rest",          "damping",
@@ -59,6 +61,33 @@ AppliedWrench readAppliedWrench(const YAML::Node& node, const std::string& where
     failAt(where + "." + fixed, "a live wrench has none: what it receives says so");
   }
   return wrench;
+}
+
+Eigen::Matrix3d readInertia(const YAML::Node& node, const std::string& key) {
+  if (!node.IsSequence() || node.size() != 6) {
+    failAt(key, "expected a list of six numbers: ixx, ixy, ixz, iyy, iyz, izz");
+  }
+  double numbers[6];
+  for (std::size_t i = 0; i < 6; ++i) numbers[i] = readNumber(node[i], key);
+  const auto [xx, xy, xz, yy, yz, zz] = numbers;
+  Eigen::Matrix3d inertia;
+  inertia << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  return inertia;
+}
+
+Payload readPayload(const YAML::Node& node, const std::string& where) {
+  Payload payload;
+  bool has_mass = false;
+  readMap(node, where, kPayloadKeys, [&](const auto& key, const auto& value, const auto& path) {
+    if (key == "link") payload.link = scalarText(value, path, "a link's name");
+    if (key == "mass") payload.mass = readNumber(value, path);
+    if (key == "mass") has_mass = true;
+    if (key == "at") payload.at = readVector3(value, path);
+    if (key == "inertia") payload.inertia = readInertia(value, path);
+  });
+  if (payload.link.empty()) failAt(where, "names no link");
+  if (!has_mass) failAt(where, "has no mass");
+  return payload;
 }
 
 MomentPoint readMomentPoint(const YAML::Node& node, const std::string& where) {
@@ -125,12 +154,14 @@ void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
     failAtUnknownKey("", key, known);
   }
   if (key == "gravity") scene.gravity = readVector3(value, key);
+  if (key == "root") scene.root_moves = readWord(value, key, {"fixed", "moving"}) == 1;
   if (key == "motion") scene.static_motion = readWord(value, key, {"full", "static"}) == 1;
   if (key == "reactions") readReactions(value, scene);
   if (key == "include_active") scene.include_active = readBool(value, key);
   if (key == "moments_about") scene.moments_about = readList(value, key, readMomentPoint);
   if (key == "strict_inertia") scene.strict_inertia = readBool(value, key);
   if (key == "applied_wrenches") scene.applied_wrenches = readList(value, key, readAppliedWrench);
+  if (key == "payload") scene.payloads = readList(value, key, readPayload);
   if (key == "joints") scene.joints = readList(value, key, readJointTerms);
   if (key == "tolerances") scene.tolerances = readTolerances(value, key);
   if (key == "use_urdf_dynamics") scene.use_urdf_dynamics = readBool(value, key);

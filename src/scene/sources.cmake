@@ -6,6 +6,7 @@ vwd_core(
   load.cpp
   lookup.cpp
   moment_points.cpp
+  payloads.cpp
   resolved_loops.cpp
   scene.cpp
   scene_reader.cpp

@@ -15,8 +15,8 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-constexpr int kArrays = 8;  // three of a MotionBlock, five of a ResultBlock
-constexpr int kInputs = 3;
+constexpr int kArrays = 9;  // four of a MotionBlock, five of a ResultBlock
+constexpr int kInputs = 4;
 
 /// The arrays of a block, and how many numbers of each belong to a sample.
 template <typename Real>
@@ -56,6 +56,7 @@ struct BlockInverseDynamics<Real>::Impl {
     const std::size_t numbers[kArrays] = {coordinates,
                                           coordinates,
                                           coordinates,
+                                          plan.root_moves ? std::size_t{RootState::kNumbers} : 0,
                                           request.efforts ? coordinates : 0,
                                           6 * plan.child_axes.size(),
                                           6 * in_root_axes,
@@ -75,7 +76,7 @@ struct BlockInverseDynamics<Real>::Impl {
   }
 
   void check(const BlockArrays<Real>& arrays) const {
-    static const char* const kNames[] = {"q",          "qd",        "qdd",   "effort",
+    static const char* const kNames[] = {"q",      "qd",         "qdd",       "root",  "effort",
                                          "child_axes", "root_axes", "poses", "twists"};
     if (arrays.samples == 0) return;
     for (int i = 0; i < kInputs; ++i) {
@@ -99,7 +100,7 @@ struct BlockInverseDynamics<Real>::Impl {
         layout,
         applied,
         loads,
-        {motion.q, motion.qd, motion.qdd},
+        {motion.q, motion.qd, motion.qdd, motion.root},
         {results.effort, results.child_axes, results.root_axes, results.poses, results.twists}};
     check(arrays);
     struct Job {
@@ -145,7 +146,7 @@ struct BlockInverseDynamics<Real>::Impl {
     const auto at = [first](auto* array) { return array ? array + first : nullptr; };
     kernel.pack(view,
                 {at(arrays.inputs[0]), at(arrays.inputs[1]), at(arrays.inputs[2]), arrays.samples,
-                 applied.data(), applied.stride()},
+                 applied.data(), applied.stride(), at(arrays.inputs[3]), arrays.samples},
                 {at(arrays.outputs[0]), at(arrays.outputs[1]), at(arrays.outputs[2]),
                  at(arrays.outputs[3]), at(arrays.outputs[4]), arrays.samples},
                 scratch[thread].get());
@@ -175,7 +176,8 @@ struct BlockInverseDynamics<Real>::Impl {
       }
     }
     const auto wanted = [&](int i) { return arrays.outputs[i] ? tile[kInputs + i] : nullptr; };
-    kernel.pack(view, {tile[0], tile[1], tile[2], width, applied.data(), applied.stride()},
+    kernel.pack(view,
+                {tile[0], tile[1], tile[2], width, applied.data(), applied.stride(), tile[3], width},
                 {wanted(0), wanted(1), wanted(2), wanted(3), wanted(4), width},
                 scratch[thread].get());
     for (int i = kInputs; i < kArrays; ++i) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "scene/payloads.h"
 #include "tree/kernel/kernel_choice.h"
 #include "tree/plan.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
@@ -10,7 +11,7 @@ namespace virtual_work_dynamics {
 struct InverseDynamics::Impl {
   Impl(const Mechanism& mechanism, const Scene& scene, const Request& wanted, InstructionSet set)
       : request(wanted),
-        exact(compilePlan(mechanism, scene, wanted)),
+        exact(compilePlan(LoadedMechanism(mechanism, scene).get(), scene, wanted)),
         plan(roundPlan<double>(exact)),
         view(viewOf(plan)),
         instruction_set(set),

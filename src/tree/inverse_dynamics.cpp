@@ -32,6 +32,7 @@ struct Workspace::Scratch {
   AppliedValues<double> given;        // values of a Load's wrenches
   AlignedMemory memory;
   std::vector<double> poses;
+  RootState root{RootMotion(), Eigen::Vector3d::Zero(), true};
 };
 
 namespace {
@@ -80,6 +81,15 @@ InstructionSet InverseDynamics::instructionSet() const {
   return impl_->instruction_set;
 }
 
+bool InverseDynamics::rootMoves() const {
+  return impl_->plan.root_moves;
+}
+
+RootState InverseDynamics::rootState(const RootMotion& motion) const {
+  const Plan<double>& plan = impl_->plan;
+  return RootState(motion, Eigen::Vector3d(plan.gravity), plan.static_motion);
+}
+
 PlanSummary InverseDynamics::summary() const {
   return summarize(impl_->plan);
 }
@@ -105,8 +115,13 @@ void InverseDynamics::computeWith(const Load* load, const Motion& motion,
   Results& results = workspace.results_;
   if (load) scratch.given.set(plan, *load);
   const AppliedValues<double>& applied = load ? scratch.given : scratch.own;
-  const KernelInputs<double> in = {motion.q.data(), motion.qd.data(), motion.qdd.data(), 1,
-                                   applied.data(),  applied.stride()};
+  KernelInputs<double> in = {motion.q.data(), motion.qd.data(), motion.qdd.data(), 1,
+                             applied.data(),  applied.stride()};
+  if (plan.root_moves) {
+    scratch.root = rootState(motion.root);
+    in.root = scratch.root.data();
+    in.root_stride = 1;
+  }
   const KernelOutputs<double> out = {plan.efforts ? results.effort.data() : nullptr,
                                      numbersOf(results.child_axes),
                                      numbersOf(results.root_axes),

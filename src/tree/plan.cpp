@@ -103,6 +103,8 @@ class Compiler {
     plan_.coordinates = static_cast<int>(mechanism_.coordinates().size());
     plan_.efforts = request_.efforts;
     plan_.static_motion = scene_.static_motion;
+    plan_.root_moves = scene_.root_moves;
+    for (int i = 0; i < 3; ++i) plan_.gravity[i] = scene_.gravity[i];
     plan_.poses = request_.poses;
     plan_.twists = request_.twists;
     makeBodies();

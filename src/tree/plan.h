@@ -26,6 +26,7 @@ struct PlanUse {
   int slots = 0;  ///< motions that are kept for later children
   bool efforts = true;
   bool static_motion = false;
+  bool root_moves = false;
   bool poses = false;   ///< whether poses are reported with the reactions in root axes
   bool twists = false;  ///< whether twists are reported with the reactions in root axes
   bool any_pose = false;
@@ -35,12 +36,13 @@ struct PlanUse {
   std::vector<PointStep> point_steps;
   std::vector<int> zero_efforts;  ///< coordinates that no wrench reaches
   LeftOut left_out;
+  double gravity[3] = {};  ///< m/s^2, inertial axes
 };
 
 /// A mechanism, a scene and a request, compiled: the constants of the recursion.
 template <typename T>
 struct Plan : PlanUse {
-  PlainWrench<T> root_wrench{};  ///< (3.5) of the root body, which rests
+  PlainWrench<T> root_wrench{};  ///< (3.5) of a root body that rests
   std::vector<Body<T>> bodies;
   std::vector<JointPosition<T>> angles;
   std::vector<JointPosition<T>> slides;

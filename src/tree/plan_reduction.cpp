@@ -135,7 +135,7 @@ class Reduction {
 
   void noteOmissions() {
     plan_.left_out.velocity_terms = plan_.static_motion;
-    plan_.left_out.gravity = isZero(gamma_root_);
+    plan_.left_out.gravity = isZero(gamma_root_) && !plan_.root_moves;
     const std::unordered_set<std::string> massless(plan_.left_out.massless.begin(),
                                                    plan_.left_out.massless.end());
     for (std::size_t k = 1; k < bodies_.size(); ++k) {
@@ -174,12 +174,12 @@ class Reduction {
     }
   }
 
-  // Bodies on the root, and on what is welded to it, start from a constant gamma and from no w or
-  // alpha.
+  // Bodies on a root that rests, and on what is welded to it, start from a constant gamma and from no
+  // w or alpha.
   void startFromRest() {
     std::vector<bool> rests(bodies_.size(), false);
     std::vector<Vec3<Real>> gamma(bodies_.size(), gamma_root_);
-    rests[0] = true;
+    rests[0] = !plan_.root_moves;
     const Body<Real>& root = bodies_[0];
     plan_.root_wrench.force = {root.mass * gamma_root_.x, root.mass * gamma_root_.y,  // (3.5)
                                root.mass * gamma_root_.z};

@@ -132,6 +132,7 @@ PlanView<T> viewOf(const Plan<T>& plan) {
   view.slots = plan.slots;
   view.wrench_count = plan.wrenches;
   view.static_motion = plan.static_motion;
+  view.root_moves = plan.root_moves;
   view.any_pose = plan.any_pose;
   view.geared_angles = plan.geared_angles;
   view.root_wrench = plan.root_wrench;

@@ -1,8 +1,10 @@
 #include "tree/sample_block.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
+#include "scene/input_checks.h"
 #include "virtual_work_dynamics/block.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -11,6 +13,7 @@ namespace virtual_work_dynamics {
 struct SampleBlock::Impl {
   Impl(const InverseDynamics& inverse_dynamics, std::size_t rows, int threads)
       : block(inverse_dynamics, threads, inverse_dynamics.instructionSet()),
+        dynamics(inverse_dynamics),
         plan(inverse_dynamics.impl_.get()),
         capacity(rows),
         efforts(block.request().efforts ? block.coordinates() : 0),
@@ -19,6 +22,7 @@ struct SampleBlock::Impl {
         poses(block.request().poses ? 12 * block.request().root_axes.size() : 0),
         twists(block.request().twists ? root_axes : 0),
         inputs(3 * capacity * block.coordinates()),
+        roots(inverse_dynamics.rootMoves() ? RootState::kNumbers * capacity : 0),
         outputs(capacity * (efforts + child_axes + root_axes + poses + twists)) {
     double* next = outputs.data();
     const auto array = [&](std::size_t width) {
@@ -37,12 +41,22 @@ struct SampleBlock::Impl {
     return inputs.data() + index * capacity * block.coordinates();
   }
 
+  void takeRoots(const MotionTable& table, std::size_t first, std::size_t count) {
+    if (roots.empty()) return;
+    requireRoots(table, first + count);
+    for (std::size_t row = 0; row < count; ++row) {
+      const RootState state = dynamics.rootState(table.roots[first + row]);
+      std::copy_n(state.data(), RootState::kNumbers, &roots[RootState::kNumbers * row]);
+    }
+  }
+
   BlockInverseDynamics<double> block;
+  const InverseDynamics& dynamics;
   const InverseDynamics::Impl* plan;  // is compared, never read
   std::size_t computed = 0;           // samples of the last block
   std::size_t capacity;
   std::size_t efforts, child_axes, root_axes, poses, twists;  // numbers of each in a sample
-  std::vector<double> inputs, outputs;                        // arrays one after the other
+  std::vector<double> inputs, roots, outputs;  // arrays one after the other; roots: RootStates
   ResultBlock<double> results;                                // their places in `outputs`
 };
 
@@ -84,7 +98,9 @@ void SampleBlock::compute(const MotionTable& table, std::size_t first, std::size
       }
     }
   }
-  const MotionBlock<double> motion = {count, impl.input(0), impl.input(1), impl.input(2)};
+  impl.takeRoots(table, first, count);
+  const MotionBlock<double> motion = {count, impl.input(0), impl.input(1), impl.input(2),
+                                      impl.roots.data()};
   if (loads) {
     impl.block.compute(BlockLayout::kRowMajor, motion, loads, impl.results);
   } else {

@@ -9,6 +9,7 @@
 #include "base/aligned_memory.h"
 #include "scene/input_checks.h"
 #include "scene/joint_terms.h"
+#include "scene/payloads.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/instruction_set.h"
 #include "witness/geared_angle.h"
@@ -40,6 +41,12 @@ double relative(const Eigen::Vector3d& found, const double* expected, double sca
   const double x = unit * (found.x() - expected[0]), y = unit * (found.y() - expected[1]),
                z = unit * (found.z() - expected[2]);
   return std::sqrt(x * x + y * y + z * z);
+}
+
+Eigen::Matrix3d crossMatrix(const Eigen::Vector3d& v) {
+  Eigen::Matrix3d A;
+  A << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return A;
 }
 
 // How a joint follows its generalized coordinate.
@@ -94,6 +101,8 @@ double Certificates::largest() const {
 struct Certifier::Impl {
   Impl(const Mechanism& mechanism, const Scene& scene)
       : rests(scene.static_motion),
+        root_moves(scene.root_moves),
+        gravity(scene.gravity),
         coordinates(static_cast<Eigen::Index>(mechanism.coordinates().size())),
         terms(resolveJointTerms(mechanism, scene)),
         welded(mechanism),
@@ -110,13 +119,13 @@ struct Certifier::Impl {
       term_drives.emplace_back(mechanism.joints()[term.joint]);
     }
     for (std::size_t i = 0; i < scene.applied_wrenches.size(); ++i) addWrench(mechanism, scene, i);
-    inputs = {welded.bodies.data(),
-              joints.data(),
-              welded.bodies.size(),
-              wrenches.data(),
-              wrenches.size(),
-              {-scene.gravity.x(), -scene.gravity.y(), -scene.gravity.z()},
-              static_cast<double>(scene.gravity.cast<long double>().norm())};
+    inputs.bodies = welded.bodies.data();
+    inputs.joints = joints.data();
+    inputs.body_count = welded.bodies.size();
+    inputs.wrenches = wrenches.data();
+    inputs.wrench_count = wrenches.size();
+    for (int i = 0; i < 3; ++i) inputs.gamma_root[i] = -scene.gravity[i];
+    inputs.gamma_norm = static_cast<double>(scene.gravity.cast<long double>().norm());
   }
 
   void addWrench(const Mechanism& mechanism, const Scene& scene, std::size_t index) {
@@ -145,7 +154,22 @@ struct Certifier::Impl {
     wrench.moment_norm = static_cast<double>(t.norm() + wrench_arms[index] * f.norm());
   }
 
+  // D = w~ R and E = (w~ w~ + alpha~) R of the root, where R is the unit matrix.
+  void takeRoot(const RootMotion& motion) {
+    const RootState state(motion, gravity, rests);
+    const Eigen::Matrix3d D = crossMatrix(state.angular_velocity);
+    const Eigen::Matrix3d E = crossMatrix(state.angular_acceleration) + D * D;
+    std::copy_n(D.data(), 9, inputs.root_D);
+    std::copy_n(E.data(), 9, inputs.root_E);
+    std::copy_n(state.acceleration.data(), 3, inputs.gamma_root);
+    inputs.w_norm = state.angular_velocity.norm();
+    inputs.alpha_norm = state.angular_acceleration.norm();
+    inputs.gamma_norm = gravity.norm() + (rests ? 0 : motion.acceleration.norm());
+    root_rate = state.angular_velocity;
+  }
+
   void takeMotion(const Motion& motion) {
+    if (root_moves) takeRoot(motion.root);
     for (std::size_t i = 0; i < drives.size(); ++i) {
       const Drive& drive = drives[i];
       MomentumJoint& joint = joints[i + 1];
@@ -191,6 +215,9 @@ struct Certifier::Impl {
   }
 
   bool rests;
+  bool root_moves;
+  Eigen::Vector3d gravity;
+  Eigen::Vector3d root_rate = Eigen::Vector3d::Zero();  // root axes, rad/s
   Eigen::Index coordinates;
   std::vector<ResolvedJointTerms> terms;
   std::vector<Drive> term_drives;
@@ -207,7 +234,7 @@ struct Certifier::Impl {
 };
 
 Certifier::Certifier(const Mechanism& mechanism, const Scene& scene)
-    : impl_(new Impl(mechanism, openChain(scene))) {}
+    : impl_(new Impl(LoadedMechanism(mechanism, scene).get(), openChain(scene))) {}
 
 Certifier::~Certifier() = default;
 Certifier::Certifier(Certifier&&) noexcept = default;
@@ -251,7 +278,9 @@ Certificates Certifier::check(const Motion& motion, const Load& load, const Eige
   MomentumSums sums;
   impl.momentum.sum(impl.inputs, impl.memory.get(), sums);
   if (!impl.rests) impl.addTerms(motion, sums.power, sums.power_scale);
-  return {relative(impl.powerOf(effort, motion) - sums.power, sums.power_scale),
+  // Ground's force has no power, as the root's origin has no velocity in the frame of the sums.
+  const double power = impl.powerOf(effort, motion) + ground.torque.dot(impl.root_rate);
+  return {relative(power - sums.power, sums.power_scale),
           relative(ground.force, sums.force, sums.force_scale),
           relative(ground.torque, sums.moment, sums.moment_scale)};
 }

@@ -6,6 +6,7 @@
 
 #include "scene/input_checks.h"
 #include "scene/joint_terms.h"
+#include "scene/payloads.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -81,6 +82,8 @@ int ceilLog2(int count) {
 struct ErrorBound::Impl {
   Impl(const Mechanism& mechanism, const Scene& scene)
       : rests(scene.static_motion),
+        root_moves(scene.root_moves),
+        gravity(scene.gravity.cast<long double>()),
         own_load(scene),
         terms(resolveJointTerms(mechanism, scene)),
         motions(mechanism.links().size()),
@@ -97,7 +100,6 @@ struct ErrorBound::Impl {
       norms.arm = scene.applied_wrenches[i].at.cast<long double>().norm();
       applied_wrenches.push_back(norms);
     }
-    motions[0].gamma = static_cast<double>(scene.gravity.cast<long double>().norm());
     measureDepths();
   }
 
@@ -118,6 +120,14 @@ struct ErrorBound::Impl {
       int& effort = effort_depths[joint.coordinate];
       effort = std::max(effort, depths[i]);
     }
+  }
+
+  void takeRoot(const RootMotion& root) {
+    const double g = static_cast<double>(gravity.norm());
+    motions[0] = {0, 0, g};
+    if (!root_moves || rests) return;
+    motions[0] = {root.angular_velocity.norm(), root.angular_acceleration.norm(),
+                  g + root.acceleration.norm()};
   }
 
   double position(const JointNorms& joint, const Motion& motion) const {
@@ -193,6 +203,8 @@ struct ErrorBound::Impl {
   }
 
   bool rests;
+  bool root_moves;
+  Vector3l gravity;
   double least = 0;
   Load own_load;  // the values in the scene
   std::vector<JointNorms> joints;
@@ -208,7 +220,7 @@ struct ErrorBound::Impl {
 };
 
 ErrorBound::ErrorBound(const Mechanism& mechanism, const Scene& scene)
-    : impl_(new Impl(mechanism, openChain(scene))) {}
+    : impl_(new Impl(LoadedMechanism(mechanism, scene).get(), openChain(scene))) {}
 
 ErrorBound::~ErrorBound() = default;
 ErrorBound::ErrorBound(ErrorBound&&) noexcept = default;
@@ -227,6 +239,7 @@ void ErrorBound::compute(const Motion& motion, const Load& load, double least) {
   }
   requireLengths(motion, static_cast<Eigen::Index>(impl.efforts.size()));
   std::fill(impl.efforts.begin(), impl.efforts.end(), 0.0);
+  impl.takeRoot(motion.root);
   for (std::size_t k = 0; k < impl.joints.size(); ++k) impl.move(k, motion);
   impl.addApplied();
   for (std::size_t i = 0; i < impl.links.size(); ++i) impl.load(i);

@@ -75,6 +75,8 @@ set(core_test_files
   test/core/motion_estimator_streams_test.cpp
   test/core/motion_estimator_test.cpp
   test/core/motion_law_test.cpp
+  test/core/moving_root_motions_test.cpp
+  test/core/moving_root_test.cpp
   test/core/multifrontal_qr_test.cpp
   test/core/nearest_name_test.cpp
   test/core/non_holonomic_conditions_test.cpp
@@ -90,6 +92,7 @@ set(core_test_files
   test/core/offline_names_test.cpp
   test/core/offline_plan_test.cpp
   test/core/offline_recordings_test.cpp
+  test/core/offline_root_test.cpp
   test/core/offline_test.cpp
   test/core/offline_wrapped_test.cpp
   test/core/offline_wrenches_test.cpp
@@ -97,6 +100,7 @@ set(core_test_files
   test/core/plan_merging_test.cpp
   test/core/plan_reduction_test.cpp
   test/core/plan_summary_test.cpp
+  test/core/payload_test.cpp
   test/core/point_springs_test.cpp
   test/core/power_test.cpp
   test/core/printable_test.cpp

@@ -9,13 +9,15 @@
 
 namespace virtual_work_dynamics {
 
-/// Inverse dynamics by Newton's and Euler's equations about every link's centre of mass, in root
-/// axes and long double, link by link without lumping; the wrench at a joint is a plain sum over
-/// the links that it carries. Shares only the Mechanism with the recursion under test.
+/// Inverse dynamics by Newton's and Euler's equations about every link's centre of mass, in
+/// inertial axes and long double, link by link without lumping; the wrench at a joint is a plain sum
+/// over the links that it carries. Inertial axes are those of a root that rests. Shares only the
+/// Mechanism with the recursion under test.
 class NewtonEulerOracle {
  public:
   NewtonEulerOracle(const Mechanism& mechanism, const Scene& scene, const Motion& motion)
       : mechanism_(mechanism), links_(mechanism.links().size()) {
+    if (scene.root_moves) moveRoot(scene, motion.root);
     for (std::size_t k = 0; k < mechanism.joints().size(); ++k) moveLink(k, scene, motion);
     for (std::size_t i = 0; i < links_.size(); ++i) forceOnLink(i, scene);
   }
@@ -32,13 +34,14 @@ class NewtonEulerOracle {
       sum.force += links_[i].force;
       sum.torque += links_[i].moment_c + (links_[i].c - links_[joint + 1].o).cross(links_[i].force);
     }
-    return sum;
+    const Matrix3l R_0I = links_[0].R.transpose();
+    return {R_0I * sum.force, R_0I * sum.torque};
   }
 
   /// Wrench of the parent on the child about the joint origin, in axes of the child link.
   RootWrench childReaction(int joint) const {
     const RootWrench wrench = reaction(joint);
-    const Matrix3l R_K0 = links_[joint + 1].R.transpose();
+    const Matrix3l R_K0 = links_[joint + 1].R.transpose() * links_[0].R;
     return {R_K0 * wrench.force, R_K0 * wrench.torque};
   }
 
@@ -68,11 +71,22 @@ class NewtonEulerOracle {
 
  private:
   struct State {
-    Matrix3l R = Matrix3l::Identity();  // link -> root axes
+    Matrix3l R = Matrix3l::Identity();  // link -> inertial axes
     Vector3l o = Vector3l::Zero(), v = Vector3l::Zero(), a = Vector3l::Zero();
     Vector3l w = Vector3l::Zero(), alpha = Vector3l::Zero();
     Vector3l c, force, moment_c;  // centre of mass; wrench of all joints on the link, about it
   };
+
+  void moveRoot(const Scene& scene, const RootMotion& motion) {
+    State& root = links_[0];
+    root.R = motion.orientation.cast<long double>().toRotationMatrix();
+    root.o = motion.position.cast<long double>();
+    if (scene.static_motion) return;
+    root.v = motion.velocity.cast<long double>();
+    root.a = motion.acceleration.cast<long double>();
+    root.w = motion.angular_velocity.cast<long double>();
+    root.alpha = motion.angular_acceleration.cast<long double>();
+  }
 
   void moveLink(std::size_t k, const Scene& scene, const Motion& motion) {
     const Joint& joint = mechanism_.joints()[k];
@@ -117,7 +131,7 @@ class NewtonEulerOracle {
     link.moment_c = I * link.alpha + link.w.cross(I * link.w);
     for (const AppliedWrench& applied : scene.applied_wrenches) {
       if (applied.link != body.name) continue;
-      const Matrix3l R = applied.axes == Axes::kLink ? link.R : Matrix3l(Matrix3l::Identity());
+      const Matrix3l R = applied.axes == Axes::kLink ? link.R : links_[0].R;
       const Vector3l force = R * applied.force.cast<long double>();
       const Vector3l at = link.o + link.R * applied.at.cast<long double>();
       link.force -= force;

@@ -30,7 +30,7 @@ struct PlanView {
   const int* zero_efforts;
   int body_count, angle_count, slide_count, child_axes_count, root_axes_count, moved_count,
       applied_count, actuator_count, zero_effort_count, slots, wrench_count;
-  bool static_motion, any_pose, geared_angles;
+  bool static_motion, root_moves, any_pose, geared_angles;
   PlainWrench<R> root_wrench;
 };
 
@@ -46,6 +46,9 @@ struct KernelInputs {
   /// neighbouring samples follow each other.
   const R* applied;
   std::size_t applied_stride;
+  /// A RootState where the root moves: number c is at [c * root_stride].
+  const R* root = nullptr;
+  std::size_t root_stride = 0;
 };
 
 /// Where results go, laid out as those of a ResultBlock; null: not wanted.

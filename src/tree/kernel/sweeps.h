@@ -62,12 +62,30 @@ VWD_INLINE void moveBody(const PlanView<R>& plan, const Body<R>& body, const Ker
   feedNext<kStatic>(plan, body, scratch, motion, arrival);
 }
 
+/// Moves the root as the motion says, and starts sweepOut() from it.
+template <bool kStatic, typename T, typename R>
+VWD_INLINE void moveRoot(const PlanView<R>& plan, const KernelInputs<R>& in,
+                         const Scratch<T, R>& scratch, Arrival<T>& arrival) {
+  const Body<R>& root = plan.bodies[0];
+  BodyMotion<T> motion;
+  motion.gamma = loadVector<T>(in.root + 6 * in.root_stride, in.root_stride);
+  if (!kStatic) {
+    motion.w = loadVector<T>(in.root, in.root_stride);
+    motion.alpha = loadVector<T>(in.root + 3 * in.root_stride, in.root_stride);
+    motion.U = accelerationGradient(motion.w, motion.alpha);
+  }
+  if (root.has_inertia) scratch.wrenches[0] = inertiaWrench<kStatic>(root, motion);
+  if (root.own_slot >= 0) scratch.slots[root.own_slot] = motion;
+  feedNext<kStatic>(plan, root, scratch, motion, arrival);
+}
+
 /// Root to leaves: motions (2.5)-(2.7) and the wrenches (3.5) of the single bodies.
 template <bool kStatic, typename T, typename R>
 VWD_INLINE void sweepOut(const PlanView<R>& plan, const KernelInputs<R>& in,
                          const Scratch<T, R>& scratch) {
   scratch.wrenches[0] = constantWrench<T>(plan.root_wrench);
   Arrival<T> arrival;
+  if (plan.root_moves) moveRoot<kStatic>(plan, in, scratch, arrival);
   for (int k = 1; k < plan.body_count; ++k) {
     const Body<R>& body = plan.bodies[k];
     PlainWrench<T>& wrench = scratch.wrenches[k];

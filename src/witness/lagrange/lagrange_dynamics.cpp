@@ -4,6 +4,7 @@
 #include <string>
 
 #include "scene/input_checks.h"
+#include "scene/payloads.h"
 #include "virtual_work_dynamics/error.h"
 #include "witness/geared_angle.h"
 #include "witness/lagrange/lagrange_equations.h"
@@ -49,6 +50,26 @@ Eigen::Vector3d toDouble(const Triple<Real>& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
+template <typename Real>
+Triple<Real> tripleOf(const Eigen::Vector3d& v) {
+  return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())};
+}
+
+template <typename Real>
+Matrix<Real> crossMatrix(const Triple<Real>& v) {
+  const Real zero = 0;
+  return {{{zero, -v[2], v[1]}, {v[2], zero, -v[0]}, {-v[1], v[0], zero}}};
+}
+
+// The transpose of the rotation that a quaternion of unit length stands for.
+template <typename Real>
+Matrix<Real> turnedBack(const Eigen::Quaterniond& q) {
+  const Real w = q.w(), x = q.x(), y = q.y(), z = q.z();
+  return {{{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+           {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+           {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}}};
+}
+
 }  // namespace
 
 template <typename Real>
@@ -70,9 +91,11 @@ struct LagrangeDynamics<Real>::Impl {
         child_axes(plan.child_axes.size()),
         root_axes(plan.root_axes.size()) {
     for (std::size_t i = 0; i < 3; ++i) axes[0].R[i][i].value = 1;
+    gravity = plan.gravity;
   }
 
   void take(const Load& load);
+  void moveRoot(const RootMotion& motion);
   void move(const Motion& motion);
   Real effortOf(const typename LagrangePlan<Real>::Coordinate& coordinate);
   void displace(const typename LagrangePlan<Real>::Reaction& reaction, Triple<Real>& force);
@@ -83,6 +106,7 @@ struct LagrangeDynamics<Real>::Impl {
   Request request;
   LagrangePlan<Real> plan;
   Load own_load;  // the values in the scene
+  Triple<Real> gravity;  // axes of the root link, m/s^2
   std::vector<JointState<Real>> states;
   std::vector<RelativePose<Real, 0>> poses;  // by joint; the other frames are by link
   std::vector<Orientation<Real, 0>> axes;
@@ -97,8 +121,29 @@ struct LagrangeDynamics<Real>::Impl {
   std::vector<Wrench> child_axes, root_axes;
 };
 
+// The root's pose is a given function of time. The inertial frame is the one whose axes are the
+// root's at the instant, and in which its origin has no velocity.
+template <typename Real>
+void LagrangeDynamics<Real>::Impl::moveRoot(const RootMotion& motion) {
+  const Matrix<Real> R_0I = turnedBack<Real>(motion.orientation);
+  gravity = R_0I * plan.gravity;
+  if (plan.static_motion) return;
+  const Matrix<Real> w = crossMatrix(R_0I * tripleOf<Real>(motion.angular_velocity));
+  const Matrix<Real> ww = w * w;
+  const Matrix<Real> alpha = crossMatrix(R_0I * tripleOf<Real>(motion.angular_acceleration));
+  const Triple<Real> a = R_0I * tripleOf<Real>(motion.acceleration);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      axes[0].R[i][j].rate = axes[0].Rdot[i][j].value = w[i][j];
+      axes[0].Rdot[i][j].rate = ww[i][j] + alpha[i][j];
+    }
+    origins[0].odot[i].rate = a[i];
+  }
+}
+
 template <typename Real>
 void LagrangeDynamics<Real>::Impl::move(const Motion& motion) {
+  if (plan.root_moves) moveRoot(motion.root);
   for (std::size_t k = 0; k < plan.joints.size(); ++k) {
     const auto& joint = plan.joints[k];
     if (joint.coordinate >= 0) {
@@ -142,7 +187,7 @@ Real LagrangeDynamics<Real>::Impl::effortOf(
         origin = composed(axes[parent], origins[parent], pose.origin);
       }
     }
-    sum += linkForce<Real>(plan.links[step.link], plan.gravity, link_axes, origin)[0];  // (4.1)
+    sum += linkForce<Real>(plan.links[step.link], gravity, link_axes, origin)[0];  // (4.1)
   }
   for (const ResolvedJointTerms& terms : coordinate.terms) {
     sum += termsForce(terms, states[terms.joint], plan.joints[terms.joint].multiplier);
@@ -157,12 +202,12 @@ void LagrangeDynamics<Real>::Impl::displace(const typename LagrangePlan<Real>::R
                                             Triple<Real>& force) {
   const int own = reaction.link;
   origins_3[own] = composed(axes[own], origins[own], fictitiousDisplacement<Real>());
-  force = linkForce<Real>(plan.links[own], plan.gravity, axes[own], origins_3[own]);
+  force = linkForce<Real>(plan.links[own], gravity, axes[own], origins_3[own]);
   for (const int link : reaction.links) {
     const auto& joint = plan.joints[link - 1];
     origins_3[link] =
         childOrigin<Real>(joint, poses[link - 1], axes[joint.parent], origins_3[joint.parent]);
-    add(linkForce<Real>(plan.links[link], plan.gravity, axes[link], origins_3[link]),
+    add(linkForce<Real>(plan.links[link], gravity, axes[link], origins_3[link]),
         force);  // (4.2)
   }
 }
@@ -193,20 +238,15 @@ void LagrangeDynamics<Real>::Impl::rotate(const typename LagrangePlan<Real>::Rea
   const Triple<Real> lever = leverOf(reaction);
   const Origin<Real, 0> centre = composed(axes[own], origins[own], times(Real(-1), lever));
   origins_3[own] = composed(axes_3[own], centre, lever);
-  torque = linkForce<Real>(plan.links[own], plan.gravity, axes_3[own], origins_3[own]);
+  torque = linkForce<Real>(plan.links[own], gravity, axes_3[own], origins_3[own]);
   for (const int link : reaction.links) {
     const auto& joint = plan.joints[link - 1];
     const auto& pose = poses[link - 1];
     axes_3[link] = childOrientation<Real>(joint, pose, axes_3[joint.parent]);
     origins_3[link] = childOrigin<Real>(joint, pose, axes_3[joint.parent], origins_3[joint.parent]);
-    add(linkForce<Real>(plan.links[link], plan.gravity, axes_3[link], origins_3[link]),
+    add(linkForce<Real>(plan.links[link], gravity, axes_3[link], origins_3[link]),
         torque);  // (4.2)
   }
-}
-
-template <typename Real>
-Triple<Real> tripleOf(const Eigen::Vector3d& v) {
-  return {static_cast<Real>(v.x()), static_cast<Real>(v.y()), static_cast<Real>(v.z())};
 }
 
 template <typename Real>
@@ -235,7 +275,7 @@ void LagrangeDynamics<Real>::Impl::output() {
 template <typename Real>
 LagrangeDynamics<Real>::LagrangeDynamics(const Mechanism& mechanism, const Scene& scene,
                                          const Request& request)
-    : impl_(new Impl(mechanism, scene, request)) {}
+    : impl_(new Impl(LoadedMechanism(mechanism, scene).get(), scene, request)) {}
 
 template <typename Real>
 LagrangeDynamics<Real>::~LagrangeDynamics() = default;

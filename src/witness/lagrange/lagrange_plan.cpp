@@ -129,6 +129,7 @@ LagrangePlan<Real>::LagrangePlan(const Mechanism& mechanism, const Scene& scene,
                                  const Request& request)
     : gravity(triple<Real>(scene.gravity)),
       static_motion(scene.static_motion),
+      root_moves(scene.root_moves),
       coordinate_count(static_cast<int>(mechanism.coordinates().size())) {
   openChain(scene);
   requireSoundInertias(mechanism, scene);

@@ -76,8 +76,9 @@ struct LagrangePlan {
   std::vector<JointData> joints;
   std::vector<LinkData> links;
   std::vector<AppliedPlace> applied;  ///< in the scene's order
-  Triple<Real> gravity{};
+  Triple<Real> gravity{};  ///< inertial axes
   bool static_motion = false;
+  bool root_moves = false;
   int coordinate_count = 0;
   std::vector<Coordinate> coordinates;  ///< empty when efforts are not wanted
   std::vector<Reaction> reactions;      ///< those wanted in either axes, each once

@@ -54,8 +54,15 @@ struct MomentumInputs {
   std::size_t body_count;
   const MomentumWrench* wrenches;
   std::size_t wrench_count;
-  double gamma_root[3];  ///< acceleration of the root: -g
-  double gravity_norm;
+  // Of the root, in its axes at the instant: derivatives of its orientation, by columns, and the
+  // acceleration of its origin less gravity, in a frame in which the origin has no velocity.
+  double root_D[9] = {};
+  double root_E[9] = {};
+  double gamma_root[3];
+  // Sums of norms for them.
+  double w_norm = 0;
+  double alpha_norm = 0;
+  double gamma_norm;
 };
 
 /// What the wrench of ground, in root axes and about the root's origin, and the power of the

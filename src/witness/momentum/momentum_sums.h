@@ -27,6 +27,10 @@ struct BodyState {
   NormSums norms;
 };
 
+inline Matrix matrixOf(const double* columns) {
+  return {vectorOf(columns), vectorOf(columns + 3), vectorOf(columns + 6)};
+}
+
 inline Vector times(const Matrix& A, const double* v) {
   return A.x * v[0] + A.y * v[1] + A.z * v[2];
 }
@@ -132,10 +136,11 @@ inline void sumMomentum(const MomentumInputs& in, void* memory, MomentumSums& re
   BodyState* const states = static_cast<BodyState*>(memory);
   const Vector zero = vectorOf(0, 0, 0);
   states[0].R = {vectorOf(1, 0, 0), vectorOf(0, 1, 0), vectorOf(0, 0, 1)};
-  states[0].D = states[0].E = {zero, zero, zero};
+  states[0].D = matrixOf(in.root_D);
+  states[0].E = matrixOf(in.root_E);
   states[0].p = states[0].v = zero;
   states[0].a = vectorOf(in.gamma_root);
-  states[0].norms = {0, 0, in.gravity_norm, 0, 0};
+  states[0].norms = {in.w_norm, in.alpha_norm, in.gamma_norm, 0, 0};
   RunningSums sums = {zero, zero, zero, 0, 0, 0};
   for (std::size_t i = 0; i < in.body_count; ++i) {
     const MomentumBody& body = in.bodies[i];

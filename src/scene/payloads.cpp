@@ -1,0 +1,65 @@
+#include "scene/payloads.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "base/number_text.h"
+#include "scene/lookup.h"
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+// Share of the trace by which moments may break an inequality, as scenes are written with few
+// digits.
+constexpr double kTolerance = 1e-9;
+
+void requireBody(const Payload& payload, const std::string& place) {
+  if (!(payload.mass > 0) || !std::isfinite(payload.mass)) {
+    throw SceneError(place + ".mass: " + numberText(payload.mass) + " kg is not a positive mass");
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(payload.inertia,
+                                                              Eigen::EigenvaluesOnly);
+  const Eigen::Vector3d moments = solver.eigenvalues();  // ascending
+  const double slack = kTolerance * moments.cwiseAbs().sum();
+  if (!(moments[0] >= -slack && moments[2] <= moments[0] + moments[1] + slack)) {
+    throw SceneError(place + ".inertia: no body has the principal moments " +
+                     numberText(moments[0]) + ", " + numberText(moments[1]) + ", " +
+                     numberText(moments[2]) + " kg m^2");
+  }
+}
+
+// Inertia of a mass about a point at a distance.
+Matrix3l steiner(long double mass, const Vector3l& from) {
+  return mass * (from.squaredNorm() * Matrix3l::Identity() - from * from.transpose());
+}
+
+void add(const Payload& payload, Link& link) {
+  const long double own = link.mass, more = payload.mass;
+  const Vector3l at = payload.at.cast<long double>();
+  const Vector3l centre = (own * link.p_KoCm_K + more * at) / (own + more);
+  link.inertia_Cm_K += steiner(own, link.p_KoCm_K - centre) +
+                       payload.inertia.cast<long double>() + steiner(more, at - centre);
+  link.p_KoCm_K = centre;
+  link.mass = own + more;
+}
+
+}  // namespace
+
+LoadedMechanism::LoadedMechanism(const Mechanism& mechanism, const Scene& scene)
+    : bare_(mechanism) {
+  if (scene.payloads.empty()) return;
+  std::vector<Link> links = mechanism.links();
+  for (std::size_t i = 0; i < scene.payloads.size(); ++i) {
+    const std::string place = entryOf("payload", i);
+    const Payload& payload = scene.payloads[i];
+    requireBody(payload, place);
+    add(payload,
+        links[static_cast<std::size_t>(linkNamed(mechanism, payload.link, place + ".link"))]);
+  }
+  loaded_.emplace(mechanism.name(), std::move(links), mechanism.joints(), mechanism.doubts());
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,168 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "base/number_text.h"
+#include "offline_tool.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+constexpr char kCrane[] = R"(<robot name="crane"><link name="base"><inertial>
+  <origin xyz="0 0 0.1"/><mass value="5"/>
+  <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="jib"><inertial><origin xyz="0.4 0 0"/><mass value="2"/>
+  <inertia ixx="0.01" iyy="0.2" izz="0.2" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <joint name="slew" type="continuous"><parent link="base"/><child link="jib"/>
+  <origin xyz="0 0 0.5"/><axis xyz="0 1 0"/></joint></robot>)";
+constexpr char kMotion[] = "time,position.slew,velocity.slew,acceleration.slew";
+constexpr char kOrientation[] =
+    ",root.orientation.w,root.orientation.x,root.orientation.y,root.orientation.z";
+constexpr char kRates[] =
+    ",root.angular_velocity.x,root.angular_velocity.y,root.angular_velocity.z"
+    ",root.acceleration.x,root.acceleration.y,root.acceleration.z"
+    ",root.angular_acceleration.x,root.angular_acceleration.y,root.angular_acceleration.z";
+constexpr char kMoving[] = "root: moving\nreactions: [slew, ground]\n";
+
+class OfflineRoot : public OfflineTool {
+ protected:
+  void SetUp() override {
+    OfflineTool::SetUp();
+    write("crane.urdf", kCrane);
+    write("moving.yaml", kMoving);
+  }
+
+  /// Two rows of the joint, each followed by these cells.
+  std::string motion(const std::string& columns, const std::string& cells) const {
+    return kMotion + columns + "\n0,0.3,1,2" + cells + "\n0.1,0.4,1.2,2" + cells + "\n";
+  }
+
+  Run compute(const std::string& csv, const std::string& more = "--scene moving.yaml") {
+    write("m.csv", csv);
+    return run("--urdf crane.urdf --motion m.csv " + more);
+  }
+
+  /// The numbers of a row of the result.
+  static std::vector<double> row(const std::string& text, int index) {
+    std::istringstream lines(text);
+    std::string line, cell;
+    for (int i = 0; i <= index + 1; ++i) std::getline(lines, line);
+    std::istringstream cells(line);
+    std::vector<double> numbers;
+    while (std::getline(cells, cell, ',')) numbers.push_back(std::stod(cell));
+    return numbers;
+  }
+};
+
+// The tool's columns on a root that turns at w about the vertical axis of the joint's pole: what
+// Newton and Euler say of a point on a turntable, by hand.
+TEST_F(OfflineRoot, OnATurntableIsThatByHand) {
+  const double w = 3, epsilon = 0.7, q = 0.3, qd = 1, qdd = 2;
+  const Run found = compute(
+      motion(std::string(kOrientation) + kRates, ",1,0,0,0,0,0,3,0,0,0,0,0,0.7"));
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  EXPECT_EQ(found.err, "");
+  const std::vector<double> first = row(found.out, 0);
+  // The mass is at 0.4 (cos q, 0, -sin q) from the pin; I is the jib's about its own axes.
+  const double r = 0.4, m = 2, I = 0.2, I_axial = 0.01, g = 9.81;
+  const double c = std::cos(q), s = std::sin(q);
+  const double effort = (I + m * r * r) * qdd + (I + m * r * r - I_axial) * w * w * s * c - m * g * r * c;
+  EXPECT_NEAR(first[1], effort, 1e-13);
+  // Force on the jib in root axes: m times the acceleration of a point that moves on a turntable.
+  const double x = r * c, xd = -r * s * qd, xdd = -r * c * qd * qd - r * s * qdd;
+  const double zdd = r * s * qd * qd - r * c * qdd;
+  EXPECT_NEAR(first[8], m * (xdd - w * w * x), 1e-13);
+  EXPECT_NEAR(first[9], m * (2 * w * xd + epsilon * x), 1e-13);
+  EXPECT_NEAR(first[10], m * (zdd + g), 1e-13);
+}
+
+TEST_F(OfflineRoot, IsTheSameByEveryRoute) {
+  const std::string csv = motion(std::string(kOrientation) + kRates,
+                                 ",0.5,-0.5,0.5,0.5,1,-2,3,4,-5,6,0.5,2,-3");
+  const Run found = compute(csv);
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  const Run lagrange = compute(csv, "--scene moving.yaml --method lagrange");
+  const Run threads = compute(csv, "--scene moving.yaml --threads 2");
+  EXPECT_EQ(found.out, threads.out);
+  for (int i = 0; i < 2; ++i) {
+    const std::vector<double> one = row(found.out, i), other = row(lagrange.out, i);
+    ASSERT_EQ(one.size(), other.size());
+    for (std::size_t j = 0; j < one.size(); ++j) EXPECT_NEAR(one[j], other[j], 1e-12) << j;
+  }
+  const Run certified = compute(csv, "--scene moving.yaml --certificates");
+  EXPECT_EQ(certified.exit_code, 0);
+  EXPECT_LE(row(certified.out, 1).back(), 1e-14);
+}
+
+// In static scenes the attitude counts, and it alone.
+TEST_F(OfflineRoot, OfAStaticSceneIsTilted) {
+  write("static.yaml", std::string(kMoving) + "motion: static\n");
+  const double half = std::sqrt(0.5);
+  const std::string quarter = "," + numberText(half) + ",0," + numberText(half) + ",0";
+  const Run tilted = compute(motion(kOrientation, quarter), "--scene static.yaml");
+  ASSERT_EQ(tilted.exit_code, 0) << tilted.err;
+  write("m.csv", motion("", ""));
+  write("rests.yaml", "gravity: [9.81, 0, 0]\nreactions: [slew, ground]\nmotion: static\n");
+  const Run rests = run("--urdf crane.urdf --motion m.csv --scene rests.yaml");
+  ASSERT_EQ(rests.exit_code, 0) << rests.err;
+  const std::vector<double> one = row(tilted.out, 0), other = row(rests.out, 0);
+  for (std::size_t j = 0; j < one.size(); ++j) EXPECT_NEAR(one[j], other[j], 1e-13) << j;
+}
+
+TEST_F(OfflineRoot, BadInputIsRefusedInOneLine) {
+  const std::string all = std::string(kOrientation) + kRates;
+  const std::string good = ",1,0,0,0,0,0,3,0,0,0,0,0,0.7";
+  const auto error = [&](const std::string& csv) {
+    const Run refused = compute(csv);
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_EQ(refused.out, "");
+    return refused.err;
+  };
+  EXPECT_EQ(error(motion(all, ",1.2,0,0,0,0,0,3,0,0,0,0,0,0.7")),
+            "inverse_dynamics_offline: error: m.csv: line 2: root.orientation.{x,y,z,w} has the "
+            "length 1.2, not 1\n");
+  EXPECT_EQ(error(motion("", "")),
+            "inverse_dynamics_offline: error: m.csv: columns are missing: "
+            "root.orientation.{x,y,z,w}, root.angular_velocity.{x,y,z}, root.acceleration.{x,y,z}, "
+            "root.angular_acceleration.{x,y,z}: the scene says 'root: moving', and the root's "
+            "motion is not estimated\n");
+  EXPECT_EQ(error(motion(kOrientation, ",1,0,0,0")),
+            "inverse_dynamics_offline: error: m.csv: columns are missing: "
+            "root.angular_velocity.{x,y,z}, root.acceleration.{x,y,z}, "
+            "root.angular_acceleration.{x,y,z}: the scene says 'root: moving', and the root's "
+            "motion is not estimated\n");
+  std::string short_of_one = motion(all, good);
+  short_of_one.replace(short_of_one.find("root.acceleration.y"), 19, "effort.slew");
+  EXPECT_EQ(error(short_of_one),
+            "inverse_dynamics_offline: error: m.csv: line 1: column 'root.acceleration.y' is "
+            "missing, though other components of it are there\n");
+  std::string misspelt = motion(all, good);
+  misspelt.replace(misspelt.find("root.acceleration.y"), 19, "root.acceleration.v");
+  EXPECT_NE(error(misspelt).find("column 13: 'root.acceleration.v' is not one of"), std::string::npos);
+}
+
+TEST_F(OfflineRoot, WhatIsNotUsedOrNotQuiteRightIsSaid) {
+  const std::string all = std::string(kOrientation) + kRates;
+  const Run unused = compute(motion(all, ",1,0,0,0,0,0,3,0,0,0,0,0,0.7"), "");
+  EXPECT_EQ(unused.exit_code, 0);
+  EXPECT_EQ(unused.err,
+            "warning: m.csv: columns root.… are not used: the scene does not say 'root: moving'\n");
+  const Run scaled = compute(motion(all, ",1.0005,0,0,0,0,0,3,0,0,0,0,0,0.7"));
+  EXPECT_EQ(scaled.exit_code, 0);
+  EXPECT_EQ(scaled.err,
+            "warning: m.csv: lengths of root.orientation are up to 0.0005 off 1; they are scaled to "
+            "1\n");
+  const Run exact = compute(motion(all, ",1,0,0,0,0,0,3,0,0,0,0,0,0.7"));
+  EXPECT_EQ(row(scaled.out, 0), row(exact.out, 0));
+  write("doubtful.yaml", std::string(kMoving) + "tolerances: {mass: 0.1}\n");
+  const Run doubtful =
+      compute(motion(all, ",1,0,0,0,0,0,3,0,0,0,0,0,0.7"), "--scene doubtful.yaml --deviations");
+  EXPECT_NE(doubtful.err.find("deviations take the root's motion as exact"), std::string::npos)
+      << doubtful.err;
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics
