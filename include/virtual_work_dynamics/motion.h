@@ -7,7 +7,8 @@
 namespace virtual_work_dynamics {
 
 /// Motion of a mechanism at one instant. Each vector has one entry for each generalized coordinate,
-/// in the order of Mechanism::coordinates(); the root link rests unless the scene says that it moves.
+/// in the order of Mechanism::coordinates(); the root link rests unless the scene says that it
+/// moves.
 struct Motion {
   Motion() = default;
 
@@ -17,7 +18,9 @@ struct Motion {
         qd(Eigen::VectorXd::Zero(coordinates)),
         qdd(Eigen::VectorXd::Zero(coordinates)) {}
 
-  bool finite() const { return q.allFinite() && qd.allFinite() && qdd.allFinite() && root.finite(); }
+  bool finite() const {
+    return q.allFinite() && qd.allFinite() && qdd.allFinite() && root.finite();
+  }
 
   Eigen::VectorXd q;    ///< positions, rad or m
   Eigen::VectorXd qd;   ///< velocities, rad/s or m/s

@@ -20,9 +20,9 @@ struct MotionTable {
   /// known.
   std::vector<Eigen::Matrix3d> covariances;
 
-  std::vector<RootMotion> roots;  ///< by row: how the root link moves; empty: not given
+  std::vector<RootMotion> roots;        ///< by row: how the root link moves; empty: not given
   std::vector<std::string> roots_lack;  ///< members of RootMotion that `roots` were not given
-  double orientation_error = 0;  ///< how far the lengths of given orientations were off 1
+  double orientation_error = 0;         ///< how far the lengths of given orientations were off 1
 
   std::vector<std::string> wrenches;  ///< names of applied wrenches
   Eigen::MatrixXd wrench_values;      ///< rows x 6 wrenches: fx fy fz tx ty tz of each, N and N m

@@ -17,9 +17,9 @@ struct RootMotion {
 
   Eigen::Vector3d position = Eigen::Vector3d::Zero();               ///< m; no result depends on it
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< R_I0, of unit length
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< m/s; no result depends on it
-  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< rad/s
-  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();      ///< without gravity, m/s^2
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();              ///< m/s; no result depends on it
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();      ///< rad/s
+  Eigen::Vector3d acceleration = Eigen::Vector3d::Zero();          ///< without gravity, m/s^2
   Eigen::Vector3d angular_acceleration = Eigen::Vector3d::Zero();  ///< rad/s^2
 };
 

@@ -32,8 +32,8 @@ struct AppliedWrench {
 /// A rigid body that is fixed on a link, besides what the description says of the link.
 struct Payload {
   std::string link;
-  double mass = 0;                                  ///< kg, more than zero
-  Eigen::Vector3d at = Eigen::Vector3d::Zero();     ///< centre of mass, link frame, m
+  double mass = 0;                                    ///< kg, more than zero
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();       ///< centre of mass, link frame, m
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about it, axes of the link, kg m^2
 };
 

@@ -88,8 +88,8 @@ void ShiftedChain::compute(const Motion& motion, const Eigen::MatrixXd& shifts,
   setLoads(motion, shifts, law);
   const double* const inputs = inputs_.data();
   block_.compute(BlockLayout::kStructureOfArrays,
-                 {samples_, inputs, inputs + size, inputs + 2 * size, root_.data()},
-                 loads_.data(), results_);
+                 {samples_, inputs, inputs + size, inputs + 2 * size, root_.data()}, loads_.data(),
+                 results_);
 }
 
 // The root's motion is the same in all samples.

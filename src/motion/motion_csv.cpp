@@ -421,8 +421,9 @@ class CsvReader {
     const std::size_t row =
         takeRoots(root_columns_, rows.rightCols(rows.cols() - start - wrenches), table_);
     if (row < numbers.size()) {
-      throw FileError(atLine(numbers[row]) + ": " + rootColumnsText("orientation") + " has the length " +
-                      numberText(table_.roots[row].orientation.norm()) + ", not 1");
+      throw FileError(atLine(numbers[row]) + ": " + rootColumnsText("orientation") +
+                      " has the length " + numberText(table_.roots[row].orientation.norm()) +
+                      ", not 1");
     }
   }
 

@@ -27,7 +27,8 @@ std::string rootColumnsText(const std::string& quantity);
 /// Fills MotionTable::roots and what belongs to it. Orientations become of unit length.
 /// @param columns as rootColumnsOf() gives them
 /// @param values rows x columns
-/// @returns the first row whose orientation is more than 1e-3 longer or shorter than 1; the number of
+/// @returns the first row whose orientation is more than 1e-3 longer or shorter than 1; the number
+/// of
 ///   rows when there is none
 std::size_t takeRoots(const std::vector<std::string>& columns, const Eigen::MatrixXd& values,
                       MotionTable& table);

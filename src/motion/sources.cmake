@@ -9,6 +9,7 @@ vwd_core(
   motion_law.cpp
   recording.cpp
   root_columns.cpp
+  root_motion.cpp
   sample_blocks.cpp
   sample_clock.cpp
   shown_noise.cpp

@@ -34,8 +34,8 @@ void checkRoots(const Scene& scene, const MotionFile& file) {
   std::string missing;
   for (const std::string& quantity : needed(scene)) {
     const auto& lack = table.roots_lack;
-    const bool given = !table.roots.empty() &&
-                       std::find(lack.begin(), lack.end(), quantity) == lack.end();
+    const bool given =
+        !table.roots.empty() && std::find(lack.begin(), lack.end(), quantity) == lack.end();
     if (!given) missing += (missing.empty() ? "" : ", ") + rootColumnsText(quantity);
   }
   if (!missing.empty()) {

@@ -5,8 +5,8 @@
 
 namespace virtual_work_dynamics {
 
-/// Checks what a file gives of the motion of the root link against what the scene needs, and warns on
-/// standard error where it is not used, or was not quite an orientation.
+/// Checks what a file gives of the motion of the root link against what the scene needs, and warns
+/// on standard error where it is not used, or was not quite an orientation.
 /// @throws FileError naming columns that are missing.
 void checkRoots(const Scene& scene, const MotionFile& file);
 

@@ -207,8 +207,9 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   parameters.refuseUnknown();
   result.scene = readScene(scene);
   if (result.scene.root_moves) {
-    throw SceneError("root: moving: the node is not told how the root link moves; "
-                     "inverse_dynamics_offline is, by columns root.…");
+    throw SceneError(
+        "root: moving: the node is not told how the root link moves; "
+        "inverse_dynamics_offline is, by columns root.…");
   }
   readRobotDescription(private_node, result);
   return result;

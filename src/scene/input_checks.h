@@ -16,8 +16,8 @@ namespace virtual_work_dynamics {
 /// Checks a motion. @throws MotionError naming the first vector whose length is not `coordinates`.
 void requireLengths(const Motion& motion, Eigen::Index coordinates);
 
-/// Checks a table of a robot whose root moves. @throws MotionError unless its first `rows` have motions
-/// of the root.
+/// Checks a table of a robot whose root moves. @throws MotionError unless its first `rows` have
+/// motions of the root.
 void requireRoots(const MotionTable& table, std::size_t rows);
 
 /// Checks a load. @throws SceneError when it has not one wrench for each of the `applied` ones of

@@ -40,8 +40,8 @@ void add(const Payload& payload, Link& link) {
   const long double own = link.mass, more = payload.mass;
   const Vector3l at = payload.at.cast<long double>();
   const Vector3l centre = (own * link.p_KoCm_K + more * at) / (own + more);
-  link.inertia_Cm_K += steiner(own, link.p_KoCm_K - centre) +
-                       payload.inertia.cast<long double>() + steiner(more, at - centre);
+  link.inertia_Cm_K += steiner(own, link.p_KoCm_K - centre) + payload.inertia.cast<long double>() +
+                       steiner(more, at - centre);
   link.p_KoCm_K = centre;
   link.mass = own + more;
 }

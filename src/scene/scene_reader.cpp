@@ -13,9 +13,9 @@ namespace virtual_work_dynamics {
 namespace {
 
 const Names kSceneKeys = {
-    "gravity",        "root",             "motion",           "reactions", "include_active",    "moments_about",
-    "strict_inertia", "applied_wrenches", "joints",    "use_urdf_dynamics", "tolerances",
-    "payload"};
+    "gravity",       "root",           "motion",           "reactions", "include_active",
+    "moments_about", "strict_inertia", "applied_wrenches", "joints",    "use_urdf_dynamics",
+    "tolerances",    "payload"};
 // Bytes, beyond those of the most values that a scene may have.
 constexpr std::size_t kLongestScene = std::size_t{64} << 20;
 const Names kWrenchKeys = {"name", "link", "at", "axes", "force", "torque", "live", "invert"};

@@ -76,7 +76,7 @@ struct BlockInverseDynamics<Real>::Impl {
   }
 
   void check(const BlockArrays<Real>& arrays) const {
-    static const char* const kNames[] = {"q",      "qd",         "qdd",       "root",  "effort",
+    static const char* const kNames[] = {"q",          "qd",        "qdd",   "root",  "effort",
                                          "child_axes", "root_axes", "poses", "twists"};
     if (arrays.samples == 0) return;
     for (int i = 0; i < kInputs; ++i) {
@@ -176,10 +176,9 @@ struct BlockInverseDynamics<Real>::Impl {
       }
     }
     const auto wanted = [&](int i) { return arrays.outputs[i] ? tile[kInputs + i] : nullptr; };
-    kernel.pack(view,
-                {tile[0], tile[1], tile[2], width, applied.data(), applied.stride(), tile[3], width},
-                {wanted(0), wanted(1), wanted(2), wanted(3), wanted(4), width},
-                scratch[thread].get());
+    kernel.pack(
+        view, {tile[0], tile[1], tile[2], width, applied.data(), applied.stride(), tile[3], width},
+        {wanted(0), wanted(1), wanted(2), wanted(3), wanted(4), width}, scratch[thread].get());
     for (int i = kInputs; i < kArrays; ++i) {
       Real* const to = arrays.outputs[i - kInputs];
       if (!to || columns[i] == 0) continue;

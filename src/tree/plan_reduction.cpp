@@ -174,8 +174,8 @@ class Reduction {
     }
   }
 
-  // Bodies on a root that rests, and on what is welded to it, start from a constant gamma and from no
-  // w or alpha.
+  // Bodies on a root that rests, and on what is welded to it, start from a constant gamma and from
+  // no w or alpha.
   void startFromRest() {
     std::vector<bool> rests(bodies_.size(), false);
     std::vector<Vec3<Real>> gamma(bodies_.size(), gamma_root_);

@@ -57,7 +57,7 @@ struct SampleBlock::Impl {
   std::size_t capacity;
   std::size_t efforts, child_axes, root_axes, poses, twists;  // numbers of each in a sample
   std::vector<double> inputs, roots, outputs;  // arrays one after the other; roots: RootStates
-  ResultBlock<double> results;                                // their places in `outputs`
+  ResultBlock<double> results;                 // their places in `outputs`
 };
 
 SampleBlock::SampleBlock(const InverseDynamics& inverse_dynamics, std::size_t capacity, int threads)

@@ -8,7 +8,6 @@ vwd_core(
   plan_counting.cpp
   plan_reduction.cpp
   plan_rounding.cpp
-  root_state.cpp
   sample_block.cpp)
 
 vwd_core_vectors(

@@ -229,8 +229,8 @@ TEST(MovingRoot, HasTheDeviationsOfItsJoints) {
   motion.root.angular_velocity.setZero();
   motion.root.angular_acceleration.setZero();
   Scene rests;
-  rests.gravity = motion.root.orientation.conjugate() *
-                  (movingScene().gravity - motion.root.acceleration);
+  rests.gravity =
+      motion.root.orientation.conjugate() * (movingScene().gravity - motion.root.acceleration);
   const MotionCovariance covariance{std::vector<Eigen::Matrix3d>(
       mechanism.coordinates().size(), Eigen::Vector3d(1e-8, 1e-6, 1e-4).asDiagonal())};
   const auto deviationsIn = [&](const Scene& scene) {

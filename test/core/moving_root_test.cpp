@@ -75,7 +75,8 @@ struct Moving {
 
 double distance(const Wrench& found, const NewtonEulerOracle::RootWrench& expected,
                 const WrenchMagnitude& unit) {
-  const double force = static_cast<double>((found.force.cast<long double>() - expected.force).norm());
+  const double force =
+      static_cast<double>((found.force.cast<long double>() - expected.force).norm());
   const double torque =
       static_cast<double>((found.torque.cast<long double>() - expected.torque).norm());
   return std::max(unit.force > 0 ? force / unit.force : force,
@@ -96,14 +97,15 @@ double errorOf(const Moving& moving) {
     const WrenchMagnitude magnitude{unit * bound.wrenches()[i].force,
                                     unit * bound.wrenches()[i].moment};
     const int joint = static_cast<int>(i) - 1;
-    worst = std::max(worst, distance(workspace.childAxes()[i], oracle.childReaction(joint), magnitude));
+    worst =
+        std::max(worst, distance(workspace.childAxes()[i], oracle.childReaction(joint), magnitude));
     worst = std::max(worst, distance(workspace.rootAxes()[i], oracle.reaction(joint), magnitude));
   }
   const std::vector<long double> efforts = oracle.efforts();
   for (std::size_t i = 0; i < efforts.size(); ++i) {
     const double unit = 4 * kEps * (bound.effortDepths()[i] + 1) * bound.efforts()[i];
-    const double error = static_cast<double>(
-        std::abs(efforts[i] - static_cast<long double>(workspace.effort()[static_cast<Eigen::Index>(i)])));
+    const double error = static_cast<double>(std::abs(
+        efforts[i] - static_cast<long double>(workspace.effort()[static_cast<Eigen::Index>(i)])));
     worst = std::max(worst, unit > 0 ? error / unit : error);
   }
   return worst;
@@ -190,8 +192,8 @@ TEST(MovingRoot, OfBlocksHasTheSameBits) {
       motions.push_back(motion);
     }
     for (const InstructionSet set : supportedInstructionSets()) {
-      const InverseDynamics dynamics(moving.mechanism, moving.scene, everyReaction(moving.mechanism),
-                                     set);
+      const InverseDynamics dynamics(moving.mechanism, moving.scene,
+                                     everyReaction(moving.mechanism), set);
       Workspace one = dynamics.makeWorkspace(), many = dynamics.makeWorkspace();
       SampleBlock block(dynamics, kRows);
       block.compute(table, 0, kRows);

@@ -33,9 +33,8 @@ struct CarriedMechanism {
   static constexpr int kJoints = 6;
 
   /// @param mechanism in depth-first order, with names that none of the six have
-  explicit CarriedMechanism(const Mechanism& of)
-      : links(kJoints), joints(kJoints) {
-    static const char* const kNames[] = {"carrier_x", "carrier_y", "carrier_z",
+  explicit CarriedMechanism(const Mechanism& of) : links(kJoints), joints(kJoints) {
+    static const char* const kNames[] = {"carrier_x",   "carrier_y",     "carrier_z",
                                          "carrier_yaw", "carrier_pitch", "carrier_roll"};
     for (int i = 0; i < kJoints; ++i) {
       const auto at = static_cast<std::size_t>(i);
@@ -90,9 +89,8 @@ struct CarrierAngles {
                                        Turn(a[2], Vector3l::UnitX()))
             .cast<double>();
     root.angular_velocity = (w_y + r[2] * x).cast<double>();
-    root.angular_acceleration = (b[0] * z + b[1] * y + w_z.cross(r[1] * y) + b[2] * x +
-                                 w_y.cross(r[2] * x))
-                                    .cast<double>();
+    root.angular_acceleration =
+        (b[0] * z + b[1] * y + w_z.cross(r[1] * y) + b[2] * x + w_y.cross(r[2] * x)).cast<double>();
     return root;
   }
 };

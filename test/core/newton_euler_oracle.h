@@ -10,9 +10,9 @@
 namespace virtual_work_dynamics {
 
 /// Inverse dynamics by Newton's and Euler's equations about every link's centre of mass, in
-/// inertial axes and long double, link by link without lumping; the wrench at a joint is a plain sum
-/// over the links that it carries. Inertial axes are those of a root that rests. Shares only the
-/// Mechanism with the recursion under test.
+/// inertial axes and long double, link by link without lumping; the wrench at a joint is a plain
+/// sum over the links that it carries. Inertial axes are those of a root that rests. Shares only
+/// the Mechanism with the recursion under test.
 class NewtonEulerOracle {
  public:
   NewtonEulerOracle(const Mechanism& mechanism, const Scene& scene, const Motion& motion)

@@ -61,15 +61,16 @@ class OfflineRoot : public OfflineTool {
 // Newton and Euler say of a point on a turntable, by hand.
 TEST_F(OfflineRoot, OnATurntableIsThatByHand) {
   const double w = 3, epsilon = 0.7, q = 0.3, qd = 1, qdd = 2;
-  const Run found = compute(
-      motion(std::string(kOrientation) + kRates, ",1,0,0,0,0,0,3,0,0,0,0,0,0.7"));
+  const Run found =
+      compute(motion(std::string(kOrientation) + kRates, ",1,0,0,0,0,0,3,0,0,0,0,0,0.7"));
   ASSERT_EQ(found.exit_code, 0) << found.err;
   EXPECT_EQ(found.err, "");
   const std::vector<double> first = row(found.out, 0);
   // The mass is at 0.4 (cos q, 0, -sin q) from the pin; I is the jib's about its own axes.
   const double r = 0.4, m = 2, I = 0.2, I_axial = 0.01, g = 9.81;
   const double c = std::cos(q), s = std::sin(q);
-  const double effort = (I + m * r * r) * qdd + (I + m * r * r - I_axial) * w * w * s * c - m * g * r * c;
+  const double effort =
+      (I + m * r * r) * qdd + (I + m * r * r - I_axial) * w * w * s * c - m * g * r * c;
   EXPECT_NEAR(first[1], effort, 1e-13);
   // Force on the jib in root axes: m times the acceleration of a point that moves on a turntable.
   const double x = r * c, xd = -r * s * qd, xdd = -r * c * qd * qd - r * s * qdd;
@@ -80,8 +81,8 @@ TEST_F(OfflineRoot, OnATurntableIsThatByHand) {
 }
 
 TEST_F(OfflineRoot, IsTheSameByEveryRoute) {
-  const std::string csv = motion(std::string(kOrientation) + kRates,
-                                 ",0.5,-0.5,0.5,0.5,1,-2,3,4,-5,6,0.5,2,-3");
+  const std::string csv =
+      motion(std::string(kOrientation) + kRates, ",0.5,-0.5,0.5,0.5,1,-2,3,4,-5,6,0.5,2,-3");
   const Run found = compute(csv);
   ASSERT_EQ(found.exit_code, 0) << found.err;
   const Run lagrange = compute(csv, "--scene moving.yaml --method lagrange");
@@ -141,7 +142,8 @@ TEST_F(OfflineRoot, BadInputIsRefusedInOneLine) {
             "missing, though other components of it are there\n");
   std::string misspelt = motion(all, good);
   misspelt.replace(misspelt.find("root.acceleration.y"), 19, "root.acceleration.v");
-  EXPECT_NE(error(misspelt).find("column 13: 'root.acceleration.v' is not one of"), std::string::npos);
+  EXPECT_NE(error(misspelt).find("column 13: 'root.acceleration.v' is not one of"),
+            std::string::npos);
 }
 
 TEST_F(OfflineRoot, WhatIsNotUsedOrNotQuiteRightIsSaid) {
@@ -152,9 +154,10 @@ TEST_F(OfflineRoot, WhatIsNotUsedOrNotQuiteRightIsSaid) {
             "warning: m.csv: columns root.… are not used: the scene does not say 'root: moving'\n");
   const Run scaled = compute(motion(all, ",1.0005,0,0,0,0,0,3,0,0,0,0,0,0.7"));
   EXPECT_EQ(scaled.exit_code, 0);
-  EXPECT_EQ(scaled.err,
-            "warning: m.csv: lengths of root.orientation are up to 0.0005 off 1; they are scaled to "
-            "1\n");
+  EXPECT_EQ(
+      scaled.err,
+      "warning: m.csv: lengths of root.orientation are up to 0.0005 off 1; they are scaled to "
+      "1\n");
   const Run exact = compute(motion(all, ",1,0,0,0,0,0,3,0,0,0,0,0,0.7"));
   EXPECT_EQ(row(scaled.out, 0), row(exact.out, 0));
   write("doubtful.yaml", std::string(kMoving) + "tolerances: {mass: 0.1}\n");

@@ -25,8 +25,8 @@ Payload randomPayload(RobotBuilder& builder, const std::string& link) {
   const Eigen::Vector3d half = builder.vector(0.2).cwiseAbs().cast<double>();  // of a box
   const Eigen::Matrix3d R = builder.rotation().cast<double>();
   const Eigen::Vector3d squares = half.cwiseProduct(half);
-  const Eigen::Vector3d moments = (Eigen::Vector3d::Constant(squares.sum()) - squares) *
-                                  (payload.mass / 3);
+  const Eigen::Vector3d moments =
+      (Eigen::Vector3d::Constant(squares.sum()) - squares) * (payload.mass / 3);
   payload.inertia = R * moments.asDiagonal() * R.transpose();
   payload.inertia = (payload.inertia + payload.inertia.transpose().eval()) / 2;
   return payload;
@@ -142,8 +142,7 @@ TEST(Payload, ThatNoBodyIsIsRefused) {
             "payload[0].inertia: expected a list of six numbers: ixx, ixy, ixz, iyy, iyz, izz");
   const Loaded loaded(1);
   const auto compiling = [&](const std::string& entry) {
-    return messageOf(
-        [&] { InverseDynamics(loaded.bare, sceneOf("payload: [" + entry + "]")); });
+    return messageOf([&] { InverseDynamics(loaded.bare, sceneOf("payload: [" + entry + "]")); });
   };
   EXPECT_EQ(compiling("{link: link_1, mass: 0}"), "payload[0].mass: 0 kg is not a positive mass");
   EXPECT_EQ(compiling("{link: link_1, mass: -2}"), "payload[0].mass: -2 kg is not a positive mass");

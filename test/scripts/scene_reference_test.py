@@ -21,6 +21,7 @@ MAPS = {
     "kSceneKeys": ("",),
     "kMomentKeys": ("moments_about",),
     "kWrenchKeys": ("applied_wrenches",),
+    "kPayloadKeys": ("payload",),
     "kJointKeys": ("joints",),
     "kToleranceKeys": ("tolerances",),
     "kClosureKeys": ("closures",),
@@ -32,16 +33,16 @@ MAPS = {
 NAMED_NUMBERS = {"position": "assembly", "stiffness": "redundancy.stiffness",
                  "weight": "redundancy.effort_weights"}
 STRUCTS = {"": "Scene", "moments_about": "MomentPoint", "applied_wrenches": "AppliedWrench",
-           "joints": "JointTerms",
+           "payload": "Payload", "joints": "JointTerms",
            "tolerances": "Tolerances",
            "closures.parent": "LinkFrame", "closures.child": "LinkFrame", "springs": "PointSpring",
            "redundancy": "Redundancy"}
 # Members that have other names, or other values, than their keys.
-MEMBERS = {"motion": "static_motion"}
-VALUES = {"motion": {False: "full", True: "static"}}
+MEMBERS = {"motion": "static_motion", "root": "root_moves", "payload": "payloads"}
+VALUES = {"motion": {False: "full", True: "static"}, "root": {False: "fixed", True: "moving"}}
 # Which tables of the page stand for which maps: the heading, or the line before a table in it.
 TABLES = {"Top level": [""], "moments_about": ["moments_about"],
-          "applied_wrenches": ["applied_wrenches"], "joints": ["joints"],
+          "applied_wrenches": ["applied_wrenches"], "payload": ["payload"], "joints": ["joints"],
           "tolerances": ["tolerances"],
           "closures": ["closures", ("closures.parent", "closures.child")], "springs": ["springs"],
           "assembly": ["assembly"],

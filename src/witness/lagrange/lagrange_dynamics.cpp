@@ -105,7 +105,7 @@ struct LagrangeDynamics<Real>::Impl {
 
   Request request;
   LagrangePlan<Real> plan;
-  Load own_load;  // the values in the scene
+  Load own_load;         // the values in the scene
   Triple<Real> gravity;  // axes of the root link, m/s^2
   std::vector<JointState<Real>> states;
   std::vector<RelativePose<Real, 0>> poses;  // by joint; the other frames are by link

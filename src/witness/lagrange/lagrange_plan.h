@@ -76,7 +76,7 @@ struct LagrangePlan {
   std::vector<JointData> joints;
   std::vector<LinkData> links;
   std::vector<AppliedPlace> applied;  ///< in the scene's order
-  Triple<Real> gravity{};  ///< inertial axes
+  Triple<Real> gravity{};             ///< inertial axes
   bool static_motion = false;
   bool root_moves = false;
   int coordinate_count = 0;
