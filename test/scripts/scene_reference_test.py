@@ -124,7 +124,7 @@ def default_of(kind, initializer):
     if initializer is None:
         return [] if kind.startswith("std::vector") else None
     if initializer.endswith("Zero()"):
-        return [0, 0, 0]
+        return [0] * (6 if "Matrix3d" in initializer else 3)  # of a symmetric matrix
     if re.fullmatch(r"\w+::k\w+", initializer):
         word = initializer.split("::k")[1]
         return re.sub(r"(?<!^)([A-Z])", r"_\1", word).lower()
