@@ -130,6 +130,8 @@ BAD_PARAMETERS = {
         ["parameter ~scene: applied_wrenches[0].forse: unknown key; did you mean 'force'?"]),
     'unknown_scene_key': ({'scene': {'gravitation': [0, 0, 1]}},
                           ['parameter ~scene: gravitation: unknown key']),
+    'root_that_moves': ({'scene': {'root': 'moving'}}, [
+        'root: moving: the node is not told how the root link moves']),
     'gravity_of_two': ({'scene': {'gravity': [0, 1]}}, ['gravity', 'three numbers']),
     'gravity_that_is_no_number': ({'scene': {'gravity': [0, 0, 'down']}}, ['gravity', "'down'"]),
     'closure_without_a_type': ({'scene': {'closures': [{'name': 'pin'}]}},
