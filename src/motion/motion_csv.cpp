@@ -12,6 +12,7 @@
 #include "base/printable.h"
 #include "base/text_file.h"
 #include "base/wrench_components.h"
+#include "motion/csv_lines.h"
 #include "motion/motion_text.h"
 #include "motion/root_columns.h"
 #include "motion/wrench_columns.h"
@@ -26,16 +27,6 @@ constexpr std::array<const char*, 3> kKinds{"position", "velocity", "acceleratio
 constexpr std::array<const char*, 7> kIgnored{"effort",    "reaction", "determined", "deviation",
                                               "tolerance", "residual", "certificate"};
 constexpr char kKnownColumns[] = "time, position.<joint>, velocity.<joint>, acceleration.<joint>";
-
-bool isBlank(char c) {
-  return c == ' ' || c == '\t' || c == '\r';
-}
-
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
-  return text;
-}
 
 template <std::size_t size>
 bool isOneOf(const std::array<const char*, size>& words, std::string_view word) {
@@ -72,79 +63,6 @@ std::string columnHelp(std::string_view column) {
   return "; did you mean " + inQuotes(kind + std::string(column.substr(point))) + "?";
 }
 
-// The lines of a text that are neither blank nor comments.
-class Lines {
- public:
-  Lines(TextSource& text, const std::string& name) : source_(text), name_(name) {}
-
-  // Goes to the next line and returns false at the end. Refuses rows after a blank line, as two
-  // files written into one have them.
-  bool next(bool blanks_may_stand_before) {
-    std::size_t blank_line = 0;
-    while (readLine()) {
-      ++number_;
-      if (number_ == 1) skipByteOrderMark();
-      line_ = trimmed(line_);
-      if (line_.empty()) {
-        if (blank_line == 0) blank_line = number_;
-      } else if (line_.front() != '#') {
-        if (blank_line == 0 || blanks_may_stand_before) return true;
-        throw FileError(name_ + ": line " + std::to_string(blank_line) + " is blank, but line " +
-                        std::to_string(number_) + " follows");
-      }
-    }
-    return false;
-  }
-
-  std::string_view text() const { return line_; }
-  std::size_t number() const { return number_; }
-
- private:
-  static constexpr std::size_t kPiece = 65536;
-  static constexpr std::size_t kMegabyte = std::size_t{1} << 20;
-  static constexpr std::size_t kLongestLine = 64 * kMegabyte;  // of a million columns and more
-
-  // Takes the next line off the buffer, which is filled as far as needed; false at the end.
-  bool readLine() {
-    std::size_t searched = start_;
-    std::size_t end = buffer_.find('\n', searched);
-    while (end == std::string::npos && !at_end_) {
-      buffer_.erase(0, start_);
-      start_ = 0;
-      searched = buffer_.size();
-      if (searched > kLongestLine) {
-        throw FileError(name_ + ": line " + std::to_string(number_ + 1) + " has more than " +
-                        std::to_string(kLongestLine / kMegabyte) + " MB, or no end");
-      }
-      buffer_.resize(searched + kPiece);
-      const std::size_t count = source_.read(&buffer_[searched], kPiece);
-      buffer_.resize(searched + count);
-      at_end_ = count == 0;
-      end = buffer_.find('\n', searched);
-    }
-    if (start_ == buffer_.size()) return false;
-    end = std::min(end, buffer_.size());
-    line_ = std::string_view(buffer_).substr(start_, end - start_);
-    start_ = std::min(end + 1, buffer_.size());
-    return true;
-  }
-
-  void skipByteOrderMark() {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (line_.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
-      line_.remove_prefix(kByteOrderMark.size());
-    }
-  }
-
-  TextSource& source_;
-  const std::string& name_;
-  std::string buffer_;
-  std::size_t start_ = 0;  // of what has not been taken, in the buffer
-  bool at_end_ = false;
-  std::string_view line_;
-  std::size_t number_ = 0;
-};
-
 // A stream as text.
 class StreamSource : public TextSource {
  public:
@@ -159,46 +77,6 @@ class StreamSource : public TextSource {
   std::istream& stream_;
   const std::string& name_;
 };
-
-// Calls `use(column index, cell)` for every cell of a line without quotes.
-template <typename Use>
-void forEachPlainCell(std::string_view line, Use use) {
-  std::size_t count = 0;
-  while (true) {
-    const std::size_t comma = line.find(',');
-    use(count++, trimmed(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return;
-    line.remove_prefix(comma + 1);
-  }
-}
-
-// The cells of a line in which some stand in quotes (RFC 4180): a comma inside them is part of the
-// cell, and two quotes are one. Returns false when the quotes do not match.
-bool splitQuoted(std::string_view line, std::vector<std::string>& cells) {
-  cells.clear();
-  while (true) {
-    line = trimmed(line);
-    std::string cell;
-    if (line.substr(0, 1) == "\"") {
-      std::size_t at = 1;
-      for (; at < line.size() && (line[at] != '"' || line.substr(at + 1, 1) == "\""); ++at) {
-        if (line[at] == '"') ++at;
-        cell += line[at];
-      }
-      if (at >= line.size()) return false;
-      line = trimmed(line.substr(at + 1));
-      if (!line.empty() && line.front() != ',') return false;
-    } else {
-      const std::string_view plain = trimmed(line.substr(0, line.find(',')));
-      if (plain.find('"') != std::string_view::npos) return false;
-      cell = std::string(plain);
-      line.remove_prefix(std::min(line.find(','), line.size()));
-    }
-    cells.push_back(std::move(cell));
-    if (line.empty()) return true;
-    line.remove_prefix(1);
-  }
-}
 
 // Reads one CSV text into a table: first the header, which says where each column goes, then the
 // rows.
@@ -427,7 +305,7 @@ class CsvReader {
     }
   }
 
-  Lines lines_;
+  CsvLines lines_;
   const std::string& name_;
   std::size_t header_line_ = 0;
   bool ends_with_comma_ = false;    // the header, and so its rows may

@@ -1,6 +1,7 @@
 vwd_core(
   block_record.cpp
   coordinate_track.cpp
+  csv_lines.cpp
   end_slopes.cpp
   far_positions.cpp
   motion_completion.cpp
