@@ -1,4 +1,5 @@
 // A motion from bytes of CSV, for all joints and for chosen ones, with the derivatives it lacks.
+#include <cmath>
 #include <sstream>
 
 #include "fuzz_target.h"
@@ -19,6 +20,11 @@ void requireRectangular(const MotionTable& table, const std::vector<std::size_t>
     const bool absent = columns != &table.positions && columns->size() == 0;
     if (!absent && (columns->rows() != rows || columns->cols() != joints)) failFuzz("ragged table");
     if (!columns->allFinite()) failFuzz("a table with values that are not finite");
+  }
+  if (!table.roots.empty() && table.roots.size() != table.times.size()) failFuzz("ragged roots");
+  for (const RootMotion& root : table.roots) {
+    if (!root.finite()) failFuzz("a motion of the root that is not finite");
+    if (std::abs(root.orientation.norm() - 1) > 1e-12) failFuzz("no orientation");
   }
 }
 
