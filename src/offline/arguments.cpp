@@ -45,7 +45,7 @@ How missing derivatives are estimated
                         separated by commas
 
 What is computed
-  --gravity "X Y Z"     gravity in axes of the root link, m/s^2 (default: 0 0 -9.81)
+  --gravity "X Y Z"     gravity in axes of a root link that rests, m/s^2 (default: 0 0 -9.81)
   --axes root|child     axes of the reactions: of the root link (default) or of the child link
   --reactions LIST      all (every movable joint; the default), none, or joints separated by
                         commas; fixed joints and "ground" by name only

@@ -23,19 +23,8 @@ std::string momentsText(Vector3l moments) {
 }
 
 void judgeTensor(const Link& link, std::vector<Doubt>& doubts) {
-  const Eigen::SelfAdjointEigenSolver<Matrix3l> solver(link.inertia_Cm_K, Eigen::EigenvaluesOnly);
-  const Vector3l moments = solver.eigenvalues();  // ascending
-  const long double slack = kTolerance * moments.cwiseAbs().sum();
-  if (moments[0] < -slack) {
-    doubts.push_back({"link " + inQuotes(link.name) + ": negative principal moment of inertia (" +
-                          momentsText(moments) + ")",
-                      true});
-  } else if (moments[2] > moments[0] + moments[1] + slack) {
-    doubts.push_back({"link " + inQuotes(link.name) +
-                          ": principal moments of inertia break the triangle inequality (" +
-                          momentsText(moments) + ")",
-                      true});
-  }
+  const std::string why = impossibleInertia(link.inertia_Cm_K);
+  if (!why.empty()) doubts.push_back({"link " + inQuotes(link.name) + ": " + why, true});
 }
 
 // A body is a movable joint's child link with everything welded to it.
@@ -62,6 +51,20 @@ void judgeMovingLeaves(const std::vector<Link>& links, const std::vector<Joint>&
 }
 
 }  // namespace
+
+std::string impossibleInertia(const Matrix3l& inertia) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3l> solver(inertia, Eigen::EigenvaluesOnly);
+  const Vector3l moments = solver.eigenvalues();  // ascending
+  const long double slack = kTolerance * moments.cwiseAbs().sum();
+  if (moments[0] < -slack) {
+    return "negative principal moment of inertia (" + momentsText(moments) + ")";
+  }
+  if (moments[2] > moments[0] + moments[1] + slack) {
+    return "principal moments of inertia break the triangle inequality (" + momentsText(moments) +
+           ")";
+  }
+  return "";
+}
 
 std::vector<Doubt> inertiaDoubts(const std::vector<Link>& links, const std::vector<Joint>& joints) {
   std::vector<Doubt> doubts;

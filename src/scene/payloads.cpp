@@ -1,34 +1,22 @@
 #include "scene/payloads.h"
 
-#include <Eigen/Eigenvalues>
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include "base/number_text.h"
+#include "robot/inertia_doubts.h"
 #include "scene/lookup.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
 namespace {
 
-// Share of the trace by which moments may break an inequality, as scenes are written with few
-// digits.
-constexpr double kTolerance = 1e-9;
-
 void requireBody(const Payload& payload, const std::string& place) {
-  if (!(payload.mass > 0) || !std::isfinite(payload.mass)) {
+  if (!(payload.mass > 0)) {
     throw SceneError(place + ".mass: " + numberText(payload.mass) + " kg is not a positive mass");
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(payload.inertia,
-                                                              Eigen::EigenvaluesOnly);
-  const Eigen::Vector3d moments = solver.eigenvalues();  // ascending
-  const double slack = kTolerance * moments.cwiseAbs().sum();
-  if (!(moments[0] >= -slack && moments[2] <= moments[0] + moments[1] + slack)) {
-    throw SceneError(place + ".inertia: no body has the principal moments " +
-                     numberText(moments[0]) + ", " + numberText(moments[1]) + ", " +
-                     numberText(moments[2]) + " kg m^2");
-  }
+  const std::string why = impossibleInertia(payload.inertia.cast<long double>());
+  if (!why.empty()) throw SceneError(place + ".inertia: " + why);
 }
 
 // Inertia of a mass about a point at a distance.

@@ -83,7 +83,7 @@ struct ErrorBound::Impl {
   Impl(const Mechanism& mechanism, const Scene& scene)
       : rests(scene.static_motion),
         root_moves(scene.root_moves),
-        gravity(scene.gravity.cast<long double>()),
+        gravity(static_cast<double>(scene.gravity.cast<long double>().norm())),
         own_load(scene),
         terms(resolveJointTerms(mechanism, scene)),
         motions(mechanism.links().size()),
@@ -100,6 +100,7 @@ struct ErrorBound::Impl {
       norms.arm = scene.applied_wrenches[i].at.cast<long double>().norm();
       applied_wrenches.push_back(norms);
     }
+    motions[0].gamma = gravity;
     measureDepths();
   }
 
@@ -123,11 +124,8 @@ struct ErrorBound::Impl {
   }
 
   void takeRoot(const RootMotion& root) {
-    const double g = static_cast<double>(gravity.norm());
-    motions[0] = {0, 0, g};
-    if (!root_moves || rests) return;
     motions[0] = {root.angular_velocity.norm(), root.angular_acceleration.norm(),
-                  g + root.acceleration.norm()};
+                  gravity + root.acceleration.norm()};
   }
 
   double position(const JointNorms& joint, const Motion& motion) const {
@@ -204,7 +202,7 @@ struct ErrorBound::Impl {
 
   bool rests;
   bool root_moves;
-  Vector3l gravity;
+  double gravity;  // its norm, m/s^2
   double least = 0;
   Load own_load;  // the values in the scene
   std::vector<JointNorms> joints;
@@ -239,7 +237,7 @@ void ErrorBound::compute(const Motion& motion, const Load& load, double least) {
   }
   requireLengths(motion, static_cast<Eigen::Index>(impl.efforts.size()));
   std::fill(impl.efforts.begin(), impl.efforts.end(), 0.0);
-  impl.takeRoot(motion.root);
+  if (impl.root_moves && !impl.rests) impl.takeRoot(motion.root);
   for (std::size_t k = 0; k < impl.joints.size(); ++k) impl.move(k, motion);
   impl.addApplied();
   for (std::size_t i = 0; i < impl.links.size(); ++i) impl.load(i);

@@ -147,9 +147,10 @@ TEST(Payload, ThatNoBodyIsIsRefused) {
   EXPECT_EQ(compiling("{link: link_1, mass: 0}"), "payload[0].mass: 0 kg is not a positive mass");
   EXPECT_EQ(compiling("{link: link_1, mass: -2}"), "payload[0].mass: -2 kg is not a positive mass");
   EXPECT_EQ(compiling("{link: link_1, mass: 1, inertia: [1, 0, 0, 1, 0, 3]}"),
-            "payload[0].inertia: no body has the principal moments 1, 1, 3 kg m^2");
+            "payload[0].inertia: principal moments of inertia break the triangle inequality "
+            "(1, 1, 3 kg m^2)");
   EXPECT_EQ(compiling("{link: link_1, mass: 1, inertia: [-1, 0, 0, 1, 0, 1]}"),
-            "payload[0].inertia: no body has the principal moments -1, 1, 1 kg m^2");
+            "payload[0].inertia: negative principal moment of inertia (-1, 1, 1 kg m^2)");
   const std::string unknown = compiling("{link: link_9, mass: 1}");
   EXPECT_NE(unknown.find("payload[0].link"), std::string::npos) << unknown;
   EXPECT_NE(unknown.find("'link_9'"), std::string::npos) << unknown;
