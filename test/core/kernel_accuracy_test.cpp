@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "random_wrenches.h"
 #include "reference_errors.h"
 #include "robot_builder.h"
 #include "sample_robots.h"
@@ -54,18 +55,6 @@ Robot pendulum() {
   Scene scene;
   scene.gravity = {9.81, 0, 0};
   return {"pendulum", readUrdf(pendulumUrdf()), scene, random.motions(kSamples)};
-}
-
-void addAppliedWrenches(RandomRobot& random, int links, Scene& scene) {
-  for (const Axes axes : {Axes::kLink, Axes::kRoot, Axes::kLink, Axes::kRoot}) {
-    AppliedWrench wrench;
-    wrench.link = "link_" + std::to_string(random.pick(links));
-    wrench.axes = axes;
-    for (auto* vector : {&wrench.at, &wrench.force, &wrench.torque}) {
-      *vector << random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2);
-    }
-    scene.applied_wrenches.push_back(wrench);
-  }
 }
 
 // Every kind of scene in turn.

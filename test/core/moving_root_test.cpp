@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "bounded_wrenches.h"
 #include "moving_roots.h"
 #include "newton_euler_oracle.h"
 #include "plain_results.h"
 #include "random_motions.h"
+#include "random_wrenches.h"
 #include "sample_robots.h"
 #include "tree/sample_block.h"
 #include "virtual_work_dynamics/certificates.h"
@@ -33,26 +35,6 @@ Scene movingScene(std::mt19937& generator) {
   return scene;
 }
 
-Request everyReaction(const Mechanism& mechanism) {
-  Request request;
-  request.child_axes.emplace_back(kGround);
-  for (const Joint& joint : mechanism.joints()) request.child_axes.push_back(joint.name);
-  request.root_axes = request.child_axes;
-  return request;
-}
-
-void addWrenches(RandomRobot& random, int links, Scene& scene) {
-  for (const Axes axes : {Axes::kLink, Axes::kRoot}) {
-    AppliedWrench wrench;
-    wrench.link = "link_" + std::to_string(random.pick(links));
-    wrench.axes = axes;
-    for (auto* vector : {&wrench.at, &wrench.force, &wrench.torque}) {
-      *vector << random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2);
-    }
-    scene.applied_wrenches.push_back(wrench);
-  }
-}
-
 /// A random tree, a scene in which its root moves, and a motion of both.
 struct Moving {
   explicit Moving(unsigned seed, bool is_static = false)
@@ -63,7 +45,7 @@ struct Moving {
         motion(random.motion(mechanism)) {
     scene.static_motion = is_static;
     motion.root = randomRootMotion(generator);
-    addWrenches(random, static_cast<int>(mechanism.links().size()), scene);
+    addAppliedWrenches(random, static_cast<int>(mechanism.links().size()), scene);
   }
 
   RandomRobot random;
@@ -85,7 +67,8 @@ double distance(const Wrench& found, const NewtonEulerOracle::RootWrench& expect
 
 // The largest error over 4 L eps S; one step more than L, which turns gravity into root axes.
 double errorOf(const Moving& moving) {
-  const InverseDynamics dynamics(moving.mechanism, moving.scene, everyReaction(moving.mechanism));
+  const InverseDynamics dynamics(moving.mechanism, moving.scene,
+                                 requestEveryJoint(moving.mechanism));
   Workspace workspace = dynamics.makeWorkspace();
   dynamics.compute(moving.motion, workspace);
   ErrorBound bound(moving.mechanism, moving.scene);
@@ -126,7 +109,7 @@ TEST(MovingRoot, IsThatOfNewtonAndEuler) {
 TEST(MovingRoot, OfLagrangesEquationsIsTheSame) {
   for (unsigned seed = 1; seed <= kRobots; ++seed) {
     const Moving moving(seed, seed % 5 == 0);
-    const Request request = everyReaction(moving.mechanism);
+    const Request request = requestEveryJoint(moving.mechanism);
     const InverseDynamics dynamics(moving.mechanism, moving.scene, request);
     Workspace workspace = dynamics.makeWorkspace();
     dynamics.compute(moving.motion, workspace);
@@ -134,16 +117,8 @@ TEST(MovingRoot, OfLagrangesEquationsIsTheSame) {
     lagrange.compute(moving.motion);
     ErrorBound bound(moving.mechanism, moving.scene);
     bound.compute(moving.motion);
-    for (std::size_t i = 0; i < request.child_axes.size(); ++i) {
-      const double tolerance = 1e-13;
-      const WrenchMagnitude& unit = bound.wrenches()[i];
-      const Wrench &a = workspace.childAxes()[i], &b = lagrange.childAxes()[i];
-      EXPECT_LE((a.force - b.force).norm(), tolerance * unit.force) << seed << " " << i;
-      EXPECT_LE((a.torque - b.torque).norm(), tolerance * unit.moment) << seed << " " << i;
-      const Wrench &c = workspace.rootAxes()[i], &d = lagrange.rootAxes()[i];
-      EXPECT_LE((c.force - d.force).norm(), tolerance * unit.force) << seed << " " << i;
-      EXPECT_LE((c.torque - d.torque).norm(), tolerance * unit.moment) << seed << " " << i;
-    }
+    expectTheSame(workspace.childAxes(), lagrange.childAxes(), 1e-13, bound);
+    expectTheSame(workspace.rootAxes(), lagrange.rootAxes(), 1e-13, bound);
     for (Eigen::Index i = 0; i < workspace.effort().size(); ++i) {
       EXPECT_NEAR(workspace.effort()[i], lagrange.effort()[i],
                   1e-13 * bound.efforts()[static_cast<std::size_t>(i)])
@@ -193,7 +168,7 @@ TEST(MovingRoot, OfBlocksHasTheSameBits) {
     }
     for (const InstructionSet set : supportedInstructionSets()) {
       const InverseDynamics dynamics(moving.mechanism, moving.scene,
-                                     everyReaction(moving.mechanism), set);
+                                     requestEveryJoint(moving.mechanism), set);
       Workspace one = dynamics.makeWorkspace(), many = dynamics.makeWorkspace();
       SampleBlock block(dynamics, kRows);
       block.compute(table, 0, kRows);
@@ -220,7 +195,7 @@ TEST(MovingRoot, TiltedIsThatOfTiltedGravity) {
     Scene resting = moving.scene;
     resting.root_moves = false;
     resting.gravity = root.orientation.conjugate() * (moving.scene.gravity - root.acceleration);
-    const Request request = everyReaction(moving.mechanism);
+    const Request request = requestEveryJoint(moving.mechanism);
     const InverseDynamics moves(moving.mechanism, moving.scene, request);
     const InverseDynamics rests(moving.mechanism, resting, request);
     Workspace a = moves.makeWorkspace(), b = rests.makeWorkspace();
@@ -228,11 +203,7 @@ TEST(MovingRoot, TiltedIsThatOfTiltedGravity) {
     rests.compute(moving.motion, b);
     ErrorBound bound(moving.mechanism, moving.scene);
     bound.compute(moving.motion);
-    for (std::size_t i = 0; i < request.child_axes.size(); ++i) {
-      const WrenchMagnitude& unit = bound.wrenches()[i];
-      EXPECT_LE((a.childAxes()[i].force - b.childAxes()[i].force).norm(), 1e-14 * unit.force);
-      EXPECT_LE((a.childAxes()[i].torque - b.childAxes()[i].torque).norm(), 1e-14 * unit.moment);
-    }
+    expectTheSame(a.childAxes(), b.childAxes(), 1e-14, bound);
   }
 }
 
@@ -250,11 +221,10 @@ TEST(MovingRoot, IsThatOfSixJointsBeforeIt) {
     moving.motion.root = carrier.root(p, v, a);
 
     const Mechanism carried = CarriedMechanism(moving.mechanism).mechanism();
+    // Root axes of the other tree are inertial ones: wrenches are in the axes of their links.
+    for (AppliedWrench& wrench : moving.scene.applied_wrenches) wrench.axes = Axes::kLink;
     Scene scene = moving.scene;
     scene.root_moves = false;
-    // Root axes of the other tree are inertial ones: wrenches in root axes are left out.
-    moving.scene.applied_wrenches.pop_back();
-    scene.applied_wrenches.pop_back();
     Motion motion(moving.motion.q.size() + CarriedMechanism::kJoints);
     motion.q << p, carrier.angles, moving.motion.q;
     motion.qd << v, carrier.rates, moving.motion.qd;
@@ -274,12 +244,7 @@ TEST(MovingRoot, IsThatOfSixJointsBeforeIt) {
     hangs.compute(motion, expected);
     ErrorBound bound(moving.mechanism, moving.scene);
     bound.compute(moving.motion);
-    for (std::size_t i = 0; i < request.child_axes.size(); ++i) {
-      const WrenchMagnitude& unit = bound.wrenches()[i];
-      const Wrench &one = found.childAxes()[i], &other = expected.childAxes()[i];
-      EXPECT_LE((one.force - other.force).norm(), 1e-13 * unit.force) << seed << " " << i;
-      EXPECT_LE((one.torque - other.torque).norm(), 1e-13 * unit.moment) << seed << " " << i;
-    }
+    expectTheSame(found.childAxes(), expected.childAxes(), 1e-13, bound);
     for (Eigen::Index i = 0; i < found.effort().size(); ++i) {
       EXPECT_NEAR(found.effort()[i], expected.effort()[i + CarriedMechanism::kJoints],
                   1e-13 * bound.efforts()[static_cast<std::size_t>(i)])

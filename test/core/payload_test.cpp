@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "bounded_wrenches.h"
 #include "robot_builder.h"
 #include "virtual_work_dynamics/certificates.h"
 #include "virtual_work_dynamics/dynamics.h"
@@ -85,11 +86,7 @@ TEST(Payload, IsThatOfALinkWithItsInertia) {
     has.compute(loaded.motion, b);
     ErrorBound bound(loaded.bare, loaded.scene);
     bound.compute(loaded.motion);
-    for (std::size_t i = 0; i < request.child_axes.size(); ++i) {
-      const WrenchMagnitude& unit = bound.wrenches()[i];
-      EXPECT_LE((a.childAxes()[i].force - b.childAxes()[i].force).norm(), 1e-15 * unit.force);
-      EXPECT_LE((a.childAxes()[i].torque - b.childAxes()[i].torque).norm(), 1e-15 * unit.moment);
-    }
+    expectTheSame(a.childAxes(), b.childAxes(), 1e-15, bound);
     LagrangeDynamics<double> lagrange(loaded.bare, loaded.scene, request);
     lagrange.compute(loaded.motion);
     EXPECT_LE((lagrange.effort() - a.effort()).cwiseAbs().maxCoeff(), 1e-12);
