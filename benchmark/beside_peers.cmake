@@ -7,6 +7,10 @@ set(peers kdl)
 
 # --- beside other libraries ------------------------------------------------------------------------
 add_library(benchmark_contenders STATIC
+  ../test/core/lagrange_multipliers_oracle.cpp  # without the checks of tests, as it is timed
+  ../test/core/loop_geometry.cpp
+  ../test/core/maximal_coordinates_oracle.cpp
+  ../test/core/newton_euler_oracle.cpp
   contenders/check.cpp
   contenders/closed_scenes.cpp
   contenders/kdl.cpp
@@ -22,8 +26,9 @@ add_library(benchmark_contenders STATIC
   contenders/own_single.cpp
   contenders/peer_input.cpp
   contenders/robots.cpp)
+vwd_precompile(benchmark_contenders <Eigen/Core> <functional> <string> <vector>)
 target_include_directories(benchmark_contenders PRIVATE ../src PUBLIC . ../test/core)  # the yardstick
-set_source_files_properties(contenders/long_double_dynamics.cpp PROPERTIES COMPILE_FLAGS "${kernel_flags}")
+set_source_files_properties(contenders/long_double_dynamics.cpp PROPERTIES COMPILE_FLAGS "${kernel_flags}" SKIP_PRECOMPILE_HEADERS ON)
 target_include_directories(benchmark_contenders SYSTEM PRIVATE ${orocos_kdl_INCLUDE_DIRS})
 target_compile_definitions(benchmark_contenders PRIVATE
   VWD_SOURCE_DIR="${PROJECT_SOURCE_DIR}"

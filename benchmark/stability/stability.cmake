@@ -3,25 +3,15 @@ add_executable(stability
   ../src/offline/output_file.cpp
   command_line.cpp
   contenders/long_double_dynamics.cpp
-  stability/balance_sweeps.cpp
-  stability/body_sweeps.cpp
-  stability/exact_results.cpp
-  stability/four_bar_sweeps.cpp
-  stability/held_sweeps.cpp
   stability/kdl_efforts.cpp
-  stability/linkage_sweeps.cpp
-  stability/loop_judge.cpp
   stability/measure.cpp
-  stability/mechanism_maker.cpp
-  stability/motion_sweeps.cpp
   stability/own_paths.cpp
   stability/stability.cpp
   stability/stability_options.cpp
-  stability/structure_sweeps.cpp
-  stability/sweeps.cpp
-  stability/worst_certificates.cpp)
+  $<TARGET_OBJECTS:core_oracles>
+  $<TARGET_OBJECTS:stability_scenes>)
 set_source_files_properties(contenders/long_double_dynamics.cpp
-  PROPERTIES COMPILE_FLAGS "${kernel_flags}")
+  PROPERTIES COMPILE_FLAGS "${kernel_flags}" SKIP_PRECOMPILE_HEADERS ON)
 target_include_directories(stability PRIVATE . ../src ../test/core)  # the yardstick
 target_link_libraries(stability
   PRIVATE ${PROJECT_NAME} ${VWD_REAL113_LIBRARIES} Threads::Threads ${PROJECT_NAME}_warnings)
@@ -41,17 +31,16 @@ endif()
 # Closed loops of random mechanisms in which much is special.
 add_executable(structured_loops
   command_line.cpp
-  stability/exact_results.cpp
-  stability/loop_judge.cpp
-  stability/loop_scenes.cpp
-  stability/structured_loops.cpp
-  stability/structured_loops_main.cpp)
+  stability/structured_loops_main.cpp
+  $<TARGET_OBJECTS:core_oracles>
+  $<TARGET_OBJECTS:stability_scenes>)
 target_include_directories(structured_loops PRIVATE . ../src ../test/core)  # the yardstick
 target_link_libraries(structured_loops
   PRIVATE ${PROJECT_NAME} ${VWD_REAL113_LIBRARIES} Threads::Threads ${PROJECT_NAME}_warnings)
 
 # Assemblies from starts at which loops are open.
-add_executable(assembly_starts command_line.cpp stability/assembly_starts.cpp)
+add_executable(assembly_starts command_line.cpp stability/assembly_starts.cpp
+  $<TARGET_OBJECTS:core_oracles>)
 target_include_directories(assembly_starts PRIVATE . ../src ../test/core)
 target_link_libraries(assembly_starts
   PRIVATE ${PROJECT_NAME} Threads::Threads ${PROJECT_NAME}_warnings)

@@ -6,4 +6,4 @@ vwd_core(
 
 # Fronts of single loops have few rows: vector instructions cost more than they spare.
 set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/multifrontal_qr.cpp PROPERTIES
-  COMPILE_OPTIONS -fno-tree-vectorize)
+  COMPILE_OPTIONS -fno-tree-vectorize SKIP_PRECOMPILE_HEADERS ON)

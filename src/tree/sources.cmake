@@ -23,7 +23,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 set_source_files_properties(
   ${CMAKE_CURRENT_LIST_DIR}/kernel/baseline.cpp ${CMAKE_CURRENT_LIST_DIR}/plan_counting.cpp
-  PROPERTIES COMPILE_FLAGS "${kernel_flags}")
+  PROPERTIES COMPILE_FLAGS "${kernel_flags}" SKIP_PRECOMPILE_HEADERS ON)
 if(VWD_X86)
   set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/kernel/avx2.cpp
     PROPERTIES COMPILE_FLAGS "${kernel_flags} -mavx2 -mfma")

@@ -6,7 +6,7 @@ const char* const kOfflineTool = OFFLINE_TOOL;
 const char* const kSourceFolder = VWD_SOURCE_DIR;
 const char* const kSharedData = VWD_SHARED_DATA;
 
-#if defined(__SANITIZE_ADDRESS__)
+#ifdef VWD_SANITIZED
 const bool kSanitized = true;
 #else
 const bool kSanitized = false;

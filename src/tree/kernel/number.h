@@ -10,7 +10,14 @@
 
 /// Inlined in every build: no copy compiled for one instruction set can serve another. Builds with
 /// the address sanitizer are excepted, as its checks would take the compiler minutes and gigabytes.
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__has_feature)
+#define VWD_HAS_ADDRESS_SANITIZER __has_feature(address_sanitizer)
+#elif defined(__SANITIZE_ADDRESS__)
+#define VWD_HAS_ADDRESS_SANITIZER 1
+#else
+#define VWD_HAS_ADDRESS_SANITIZER 0
+#endif
+#if VWD_HAS_ADDRESS_SANITIZER
 #define VWD_INLINE inline
 #define VWD_LAMBDA
 #else
