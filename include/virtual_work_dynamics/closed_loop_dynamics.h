@@ -50,8 +50,14 @@ class ClosedLoopDynamics {
   /// Says in a line each which coordinates are assembled more than 1.5 rad, or the size of the
   /// loops, from their start: perhaps on another branch.
   std::vector<std::string> assemblyDoubts() const;
-  /// Whether each generalized coordinate is actuated.
+  /// Whether each generalized coordinate is actuated, or counts so as its effort is a residual.
   const std::vector<bool>& actuated() const;
+  /// Whether the effort of each generalized coordinate is the residual of a free motion, see
+  /// Scene::free_motion: the generalized force, N m or N, that the motion demands there beyond what
+  /// the actuators can give, tau_tree along the motion that moves this coordinate by one and the
+  /// other residual and actuated ones by zero. It vanishes where the mechanism moves freely. The
+  /// coordinates are chosen once, close to the assembly.
+  const std::vector<bool>& residual() const;
   /// What motions give, as the scene says: the actuated coordinates unless it says otherwise.
   const Given& given() const;
   /// Names of the actuated closures, whose efforts come after those of the coordinates.

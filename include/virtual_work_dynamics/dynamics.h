@@ -19,6 +19,11 @@
 
 namespace virtual_work_dynamics {
 
+/// Begins the names of efforts that are residuals of free motions.
+constexpr const char* kMotionResidual = "residual.motion.";
+/// Whether that is how the name of an effort begins.
+bool isMotionResidual(const std::string& effort_name);
+
 /// Inverse dynamics of a mechanism, open or closed: efforts and reaction wrenches of a request. In
 /// an open chain nothing has to be completed and everything is determined, and it pays nothing for
 /// the other cases. Immutable: one instance may serve any number of threads, each with a workspace
@@ -43,7 +48,8 @@ class Dynamics {
   /// Number of generalized coordinates: the length of q, qd and qdd.
   Eigen::Index coordinates() const;
   const Request& request() const;
-  /// Names of what has an effort: the coordinates, then the actuated closures.
+  /// Names of what has an effort: the coordinates, then the actuated closures. An effort that
+  /// nothing delivers, see ClosedLoopDynamics::residual(), has kMotionResidual before the name.
   const std::vector<std::string>& effortNames() const;
 
   /// Whether the scene has closures, springs between points or passive joints.

@@ -180,6 +180,9 @@ struct Scene {
   /// Joints, and closures with one free axis, that carry effort; the others are passive. None:
   /// every joint of the tree is actuated, and no closure.
   std::optional<std::vector<std::string>> actuated;
+  /// True: what moves with nothing that holds it is no error. The efforts that it would take beyond
+  /// those of the actuators are the residual of the motion, see ClosedLoopDynamics::residual().
+  bool free_motion = false;
   /// What motions give, from which the closures determine the rest: joints, closures with one free
   /// axis, and "pose.<link>" for poses of links; see Given. None: the actuated joints.
   std::optional<std::vector<std::string>> given;

@@ -27,6 +27,10 @@ Request everything(const Mechanism& mechanism, const Scene& scene) {
 
 }  // namespace
 
+bool isMotionResidual(const std::string& effort_name) {
+  return effort_name.rfind(kMotionResidual, 0) == 0;
+}
+
 Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Request& request,
                      InstructionSet instruction_set)
     : tree(scene),
@@ -47,6 +51,9 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
   tree = loops->tree();
   tree_request = virtual_work_dynamics::treeRequest(mechanism, request);
   actuated = loops->actuated();
+  for (std::size_t i = 0; i < actuated.size(); ++i) {
+    if (loops->residual()[i]) effort_names[i] = kMotionResidual + effort_names[i];
+  }
   given = loops->given();
   // The axes of actuated closures would have to be given, too.
   if (!scene.given && !loops->actuatedClosures().empty()) {

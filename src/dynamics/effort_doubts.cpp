@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/printable.h"
+#include "virtual_work_dynamics/dynamics.h"
 
 namespace virtual_work_dynamics {
 
@@ -61,7 +62,8 @@ void EffortDoubts::forgetDeviations() {
 std::vector<EffortDoubt> EffortDoubts::above(double threshold) const {
   std::vector<EffortDoubt> doubts;
   for (Eigen::Index i = 0; i < counts_.size(); ++i) {
-    if (counts_[i] == 0) continue;
+    // A residual that vanishes is in no doubt.
+    if (counts_[i] == 0 || isMotionResidual(efforts_[static_cast<std::size_t>(i)])) continue;
     const double deviation = std::sqrt((motion_squares_[i] + description_squares_[i]) / counts_[i]);
     const double effort = std::sqrt(effort_squares_[i] / effort_counts_[i]);
     if (!(deviation > threshold * effort)) continue;

@@ -197,6 +197,32 @@ Eigen::VectorXd positionBeside(const Eigen::VectorXd& assembly, const Mechanism&
   return closeBeside(mechanism, completion, kinematics, q) ? q : assembly;
 }
 
+int freestCoordinate(const Mechanism& mechanism, const LoopScene& loops,
+                     const Eigen::VectorXd& assembly, LoopCompletion& completion,
+                     LoopKinematics& kinematics, std::vector<LoopForces>& forces) {
+  kinematics.setPosition(positionBeside(assembly, mechanism, completion, kinematics));
+  const std::vector<std::size_t> free = unheld(loops, forces);
+  // Of a coordinate outside of loops the motion is all its own.
+  std::vector<double> part(loops.actuated.size(), 1);
+  for (const LoopForces& group : forces) {
+    const std::vector<int>& coordinates = group.group().coordinates;
+    for (std::size_t row = 0; row < coordinates.size(); ++row) {
+      part[static_cast<std::size_t>(coordinates[row])] =
+          group.partInFreeMotions(static_cast<Eigen::Index>(row));
+    }
+  }
+  int freest = -1;
+  const auto isBefore = [&](std::size_t i, std::size_t other) {
+    const std::vector<bool>& given = loops.given.coordinates;
+    return given[i] != given[other] ? given[i] : part[i] > part[other];
+  };
+  for (const std::size_t i : free) {
+    if (freest < 0 || isBefore(i, static_cast<std::size_t>(freest))) freest = static_cast<int>(i);
+  }
+  kinematics.setPosition(assembly);
+  return freest;
+}
+
 void requireHeld(const Mechanism& mechanism, const LoopScene& loops,
                  const Eigen::VectorXd& assembly, LoopCompletion& completion,
                  LoopKinematics& kinematics, std::vector<LoopForces>& forces) {
@@ -206,7 +232,8 @@ void requireHeld(const Mechanism& mechanism, const LoopScene& loops,
   const std::vector<std::size_t> free = unheld(loops, forces);
   if (!free.empty()) {
     throw SceneError("actuated: too few for the degrees of freedom: nothing holds the motion of " +
-                     names(mechanism, free));
+                     names(mechanism, free) +
+                     " (free_motion: true reports what that motion demands)");
   }
   kinematics.setPosition(assembly);
 }

@@ -35,6 +35,16 @@ std::vector<std::string> farFromStart(const Mechanism& mechanism, const Eigen::V
 Eigen::VectorXd positionBeside(const Eigen::VectorXd& assembly, const Mechanism& mechanism,
                                LoopCompletion& completion, LoopKinematics& kinematics);
 
+/// Of the coordinates that take part in motions that nothing holds close to the assembly, the one
+/// that takes the largest part, one that the scene says motions give before any other; -1 when all
+/// is held. Taking one after the other is the choice of independent coordinates of R. A. Wehage and
+/// E. J. Haug, "Generalized coordinate partitioning for dimension reduction in analysis of
+/// constrained dynamic systems", Journal of Mechanical Design 104 (1982), with orthonormal motions
+/// in place of their triangular factorization. `kinematics` returns to the assembly.
+int freestCoordinate(const Mechanism& mechanism, const LoopScene& loops,
+                     const Eigen::VectorXd& assembly, LoopCompletion& completion,
+                     LoopKinematics& kinematics, std::vector<LoopForces>& forces);
+
 /// Checks that every motion of the mechanism is held by an actuated joint, at the assembly or at a
 /// position close to it, so that a singular assembly passes; `kinematics` returns to the assembly.
 /// @throws SceneError naming the coordinates that nothing holds.

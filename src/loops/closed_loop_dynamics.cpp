@@ -96,10 +96,25 @@ void ClosedLoopDynamics::Impl::close(const Scene& scene) {
   LoopCompletion completion(mechanism, kinematics, groups, loops.rank_tolerance, start_length);
   assembly = assemble(scene, loops, completion, kinematics);
   length = loops.length.value_or(loopLength(groups, kinematics));
+  if (loops.free_motion) chooseResidual(scene);
   LoopSolvers solvers(mechanism, loops, groups, kinematics, length, closures);
   way = solvers.completion.largest(assembly - loops.start);
   requireHeld(mechanism, loops, assembly, solvers.completion, solvers.kinematics, solvers.forces);
   requireSprings(solvers);
+}
+
+// Counts as actuated, one after the other, the coordinates of motions that nothing holds: their
+// efforts are then what nothing delivers.
+void ClosedLoopDynamics::Impl::chooseResidual(const Scene& scene) {
+  for (;;) {
+    LoopSolvers solvers(mechanism, loops, groups, kinematics, length, closures);
+    const int freest = freestCoordinate(mechanism, loops, assembly, solvers.completion,
+                                        solvers.kinematics, solvers.forces);
+    if (freest < 0) break;
+    loops.actuated[static_cast<std::size_t>(freest)] = true;
+    loops.residual[static_cast<std::size_t>(freest)] = true;
+  }
+  if (!scene.given) loops.given.coordinates = loops.actuated;
 }
 
 // Refuses springs that have no length in the assembly nor beside it: their ends always coincide.
@@ -176,6 +191,10 @@ std::vector<std::string> ClosedLoopDynamics::assemblyDoubts() const {
 
 const std::vector<bool>& ClosedLoopDynamics::actuated() const {
   return impl_->loops.actuated;
+}
+
+const std::vector<bool>& ClosedLoopDynamics::residual() const {
+  return impl_->loops.residual;
 }
 
 const Given& ClosedLoopDynamics::given() const {

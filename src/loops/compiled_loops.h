@@ -75,6 +75,7 @@ struct ClosedLoopDynamics::Impl {
 
  private:
   void close(const Scene& scene);
+  void chooseResidual(const Scene& scene);
   void requireSprings(LoopSolvers& solvers) const;
   void setUsual();
   static std::vector<UsuallyOpen> usuallyOpen(const std::vector<Determined>& determined,

@@ -157,7 +157,11 @@ double LoopForces::condition() const {
 }
 
 bool LoopForces::isFree(Eigen::Index local) const {
-  return rank() < coordinates() && rank_.freeMotions().row(local).norm() > kTakesPart;
+  return partInFreeMotions(local) > kTakesPart;
+}
+
+double LoopForces::partInFreeMotions(Eigen::Index local) const {
+  return rank() < coordinates() ? rank_.freeMotions().row(local).norm() : 0;
 }
 
 void LoopForces::solve(const Eigen::VectorXd& tree_effort,

@@ -47,6 +47,9 @@ class LoopForces {
   Eigen::Index redundantConstraints() const { return redundant_constraints_; }
   /// Whether a coordinate of the group takes part in a motion that nothing holds.
   bool isFree(Eigen::Index local) const;
+  /// How large a part it takes in such motions, as the norm of its entries in their orthonormal
+  /// basis.
+  double partInFreeMotions(Eigen::Index local) const;
   /// Whether a solution exists: what solve() was given loads no free motion. Known after solve().
   bool bears() const { return bears_; }
 

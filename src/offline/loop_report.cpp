@@ -34,14 +34,16 @@ void printClosures(std::ostream& out, const Scene& scene) {
 }
 
 void printActuated(std::ostream& out, const Mechanism& mechanism, const Dynamics& dynamics) {
-  Names actuated, passive;
+  Names actuated, passive, residuals;
   const std::size_t coordinates = mechanism.coordinateNames().size();
   for (std::size_t i = 0; i < dynamics.effortNames().size(); ++i) {
+    const std::string& name = dynamics.effortNames()[i];
     const bool carries = i >= coordinates || dynamics.actuated()[i];
-    (carries ? actuated : passive).push_back(dynamics.effortNames()[i]);
+    (!carries ? passive : isMotionResidual(name) ? residuals : actuated).push_back(name);
   }
   printNames(out, "actuated", actuated);
   printNames(out, "passive", passive);
+  if (!residuals.empty()) printNames(out, "free motions", residuals);
 }
 
 void printCount(std::ostream& out, const std::string& what, int count) {
@@ -68,7 +70,10 @@ void printUndetermined(std::ostream& out, const Dynamics& dynamics, const Result
   Names texts;
   if (request.efforts) {
     for (std::size_t i = 0; i < dynamics.effortNames().size(); ++i) {
-      if (!loops.effort_determined[i]) texts.push_back("effort of " + dynamics.effortNames()[i]);
+      const std::string& name = dynamics.effortNames()[i];
+      if (!loops.effort_determined[i]) {
+        texts.push_back((isMotionResidual(name) ? "" : "effort of ") + name);
+      }
     }
   }
   for (const Names& found :

@@ -17,6 +17,10 @@ struct Columns {
   std::vector<std::string> more;       ///< names of columns
 };
 
+/// The column of an effort, such as "effort.elbow"; a residual of free motions has no more than its
+/// name.
+std::string effortColumn(const std::string& name);
+
 /// The header line of a result.
 /// @throws FileError naming a name that cannot stand in a CSV header.
 std::string resultHeader(const Columns& columns);

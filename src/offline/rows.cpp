@@ -12,7 +12,8 @@ namespace virtual_work_dynamics {
 std::vector<std::string> loopColumns(const Columns& results,
                                      const std::vector<std::string>& closures) {
   std::vector<std::string> columns;
-  for (const std::string& name : results.efforts) columns.push_back("determined.effort." + name);
+  for (const std::string& name : results.efforts)
+    columns.push_back("determined." + effortColumn(name));
   for (const std::string& name : results.reactions) {
     for (const char* component : kWrenchComponents) {
       columns.push_back("determined." + name + "." + component);

@@ -52,11 +52,14 @@ std::string count(std::size_t number, const char* one, const char* many) {
 
 Names loopLines(const Mechanism& mechanism, const Scene& scene, const Dynamics& everything,
                 double condition_warn) {
-  Names actuated, passive;
+  Names actuated, passive, residuals;
   const Names& efforts = everything.effortNames();
   for (std::size_t i = 0; i < efforts.size(); ++i) {
     const bool carries = i >= everything.actuated().size() || everything.actuated()[i];
-    (carries ? actuated : passive).push_back(efforts[i]);
+    (!carries                       ? passive
+     : isMotionResidual(efforts[i]) ? residuals
+                                    : actuated)
+        .push_back(efforts[i]);
   }
   const DeterminacyMessage assembled = assembledDeterminacy(
       mechanism, everything, requestedReactions(mechanism, scene), condition_warn);
@@ -68,7 +71,8 @@ Names loopLines(const Mechanism& mechanism, const Scene& scene, const Dynamics& 
   }
   return {"closed loops: " + count(scene.closures.size(), "closure", "closures") + ", " +
               count(scene.springs.size(), "spring", "springs") + "; actuated: " + listOf(actuated) +
-              "; passive: " + listOf(passive),
+              "; passive: " + listOf(passive) +
+              (residuals.empty() ? "" : "; free motions: " + listOf(residuals)),
           "as assembled: " + numbers + "; efforts: " + found.status[0].message +
               "; components of reactions: " + found.status[2].message};
 }

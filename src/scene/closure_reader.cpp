@@ -164,6 +164,8 @@ bool readLoopEntry(const std::string& key, const YAML::Node& value, Scene& scene
     scene.springs = readList(value, key, readSpring);
   } else if (key == "actuated") {
     scene.actuated = readNames(value, key, "names of joints and closures");
+  } else if (key == "free_motion") {
+    scene.free_motion = readBool(value, key);
   } else if (key == "given") {
     scene.given = readNames(value, key, "names of joints and closures");
   } else if (key == "assembly") {

@@ -40,6 +40,7 @@ class Resolver {
     const std::size_t closures = scene_.closures.size();
     const std::size_t coordinates = mechanism_.coordinates().size();
     loops_.actuated.assign(coordinates, !scene_.actuated);
+    loops_.residual.assign(coordinates, false);
     loops_.coordinate_weights.assign(coordinates, 1);
     loops_.closure_weights.assign(closures, 1);
     loops_.joint_stiffness.assign(mechanism_.joints().size(), 1);
@@ -100,6 +101,10 @@ class Resolver {
   }
 
   void readActuated() {
+    loops_.free_motion = scene_.free_motion;
+    if (!scene_.actuated && scene_.free_motion) {
+      throw SceneError("free_motion: every joint is actuated unless 'actuated' says which are");
+    }
     if (!scene_.actuated) return;
     std::set<std::string> seen;
     std::vector<bool> closures(scene_.closures.size(), false);

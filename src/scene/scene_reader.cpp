@@ -148,7 +148,7 @@ void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
   if (!contains(kSceneKeys, key)) {
     Names known = kSceneKeys;
     for (const char* other :
-         {"closures", "springs", "actuated", "given", "assembly", "redundancy"}) {
+         {"closures", "springs", "actuated", "free_motion", "given", "assembly", "redundancy"}) {
       known.emplace_back(other);
     }
     failAtUnknownKey("", key, known);

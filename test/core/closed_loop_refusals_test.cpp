@@ -139,7 +139,7 @@ TEST(ClosedLoopRefusals, ActuatedJoints) {
       "actuated: closure 'pin' is neither revolute nor prismatic");
   refused({},
           "actuated: too few for the degrees of freedom: nothing holds the motion of 'joint_1', "
-          "'joint_2', 'joint_3'");
+          "'joint_2', 'joint_3' (free_motion: true reports what that motion demands)");
 }
 
 // Only what moves freely is named: an arm that is in no loop, and that in a branch of a loop.

@@ -18,6 +18,7 @@ class ClosedLoops {
   const Request& request() const { return dynamics_.request(); }
   const Eigen::VectorXd& assembly() const { return dynamics_.assembly(); }
   const std::vector<bool>& actuated() const { return dynamics_.actuated(); }
+  const std::vector<bool>& residual() const { return dynamics_.residual(); }
   const std::vector<std::string>& actuatedClosures() const { return dynamics_.actuatedClosures(); }
   const Scene& tree() const { return dynamics_.tree(); }
 

@@ -32,6 +32,7 @@ set(core_test_files
   test/core/effort_doubts_test.cpp
   test/core/error_bound_test.cpp
   test/core/existence_test.cpp
+  test/core/free_motion_test.cpp
   test/core/given_motions_test.cpp
   test/core/instruction_set_test.cpp
   test/core/inverse_dynamics_test.cpp

@@ -135,7 +135,7 @@ TEST(LoopRank, ARodToTheAxisHoldsNothing) {
     } catch (const SceneError& error) {
       EXPECT_EQ(std::string(error.what()),
                 "actuated: too few for the degrees of freedom: nothing holds the motion of "
-                "'joint_1'");
+                "'joint_1' (free_motion: true reports what that motion demands)");
       ++refused;
     }
   }
