@@ -10,7 +10,10 @@ vwd_core(
   motion_law.cpp
   recording.cpp
   root_columns.cpp
+  root_coordinates.cpp
+  root_estimator.cpp
   root_motion.cpp
+  root_trajectory.cpp
   sample_blocks.cpp
   sample_clock.cpp
   shown_noise.cpp
