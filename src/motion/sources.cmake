@@ -10,6 +10,7 @@ vwd_core(
   motion_law.cpp
   recording.cpp
   root_columns.cpp
+  root_completion.cpp
   root_coordinates.cpp
   root_estimator.cpp
   root_motion.cpp
