@@ -24,6 +24,9 @@ foreach(file
     private_name.cpp
     private_parameters.cpp
     robot_task.cpp
+    root_conversion.cpp
+    root_frames.cpp
+    root_inputs.cpp
     rviz_configuration.cpp
     rviz_for_robot.cpp
     sample_computation.cpp
