@@ -22,6 +22,9 @@ class RootCourse {
   /// First and last stamp of what is kept, ns; to be called unless empty().
   virtual std::int64_t first() const = 0;
   virtual std::int64_t last() const = 0;
+  /// Where accelerations are estimated: the latest time from one sample to the next, s; infinite
+  /// before there are two. Zero where they are given.
+  virtual double interval() const { return 0; }
 };
 
 }  // namespace virtual_work_dynamics

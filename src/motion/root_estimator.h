@@ -4,11 +4,10 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
-#include "motion/coordinate_track.h"
 #include "motion/root_coordinates.h"
 #include "motion/root_course.h"
+#include "motion/track_group.h"
 #include "virtual_work_dynamics/motion_estimator.h"
 
 namespace virtual_work_dynamics {
@@ -40,40 +39,27 @@ class RootEstimator : public RootCourse {
   RootEstimator(const EstimatorSettings& settings, std::int64_t timeout_ns);
 
   /// What push() did with a pose.
-  enum class Verdict {
-    kAccepted,
-    kReordered,     ///< accepted: it came late, and took its place among the others
-    kTooLate,       ///< dropped: it came late, and its place is no longer kept
-    kEqualStamp,    ///< dropped: there is a pose of this stamp
-    kAfterGap,      ///< accepted, after a gap longer than max_gap
-    kRestartedBack  ///< accepted as the first one, as time went far back
-  };
+  using Verdict = TrackGroup::Verdict;
   Verdict push(const RootPose& pose);
 
   bool read(std::int64_t stamp_ns, RootMotion& motion) override;
   bool foreseen() const override { return foreseen_; }
-  bool empty() const override { return tracks_.front().empty(); }
-  std::int64_t first() const override { return first_; }
-  std::int64_t last() const override { return tracks_.front().newest(); }
+  bool empty() const override { return tracks_.empty(); }
+  std::int64_t first() const override { return tracks_.first(); }
+  std::int64_t last() const override { return tracks_.last(); }
 
-  /// The latest time from one pose to the next, s; infinite before there are two.
-  double interval() const { return interval_; }
+  double interval() const override { return tracks_.interval(); }
   /// What the poses were found to be: the coordinates of the position, then those of the
   /// quaternion.
-  StreamQuality quality(std::size_t coordinate) const { return tracks_[coordinate].quality(); }
+  StreamQuality quality(std::size_t coordinate) const { return tracks_.quality(coordinate); }
 
  private:
-  void clear();
-  Verdict take(const RootPose& pose, const RootCoordinates& coordinates);
   bool readAsItCame(std::int64_t stamp_ns, RootMotion& motion);
 
   const bool estimate_;
-  const std::int64_t max_gap_ns_, timeout_ns_;
-  std::vector<CoordinateTrack> tracks_;
+  const std::int64_t timeout_ns_;
+  TrackGroup tracks_;
   RootCoordinates newest_;  // its quaternion has the sign that the tracks have
-  std::int64_t first_ = 0;
-  double interval_ = std::numeric_limits<double>::infinity();
-  int behind_ = 0;  // poses in a row that are behind the newest
   bool foreseen_ = false;
 };
 

@@ -18,10 +18,12 @@ std::int64_t stampAt(double t) {
   return kStart + std::llround(t * 1e9);
 }
 
+// Drivers may turn a quaternion's sign as they like.
 std::vector<RootPoint> points(const TumblingRoot& root, double from, double step, int count) {
   std::vector<RootPoint> made;
   for (int i = 0; i < count; ++i)
     made.push_back({stampAt(from + i * step), root.at(from + i * step)});
+  for (std::size_t i = 0; i < made.size(); i += 3) made[i].motion.orientation.coeffs() *= -1;
   return made;
 }
 
@@ -49,9 +51,7 @@ Error errorOf(RootTrajectory& trajectory, const TumblingRoot& root, double from,
 TEST(RootTrajectory, IsExactAtItsPoints) {
   const TumblingRoot root;
   RootTrajectory trajectory(100 * kMs);
-  // Drivers may turn a quaternion's sign as they like.
-  std::vector<RootPoint> given = points(root, 0, 0.25, 41);
-  for (std::size_t i = 0; i < given.size(); i += 3) given[i].motion.orientation.coeffs() *= -1;
+  const std::vector<RootPoint> given = points(root, 0, 0.25, 41);
   trajectory.take(given);
   EXPECT_EQ(trajectory.first(), kStart);
   EXPECT_EQ(trajectory.last(), stampAt(10));
