@@ -40,7 +40,7 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       loops_(task_.everything, task_.reactions.size(), parameters.loop_limits),
       completer_(task_.mechanism, task_.scene, task_.everything, parameters.loop_limits.tolerance),
       wrenches_(task_.mechanism, task_.scene, parameters.wrench_timeout),
-      root_inputs_(parameters.root, parameters.frame_prefix + task_.mechanism.link(0).name,
+      root_inputs_(parameters.root, task_.mechanism, parameters.frame_prefix, task_.scene.gravity,
                    task_.estimator, counters_, [this](const auto&... what) { drop(what...); }),
       samples_(task_.everything.coordinates(), task_.scene, completer_, wrenches_,
                {counters_, certificates_, loops_}, root_inputs_.course()),

@@ -185,7 +185,8 @@ RootSettings readRoot(PrivateParameters& parameters) {
       {"odometry", RootSource::kOdometry},
       {"trajectory", RootSource::kTrajectory},
       {"states", RootSource::kStates},
-      {"tf", RootSource::kTf}};
+      {"tf", RootSource::kTf},
+      {"imu", RootSource::kImu}};
   RootSettings settings;
   const std::string source = parameters.text("root/source", "");
   for (const auto& [name, value] : kSources) {
@@ -193,7 +194,7 @@ RootSettings readRoot(PrivateParameters& parameters) {
   }
   if (!source.empty() && settings.source == RootSource::kNone) {
     throw parameterError("root/source",
-                         inQuotes(source) + " is none of odometry, trajectory, states and tf");
+                         inQuotes(source) + " is none of odometry, trajectory, states, tf and imu");
   }
   settings.inertial_frame = parameters.text("root/inertial_frame", settings.inertial_frame);
   settings.link = parameters.text("root/link", settings.link);
@@ -201,12 +202,28 @@ RootSettings readRoot(PrivateParameters& parameters) {
   return settings;
 }
 
+// An inertial measurement unit knows nothing of the attitude, and gravity before all.
+void checkImu(const InverseDynamicsParameters& parameters, const YAML::Node& scene) {
+  if (parameters.root.source != RootSource::kImu) return;
+  const std::string name = privateName("root/source");
+  if (scene.IsMap() && scene["gravity"]) {
+    throw SceneError("gravity: with " + name + ": imu it is measured, and is not given");
+  }
+  if (parameters.scene.static_motion) {
+    throw SceneError("motion: static: with " + name + ": imu the attitude is not known");
+  }
+  if (!parameters.estimator.estimate) {
+    throw parameterError("estimator/acceleration",
+                         "zero: with " + name + ": imu, angular accelerations are estimated");
+  }
+}
+
 void checkRoot(const RootSettings& root, const Scene& scene) {
   const std::string name = privateName("root/source");
   if (scene.root_moves && root.source == RootSource::kNone) {
     throw SceneError("root: moving: " + name +
                      " does not say who tells how the root link moves: odometry, trajectory, "
-                     "states or tf");
+                     "states, tf or imu");
   }
   if (!scene.root_moves && root.source != RootSource::kNone) {
     throw parameterError("root/source", "the scene does not say 'root: moving'");
@@ -243,6 +260,7 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   parameters.refuseUnknown();
   result.scene = readScene(scene);
   checkRoot(result.root, result.scene);
+  checkImu(result, scene);
   readRobotDescription(private_node, result);
   return result;
 }

@@ -14,18 +14,24 @@
 
 namespace virtual_work_dynamics {
 
-RootInputs::RootInputs(const RootSettings& settings, const std::string& root_frame,
+RootInputs::RootInputs(const RootSettings& settings, const Mechanism& mechanism,
+                       const std::string& frame_prefix, const Eigen::Vector3d& gravity,
                        const EstimatorSettings& estimator, Counters& counters, Drop drop)
     : settings_(settings),
       max_gap_(estimator.max_gap),
       counters_(counters),
       drop_(std::move(drop)),
-      conversion_(settings.inertial_frame, settings.link.empty() ? root_frame : settings.link) {
+      conversion_(settings.inertial_frame,
+                  settings.link.empty() ? frame_prefix + mechanism.link(0).name : settings.link),
+      imu_conversion_(mechanism, frame_prefix) {
   const auto timeout_ns = static_cast<std::int64_t>(std::llround(settings.timeout * 1e9));
   if (settings.source == RootSource::kNone) return;
   if (settings.source == RootSource::kTrajectory) {
     trajectory_ = std::make_unique<RootTrajectory>(timeout_ns);
     course_ = trajectory_.get();
+  } else if (settings.source == RootSource::kImu) {
+    imu_ = std::make_unique<RootImu>(estimator, timeout_ns, gravity);
+    course_ = imu_.get();
   } else {
     estimator_ = std::make_unique<RootEstimator>(estimator, timeout_ns);
     course_ = estimator_.get();
@@ -61,6 +67,14 @@ void RootInputs::subscribe(ros::NodeHandle node, std::uint32_t queue) {
       listen<tf2_msgs::TFMessage>(node, "/tf", queue);
       static_subscriber_ = node.subscribe("/tf_static", queue, &RootInputs::takeStatic, this);
       break;
+    case RootSource::kImu:
+      listen<sensor_msgs::Imu>(node, "imu", queue);
+      break;
+  }
+  if (imu_) {
+    ROS_INFO("The root link %s moves as %s measures, gravity with it",
+             inQuotes(conversion_.link()).c_str(), subscriber_.getTopic().c_str());
+    return;
   }
   ROS_INFO("The root link %s moves against %s, by %s", inQuotes(conversion_.link()).c_str(),
            inQuotes(conversion_.inertialFrame()).c_str(), subscriber_.getTopic().c_str());
@@ -107,7 +121,7 @@ std::optional<Rejection> RootInputs::take(const tf2_msgs::TFMessage& message, ro
   if (!frames_->findNew(found)) return rejection;
   RootPose pose;
   auto wrong = conversion_.convert(found, pose);
-  if (!wrong) wrong = push(pose);
+  if (!wrong) wrong = report(estimator_->push(pose), pose.stamp_ns);
   return wrong ? wrong : rejection;
 }
 
@@ -125,12 +139,19 @@ template <typename Message>
 std::optional<Rejection> RootInputs::take(const Message& message, ros::Time) {
   RootPose pose;
   if (auto rejection = conversion_.convert(message, pose)) return rejection;
-  return push(pose);
+  return report(estimator_->push(pose), pose.stamp_ns);
 }
 
-std::optional<Rejection> RootInputs::push(const RootPose& pose) {
-  using Verdict = RootEstimator::Verdict;
-  switch (estimator_->push(pose)) {
+std::optional<Rejection> RootInputs::take(const sensor_msgs::Imu& message, ros::Time) {
+  ImuSample sample;
+  if (auto rejection = imu_conversion_.convert(message, sample)) return rejection;
+  return report(imu_->push(sample), sample.stamp_ns);
+}
+
+// Counts what became of a sample.
+std::optional<Rejection> RootInputs::report(TrackGroup::Verdict verdict, std::int64_t stamp_ns) {
+  using Verdict = TrackGroup::Verdict;
+  switch (verdict) {
     case Verdict::kAccepted:
       return std::nullopt;
     case Verdict::kReordered:
@@ -138,15 +159,15 @@ std::optional<Rejection> RootInputs::push(const RootPose& pose) {
       return std::nullopt;
     case Verdict::kEqualStamp:
       return Rejection{DropReason::kEqualStamp,
-                       "its stamp " + stampText(pose.stamp_ns) + " was received before"};
+                       "its stamp " + stampText(stamp_ns) + " was received before"};
     case Verdict::kTooLate:
-      return Rejection{DropReason::kTooLate, "its stamp " + stampText(pose.stamp_ns) +
+      return Rejection{DropReason::kTooLate, "its stamp " + stampText(stamp_ns) +
                                                  " is too far behind those received before"};
     case Verdict::kAfterGap:
       counters_.root_gaps.add();
       if (gap_throttle_.open()) {
         ROS_INFO("%s: a gap of %s s, longer than %s = %s s: the root's motion is estimated anew",
-                 subscriber_.getTopic().c_str(), numberText(estimator_->interval()).c_str(),
+                 subscriber_.getTopic().c_str(), numberText(course_->interval()).c_str(),
                  privateName("estimator/max_gap").c_str(), numberText(max_gap_).c_str());
       }
       return std::nullopt;
@@ -154,7 +175,7 @@ std::optional<Rejection> RootInputs::push(const RootPose& pose) {
       counters_.root_restarts.add();
       if (restart_throttle_.open()) {
         ROS_INFO("%s: time went back to stamp %s: the root's motion is estimated anew",
-                 subscriber_.getTopic().c_str(), stampText(pose.stamp_ns).c_str());
+                 subscriber_.getTopic().c_str(), stampText(stamp_ns).c_str());
       }
       return std::nullopt;
   }
@@ -168,8 +189,8 @@ std::string RootInputs::problem() const {
     if (!gap.empty()) return topic + " has " + gap;
   }
   if (course_->empty()) return topic + " has not told how the root link moves";
-  if (estimator_ && estimator_->interval() > max_gap_) {
-    return topic + " has poses " + numberText(estimator_->interval()) +
+  if (course_->interval() > max_gap_ && std::isfinite(course_->interval())) {
+    return topic + " has messages " + numberText(course_->interval()) +
            " s apart, and across more than " + privateName("estimator/max_gap") + " = " +
            numberText(max_gap_) + " s no acceleration is estimated";
   }

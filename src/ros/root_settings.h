@@ -5,7 +5,7 @@
 namespace virtual_work_dynamics {
 
 /// Which messages tell how the root link moves.
-enum class RootSource { kNone, kOdometry, kTrajectory, kStates, kTf };
+enum class RootSource { kNone, kOdometry, kTrajectory, kStates, kTf, kImu };
 
 /// How the node learns how the root link moves.
 struct RootSettings {

@@ -9,6 +9,7 @@ foreach(file
     deviation_output.cpp
     deviation_report.cpp
     diagnostics.cpp
+    imu_conversion.cpp
     inverse_dynamics_node.cpp
     inverse_dynamics_parameters.cpp
     joint_state_conversion.cpp

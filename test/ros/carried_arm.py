@@ -87,6 +87,17 @@ class CarriedArm:
         return Pose(pose[:3, 3], turn, first[:3, 3], _vector_of(spin), second[:3, 3],
                     _vector_of(change))
 
+    def unit(self, ns, at, turn):
+        """Angular velocity and specific force that a unit on the root measures, in its axes.
+
+        It has its origin at `at` and its axes in the columns of `turn`, in the root link.
+        """
+        pose, _, second = self._bodies.motion(ROOT, self._carrier(ns))
+        axes = pose[:3, :3] @ turn
+        acceleration = (second @ np.append(at, 1))[:3]
+        return (axes.T @ self.root(ns).angular,
+                axes.T @ (acceleration - np.array([0, 0, -9.81])))
+
     def efforts(self, ns):
         """Of the arm's joints, in their order."""
         motion = self._whole(ns)

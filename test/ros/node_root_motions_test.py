@@ -6,7 +6,7 @@ import random
 from geometry_msgs.msg import Transform, TransformStamped, Vector3
 from nav_msgs.msg import Odometry
 import numpy as np
-from sensor_msgs.msg import JointState, MultiDOFJointState
+from sensor_msgs.msg import Imu, JointState, MultiDOFJointState
 from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import (JointTrajectory, MultiDOFJointTrajectory,
                                  MultiDOFJointTrajectoryPoint)
@@ -85,13 +85,36 @@ def frames(arm, ns):
                       frame('odom', 'left/mount', ns, root.position - turn @ HANGS_AT, turn)])
 
 
+# A unit on a mount that is fixed to the root: its origin and axes in the root link.
+UNIT_AT = np.array([0.2, -0.1, 0.3])
+UNIT_TURN = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+WITH_UNIT = ARM.replace('</robot>', """<link name="unit"/><joint name="mount" type="fixed">
+    <parent link="base"/><child link="unit"/><origin xyz="0.2 -0.1 0.3" rpy="0 0 %r"/></joint>
+    </robot>""" % (math.pi / 2))
+
+
+def imu(arm, ns, noise=None, sizes=(0.0, 0.0)):
+    """What the unit measures; deviations in rad/s and m/s^2."""
+    rate, force = arm.unit(ns, UNIT_AT, UNIT_TURN)
+    message = Imu()
+    message.header.frame_id = 'unit'
+    message.header.stamp = ros_time(ns)
+    message.orientation_covariance[0] = -1
+    if noise is not None:
+        rate = rate + sizes[0] * noise.normal(size=3)
+        force = force + sizes[1] * noise.normal(size=3)
+    message.angular_velocity = Vector3(*rate)
+    message.linear_acceleration = Vector3(*force)
+    return message
+
+
 class RootTest(NodeTest):
     """The node with an arm whose root moves, and the oracle."""
 
-    def start(self, source, arm=None, parameters=None, scene=None):
+    def start(self, source, arm=None, parameters=None, robot=ARM):
         self.arm = arm or CarriedArm()
-        self.node = Node(self, ARM, dict({
-            'scene': dict({'root': 'moving', 'reactions': ['ground']}, **(scene or {})),
+        self.node = Node(self, robot, dict({
+            'scene': {'root': 'moving', 'reactions': ['ground']},
             'root': {'source': source}}, **(parameters or {})))
         self.trajectories = self.node.feed('joint_trajectory', JointTrajectory)
         self.states = self.node.feed('joint_states', JointState)
@@ -102,7 +125,8 @@ class RootTest(NodeTest):
         topic, kind = {'odometry': ('odom', Odometry),
                        'trajectory': ('multi_dof_joint_trajectory', MultiDOFJointTrajectory),
                        'states': ('multi_dof_joint_states', MultiDOFJointState),
-                       'tf': ('/tf', TFMessage)}[source]
+                       'tf': ('/tf', TFMessage),
+                       'imu': ('imu', Imu)}[source]
         self.topic = topic if topic[0] == '/' else self.node.namespace + '/' + topic
         self.roots = self.node.feed(topic, kind)
 
@@ -334,12 +358,46 @@ class RootPoses(RootTest):
             values = self.node.wait_for_count('dropped: ' + reason, 1)
             self.assertIn('/tf: ' + text, values['last drop'])
 
+    def test_imu(self):
+        self.start('imu', robot=WITH_UNIT,
+                   parameters={'certificates': True, 'cross_check_rate': 100})
+        worst = self.follow(lambda ns: imu(self.arm, ns), 200)
+        self.assertLess(max(worst), 0.005)
+        values = self.node.wait_for_count('cross-checks done', 1)
+        self.assertLess(float(values['cross-check, largest difference (relative)']), 1e-12)
+        for law in ('power', 'ground force', 'ground moment'):
+            self.assertLess(float(values['certificate: %s (largest, relative)' % law]), 1e-12)
+
+    def test_imu_of_noise(self):
+        self.start('imu', robot=WITH_UNIT)
+        noise = np.random.default_rng(7)
+        worst = self.follow(lambda ns: imu(self.arm, ns, noise, (2e-3, 0.02)), 200)
+        self.assertLess(max(worst), 5)
+
+    def test_bad_imu(self):
+        self.start('imu', robot=WITH_UNIT)
+        bad = [imu(self.arm, EPOCH) for _ in range(5)]
+        bad[0].header.frame_id = 'unti'
+        bad[1].header.frame_id = 'wrist_1'
+        bad[2].angular_velocity.x = math.nan
+        bad[3].linear_acceleration_covariance[0] = -1
+        bad[4].header.stamp = ros_time(0)
+        for message, text in zip(bad, (
+                "its frame 'unti' is not a link of robot 'six_axis_arm'",
+                "its frame 'wrist_1' moves against the root link, by joint 'joint_4'",
+                'its angular_velocity.x is nan',
+                'by its covariance it does not have linear_acceleration',
+                'its stamp is zero')):
+            self.send(message)
+            values = self.node.wait_for_count('dropped', self.sent)
+            self.assertIn(self.topic + ': ' + text, values['last drop'])
+
     def test_poses_too_far_apart(self):
         self.start('odometry')
         self.send(*[odometry(self.arm, EPOCH + i * 300 * MS) for i in range(10)])
         self.play([EPOCH + 1500 * MS])
         values = self.node.wait_for_count('dropped: no root motion', 1)
-        self.assertIn('has poses 0.3 s apart, and across more than', values['last drop'])
+        self.assertIn('has messages 0.3 s apart, and across more than', values['last drop'])
         self.assertIn('estimator/max_gap = 0.25 s no acceleration is estimated, at point 1',
                       values['last drop'])
         self.assertEqual(values['gaps of the root'], '9')
