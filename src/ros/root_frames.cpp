@@ -22,9 +22,7 @@ void RootFrames::take(const geometry_msgs::TransformStamped& transform, bool is_
   const std::string& parent = transform.header.frame_id;
   const std::string& child = transform.child_frame_id;
   if (parent.empty() || child.empty() || parent == child) return;
-  if (is_static) {
-    statics_[child] = transform;
-  } else {
+  if (!is_static) {
     ros::Time& latest = latest_[child];
     if ((latest - transform.header.stamp).toSec() > max_gap_) startAnew();
     latest_[child] = transform.header.stamp;
@@ -32,12 +30,12 @@ void RootFrames::take(const geometry_msgs::TransformStamped& transform, bool is_
   buffer_.setTransform(transform, kAuthority, is_static);
 }
 
-// Time has gone back, and what is known of later instants would hide what comes.
+// Time has gone back, and what is known of later instants would hide what comes. What is static
+// stays.
 void RootFrames::startAnew() {
   buffer_.clear();
   latest_.clear();
   found_ = ros::Time();
-  for (const auto& [child, transform] : statics_) buffer_.setTransform(transform, kAuthority, true);
 }
 
 bool RootFrames::findNew(geometry_msgs::TransformStamped& found) {

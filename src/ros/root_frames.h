@@ -30,9 +30,7 @@ class RootFrames {
   const std::string inertial_frame_, link_;
   const double max_gap_;
   tf2::BufferCore buffer_;
-  // By child frame.
-  std::map<std::string, geometry_msgs::TransformStamped> statics_;
-  std::map<std::string, ros::Time> latest_;  // stamps
+  std::map<std::string, ros::Time> latest_;  // stamps, by child frame
   ros::Time found_;
 };
 
