@@ -7,8 +7,8 @@ build_packages=(
   build-essential catkin cmake
   libconsole-bridge-dev libeigen3-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev
   libyaml-cpp-dev
-  libdiagnostic-msgs-dev libdiagnostic-updater-dev libgeometry-msgs-dev libroscpp-dev
-  libsensor-msgs-dev libtf2-msgs-dev libtrajectory-msgs-dev libvisualization-msgs-dev
+  libdiagnostic-msgs-dev libdiagnostic-updater-dev libgeometry-msgs-dev libnav-msgs-dev
+  libroscpp-dev libsensor-msgs-dev libtf2-dev libtf2-msgs-dev libtrajectory-msgs-dev libvisualization-msgs-dev
   ros-environment
 )
 run_packages=(
@@ -19,7 +19,7 @@ run_packages=(
 )
 test_packages=(
   "${run_packages[@]}"
-  libgtest-dev librostest-dev locales python3-numpy python3-rostest
+  libgtest-dev librostest-dev locales python3-nav-msgs python3-numpy python3-rostest
 )
 check_packages=(
   "${test_packages[@]}"

@@ -70,6 +70,7 @@ find_library(VWD_ROS_TIME rostime)
 if(VWD_ROS_MESSAGES_DIR AND VWD_ROS_TIME)
   vwd_add_fuzz_target(messages
     src/ros/joint_state_conversion.cpp
+    src/ros/root_conversion.cpp
     src/ros/sample_times.cpp
     src/ros/trajectory_conversion.cpp
     src/ros/trajectory_samples.cpp

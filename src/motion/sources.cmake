@@ -10,7 +10,12 @@ vwd_core(
   motion_law.cpp
   recording.cpp
   root_columns.cpp
+  root_completion.cpp
+  root_coordinates.cpp
+  root_estimator.cpp
+  root_imu.cpp
   root_motion.cpp
+  root_trajectory.cpp
   sample_blocks.cpp
   sample_clock.cpp
   shown_noise.cpp
@@ -21,6 +26,7 @@ vwd_core(
   stream_smoother.cpp
   stream_surprise.cpp
   stream_text.cpp
+  track_group.cpp
   trajectory_curve.cpp
   unwrap.cpp
   velocity_judge.cpp

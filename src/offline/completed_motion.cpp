@@ -8,6 +8,7 @@
 #include "base/printable.h"
 #include "dynamics/given_joints.h"
 #include "dynamics/sample_rows.h"
+#include "offline/root_rows.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -108,6 +109,7 @@ CompletedMotion::CompletedMotion(RecordedMotion recorded, const Mechanism& mecha
   completion.keep_positions = dynamics.closed();
   completion.other_columns = recorded.drivenNumbers() > 0;
   completeDerivatives(mechanism, scene, completion, file_);
+  completeRoots(mechanism, scene, completion, file_);
   driven_ = takenFrom(file_.table, recorded.drivenNumbers());
   if (positions_follow_ || !recorded.resting.empty()) widen(mechanism, file_.table);
   for (const auto& [name, position] : recorded.resting) {

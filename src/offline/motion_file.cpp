@@ -142,10 +142,10 @@ void warnOfFarPositions(const MotionFile& motion, const std::string& joint,
   }
 }
 
-// Says what was found about the joints of an estimated motion.
-void describe(const Mechanism& mechanism, const MotionFile& motion,
-              const CompletionReport& report) {
-  const std::vector<std::string>& joints = motion.table.joints;
+}  // namespace
+
+void describeEstimate(const Mechanism& mechanism, const MotionFile& motion, const Names& joints,
+                      const CompletionReport& report) {
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const StreamQuality& quality = report.qualities[i];
     if (quality.velocity_ratio != 1) {
@@ -169,8 +169,6 @@ void describe(const Mechanism& mechanism, const MotionFile& motion,
   }
   std::cerr << "\n";
 }
-
-}  // namespace
 
 MotionFile readMotion(const std::string& path, const Mechanism& mechanism) {
   return readMotion(path, mechanism, [&](const auto&) { return mechanism.coordinateNames(); });
@@ -221,7 +219,7 @@ void completeDerivatives(const Mechanism& mechanism, const Scene& scene,
   std::cerr << "note: " << printable(motion.path) << ": estimated: " << missing
             << (report.even_clock ? "; the rows are those of an even clock, its times jitter" : "")
             << "\n";
-  describe(mechanism, motion, report);
+  describeEstimate(mechanism, motion, table.joints, report);
 }
 
 }  // namespace virtual_work_dynamics

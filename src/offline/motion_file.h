@@ -44,4 +44,9 @@ MotionFile readMotion(const std::string& path, const Mechanism& mechanism,
 void completeDerivatives(const Mechanism& mechanism, const Scene& scene,
                          const CompletionSettings& settings, MotionFile& motion);
 
+/// Says on standard error what was found about the joints of an estimated motion.
+/// @param joints what the columns of the report are called
+void describeEstimate(const Mechanism& mechanism, const MotionFile& motion,
+                      const std::vector<std::string>& joints, const CompletionReport& report);
+
 }  // namespace virtual_work_dynamics

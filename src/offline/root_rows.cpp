@@ -8,6 +8,7 @@
 
 #include "base/printable.h"
 #include "motion/root_columns.h"
+#include "motion/root_completion.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -16,9 +17,15 @@ namespace {
 // Digits of single precision are no reason to warn.
 constexpr double kSinglePrecision = 1e-6;
 
-std::vector<std::string> needed(const Scene& scene) {
-  if (scene.static_motion) return {"orientation"};
-  return {"orientation", "angular_velocity", "acceleration", "angular_acceleration"};
+bool gives(const MotionTable& table, const char* quantity) {
+  const auto& lack = table.roots_lack;
+  return !table.roots.empty() && std::find(lack.begin(), lack.end(), quantity) == lack.end();
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
 }
 
 }  // namespace
@@ -31,16 +38,14 @@ void checkRoots(const Scene& scene, const MotionFile& file) {
               << ": columns root.… are not used: the scene does not say 'root: moving'\n";
     return;
   }
-  std::string missing;
-  for (const std::string& quantity : needed(scene)) {
-    const auto& lack = table.roots_lack;
-    const bool given =
-        !table.roots.empty() && std::find(lack.begin(), lack.end(), quantity) == lack.end();
-    if (!given) missing += (missing.empty() ? "" : ", ") + rootColumnsText(quantity);
+  std::vector<std::string> missing;
+  if (!gives(table, "orientation")) missing.push_back(rootColumnsText("orientation"));
+  if (!scene.static_motion && !gives(table, "acceleration") && !gives(table, "position")) {
+    missing.push_back(rootColumnsText("acceleration") + " or " + rootColumnsText("position"));
   }
   if (!missing.empty()) {
-    throw FileError(file.path + ": columns are missing: " + missing +
-                    ": the scene says 'root: moving', and the root's motion is not estimated");
+    throw FileError(file.path + ": columns are missing: " + joined(missing) +
+                    ": the scene says 'root: moving'");
   }
   if (table.orientation_error > kSinglePrecision) {
     std::ostringstream text;
@@ -48,6 +53,23 @@ void checkRoots(const Scene& scene, const MotionFile& file) {
     text << "warning: " << printable(file.path) << ": lengths of root.orientation are up to "
          << table.orientation_error << " off 1; they are scaled to 1\n";
     std::cerr << text.str();
+  }
+}
+
+void completeRoots(const Mechanism& mechanism, const Scene& scene,
+                   const CompletionSettings& settings, MotionFile& file) {
+  if (!scene.root_moves || scene.static_motion) return;
+  std::vector<std::string> missing;
+  for (const char* quantity : {"angular_velocity", "acceleration", "angular_acceleration"}) {
+    if (!gives(file.table, quantity)) missing.push_back(rootColumnsText(quantity));
+  }
+  if (missing.empty()) return;
+  std::cerr << "note: " << printable(file.path) << ": estimated: " << joined(missing) << "\n";
+  try {
+    for (const RootEstimate& estimate : completeRoots(mechanism, file.table, settings))
+      describeEstimate(mechanism, file, estimate.names, estimate.report);
+  } catch (const MotionError& error) {
+    throw FileError(file.path + ": " + error.what());
   }
 }
 

@@ -26,6 +26,7 @@ struct Counters {
   Counter joint_states;
   Counter trajectories;
   Counter wrenches;  ///< live ones received
+  Counter roots;     ///< messages received that tell how the root link moves
   Counter accepted_joint_states;
   Counter restarts;             ///< as time went back
   Counter gaps;                 ///< joint states after a gap of one of their joints
@@ -34,6 +35,10 @@ struct Counters {
   Counter velocity_not_finite;  ///< joint states with a velocity that is not finite
   Counter held;                 ///< samples with a joint held at its last position
   Counter wrench_held;          ///< samples with a live wrench held at its last value
+  Counter root_restarts;        ///< of the root's poses, as time went back
+  Counter root_gaps;            ///< poses of the root after a gap
+  Counter root_reordered;       ///< poses of the root that came late and took their place
+  Counter root_foreseen;        ///< samples with a root's motion behind all that is known of it
   Counter samples;              ///< samples computed from joint states
   Counter points;               ///< points of trajectories computed
   Counter sampled;              ///< samples of trajectories between their points computed

@@ -165,6 +165,11 @@ void Diagnostics::addCounts(DiagnosticStatusWrapper& status) const {
   status.add("samples with a joint held", counters_.held.value());
   status.add("wrenches received", counters_.wrenches.value());
   status.add("samples with a wrench held", counters_.wrench_held.value());
+  status.add("root messages received", counters_.roots.value());
+  status.add("restarts of the root", counters_.root_restarts.value());
+  status.add("gaps of the root", counters_.root_gaps.value());
+  status.add("root messages put in order", counters_.root_reordered.value());
+  status.add("samples with the root foreseen", counters_.root_foreseen.value());
   status.add("late outputs", counters_.late.value());
   status.add("dropped", counters_.allDropped());
   for (std::size_t i = 0; i < kDropReasonNames.size(); ++i) {

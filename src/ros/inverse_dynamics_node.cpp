@@ -40,8 +40,10 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       loops_(task_.everything, task_.reactions.size(), parameters.loop_limits),
       completer_(task_.mechanism, task_.scene, task_.everything, parameters.loop_limits.tolerance),
       wrenches_(task_.mechanism, task_.scene, parameters.wrench_timeout),
+      root_inputs_(parameters.root, task_.mechanism, parameters.frame_prefix, task_.scene.gravity,
+                   task_.estimator, counters_, [this](const auto&... what) { drop(what...); }),
       samples_(task_.everything.coordinates(), task_.scene, completer_, wrenches_,
-               {counters_, certificates_, loops_}),
+               {counters_, certificates_, loops_}, root_inputs_.course()),
       played_(parameters.trajectory_rate),
       streams_(task_.mechanism.coordinates().size()),
       gap_throttles_(task_.mechanism.coordinates().size(), Throttle(kGapPeriod)),
@@ -77,6 +79,7 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       node.subscribe("joint_states", queue, &InverseDynamicsNode::receiveJointState, this, hints);
   trajectory_subscriber_ = node.subscribe("joint_trajectory", queue,
                                           &InverseDynamicsNode::receiveTrajectory, this, hints);
+  root_inputs_.subscribe(node, queue);
   wrench_inputs_.subscribe(ros::NodeHandle("~"), task_.wrench_topics, queue);
   if (!at_once_) {
     const double period = std::max(1 / parameters.trajectory_rate, TrajectoryQueue::kTick);
@@ -246,6 +249,7 @@ void InverseDynamicsNode::take(const trajectory_msgs::JointTrajectory& message, 
     return;
   }
   const bool of_points = !trajectory_.samples || plan.wantsTrajectories();
+  if (of_points) samples_.setRoots(trajectory_);
   if (of_points) completer_.complete(trajectory_, plan.dynamics, plan.workspace);
   const std::size_t results = trajectory_.results();
   const char* what = trajectory_.samples ? "samples" : "points";
@@ -331,6 +335,8 @@ void InverseDynamicsNode::dropResult(const ros::Subscriber& source, Outcome outc
   } else if (outcome == Outcome::kNoWrench) {
     drop(topic, DropReason::kNoWrench,
          wrench_inputs_.problem(samples_.unknownWrench()) + ", at " + where);
+  } else if (outcome == Outcome::kNoRoot) {
+    drop(topic, DropReason::kNoRoot, root_inputs_.problem() + ", at " + where);
   } else {
     drop(topic, DropReason::kOverflow, "not finite at " + where);
   }
@@ -384,19 +390,9 @@ void InverseDynamicsNode::watchJoints(Clock::time_point now) {
   if (first_joint_state_ == Clock::time_point()) first_joint_state_ = now;
   if (now - first_joint_state_ < JointWatch::kPatience) return;
   joints_reported_ = true;
-  const std::vector<std::string> in_vain = joint_watch_.notNeeded(true);
-  if (!in_vain.empty()) {
-    ROS_WARN(
-        "%s: joints %s are given, but not %s: they are ignored, and the motion of both follows "
-        "from "
-        "the closures",
-        joint_state_subscriber_.getTopic().c_str(), shortList(in_vain).c_str(),
-        shortList(joint_watch_.notNeeded(false)).c_str());
+  for (const std::string& doubt : joint_watch_.doubts()) {
+    ROS_WARN("%s: %s", joint_state_subscriber_.getTopic().c_str(), doubt.c_str());
   }
-  const std::vector<std::string> missing = joint_watch_.neverSeen();
-  if (missing.empty()) return;
-  ROS_WARN("%s: joints %s have not been received in 5 s; nothing is published until all have been",
-           joint_state_subscriber_.getTopic().c_str(), shortList(missing).c_str());
 }
 
 }  // namespace virtual_work_dynamics

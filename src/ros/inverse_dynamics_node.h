@@ -30,6 +30,7 @@
 #include "ros/output_topics.h"
 #include "ros/plan_switch.h"
 #include "ros/robot_task.h"
+#include "ros/root_inputs.h"
 #include "ros/sample_computation.h"
 #include "ros/stream_record.h"
 #include "ros/throttle.h"
@@ -99,6 +100,7 @@ class InverseDynamicsNode {
   LoopRecord loops_;
   MotionCompleter completer_;
   LiveWrenches wrenches_;
+  RootInputs root_inputs_;
   SampleComputation samples_;
   TrajectoryMotion trajectory_;
   TrajectoryQueue played_;

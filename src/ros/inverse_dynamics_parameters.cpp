@@ -3,6 +3,8 @@
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include <utility>
+
 #include "base/number_text.h"
 #include "base/printable.h"
 #include "ros/private_name.h"
@@ -178,6 +180,56 @@ double readMarkerRate(PrivateParameters& parameters, double fallback) {
   return rate;
 }
 
+RootSettings readRoot(PrivateParameters& parameters) {
+  constexpr std::pair<const char*, RootSource> kSources[] = {
+      {"odometry", RootSource::kOdometry},
+      {"trajectory", RootSource::kTrajectory},
+      {"states", RootSource::kStates},
+      {"tf", RootSource::kTf},
+      {"imu", RootSource::kImu}};
+  RootSettings settings;
+  const std::string source = parameters.text("root/source", "");
+  for (const auto& [name, value] : kSources) {
+    if (source == name) settings.source = value;
+  }
+  if (!source.empty() && settings.source == RootSource::kNone) {
+    throw parameterError("root/source",
+                         inQuotes(source) + " is none of odometry, trajectory, states, tf and imu");
+  }
+  settings.inertial_frame = parameters.text("root/inertial_frame", settings.inertial_frame);
+  settings.link = parameters.text("root/link", settings.link);
+  settings.timeout = readPeriod(parameters, "root/timeout", settings.timeout);
+  return settings;
+}
+
+// An inertial measurement unit knows nothing of the attitude, and gravity before all.
+void checkImu(const InverseDynamicsParameters& parameters, const YAML::Node& scene) {
+  if (parameters.root.source != RootSource::kImu) return;
+  const std::string name = privateName("root/source");
+  if (scene.IsMap() && scene["gravity"]) {
+    throw SceneError("gravity: with " + name + ": imu it is measured, and is not given");
+  }
+  if (parameters.scene.static_motion) {
+    throw SceneError("motion: static: with " + name + ": imu the attitude is not known");
+  }
+  if (!parameters.estimator.estimate) {
+    throw parameterError("estimator/acceleration",
+                         "zero: with " + name + ": imu, angular accelerations are estimated");
+  }
+}
+
+void checkRoot(const RootSettings& root, const Scene& scene) {
+  const std::string name = privateName("root/source");
+  if (scene.root_moves && root.source == RootSource::kNone) {
+    throw SceneError("root: moving: " + name +
+                     " does not say who tells how the root link moves: odometry, trajectory, "
+                     "states, tf or imu");
+  }
+  if (!scene.root_moves && root.source != RootSource::kNone) {
+    throw parameterError("root/source", "the scene does not say 'root: moving'");
+  }
+}
+
 }  // namespace
 
 InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& private_node) {
@@ -196,6 +248,7 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
       readRate(parameters, "trajectory_sampling", "Hz", result.trajectory_sampling, 100000);
   result.diagnostic_period = readPeriod(parameters, "diagnostic_period", result.diagnostic_period);
   result.wrench_timeout = readPeriod(parameters, "wrench_timeout", result.wrench_timeout);
+  result.root = readRoot(parameters);
   result.late_threshold = readPeriod(parameters, "late_threshold", result.late_threshold);
   result.self_check = readSelfCheck(parameters);
   result.loop_limits = readLoopLimits(parameters);
@@ -206,11 +259,8 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   const YAML::Node scene = sceneDocument(parameters.raw("scene"));
   parameters.refuseUnknown();
   result.scene = readScene(scene);
-  if (result.scene.root_moves) {
-    throw SceneError(
-        "root: moving: the node is not told how the root link moves; "
-        "inverse_dynamics_offline is, by columns root.…");
-  }
+  checkRoot(result.root, result.scene);
+  checkImu(result, scene);
   readRobotDescription(private_node, result);
   return result;
 }

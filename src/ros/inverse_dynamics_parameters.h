@@ -5,6 +5,7 @@
 
 #include "dynamics/effort_doubts.h"
 #include "ros/loop_limits.h"
+#include "ros/root_settings.h"
 #include "virtual_work_dynamics/motion_estimator.h"
 #include "virtual_work_dynamics/scene.h"
 
@@ -44,6 +45,7 @@ struct InverseDynamicsParameters {
   double trajectory_sampling = 0;  ///< Hz, of the motion between points; 0: at the points
   double diagnostic_period = 1.0;  ///< s
   double wrench_timeout = 0.1;     ///< longest time that a live wrench stands for, s
+  RootSettings root;               ///< how the node learns of the motion of a root that moves
   double late_threshold = 0.001;   ///< s, from receipt of a joint state to its published result
   double start_patience = 0;       ///< s to wait for joint states where loops cannot be assembled
   LoopLimits loop_limits;          ///< samples beyond them are a WARN

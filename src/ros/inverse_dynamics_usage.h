@@ -11,6 +11,8 @@ Efforts and joint reactions of a robot, live, from its joint states or trajector
 subscribes
   joint_states       sensor_msgs/JointState           joints by name, any order, all or some
   joint_trajectory   trajectory_msgs/JointTrajectory  one result for every point
+  odom, multi_dof_joint_trajectory, multi_dof_joint_states, /tf, imu
+                     by ~root/source                  how the root link moves, where the scene says so
   ~wrench/<name>     geometry_msgs/WrenchStamped      each live applied wrench of the scene
 
 publishes (each only while somebody subscribes)
@@ -42,6 +44,11 @@ parameters
   ~rest                      [{name, position}] of joints that may never come ([])
   ~wrench_timeout            longest time that a message of a live wrench stands for, s; results that need
                              an older one are dropped (0.1)
+  ~root/source               odometry | trajectory | states | tf | imu: who tells how a root link moves ("")
+  ~root/inertial_frame       frame that it moves against, with the axes of gravity (odom)
+  ~root/link                 what messages call the root link; "": as frame_ids do ("")
+  ~root/timeout              longest time that its motion is foreseen, s; results that need more are
+                             dropped (0.1)
   ~frame_prefix              put before every frame_id, such as left/ ("")
   ~twist                     fill in the twists of ~reactions (false)
   ~marker_rate               largest rate of ~markers, Hz, 0.001 to 1000 (20)

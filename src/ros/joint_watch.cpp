@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "ros/message_text.h"
+
 namespace virtual_work_dynamics {
 
 constexpr std::chrono::seconds JointWatch::kPatience;
@@ -46,6 +48,23 @@ std::vector<std::string> JointWatch::missing() const {
   return names;
 }
 
+std::vector<std::string> JointWatch::doubts() const {
+  std::vector<std::string> lines;
+  const std::vector<std::string> in_vain = notNeeded(true);
+  if (!in_vain.empty()) {
+    lines.push_back("joints " + shortList(in_vain) + " are given, but not " +
+                    shortList(notNeeded(false)) +
+                    ": they are ignored, and the motion of both follows from the closures");
+  }
+  const std::vector<std::string> waited_for = neverSeen();
+  if (!waited_for.empty()) {
+    lines.push_back("joints " + shortList(waited_for) +
+                    " have not been received in 5 s; nothing is published until all have been");
+  }
+  return lines;
+}
+
+// The joints not waited for that were seen before (true) or never (false).
 std::vector<std::string> JointWatch::notNeeded(bool seen) const {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < seen_.size(); ++i) {

@@ -29,14 +29,15 @@ class JointWatch {
   void setTime(Clock::time_point now);
   /// The joints waited for that were never seen.
   std::vector<std::string> neverSeen() const;
-  /// The joints not waited for that were seen before (true) or never (false).
-  std::vector<std::string> notNeeded(bool seen) const;
+  /// Says, a line each, which joints are given in vain, and which are waited for.
+  std::vector<std::string> doubts() const;
   /// The joints waited for that were never seen, or not for kPatience.
   std::vector<std::string> missing() const;
 
  private:
   static constexpr std::int64_t kNever = -1;
 
+  std::vector<std::string> notNeeded(bool seen) const;
   bool isNeeded(std::size_t i) const { return needed_[i] || all_needed_; }
 
   std::vector<std::string> joints_;

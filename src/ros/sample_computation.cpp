@@ -6,10 +6,11 @@ namespace virtual_work_dynamics {
 
 SampleComputation::SampleComputation(Eigen::Index coordinates, const Scene& scene,
                                      MotionCompleter& completer, LiveWrenches& wrenches,
-                                     const SampleRecords& records)
+                                     const SampleRecords& records, RootCourse* root)
     : static_motion_(scene.static_motion),
       completer_(completer),
       wrenches_(wrenches),
+      root_(root),
       records_(records),
       motion_(coordinates),
       load_(scene),
@@ -24,6 +25,7 @@ SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan, std::int
                                                       const MotionCovariance* covariance) {
   if (static_motion_) motion_.qd.setZero();
   records_.counters.samples.add();
+  if (!setRoot(stamp_ns, motion_.root)) return Outcome::kNoRoot;
   const auto start = Clock::now();
   if (!completer_.complete(motion_, plan.dynamics, plan.workspace)) return Outcome::kOpenLoop;
   const Outcome outcome = computeOne(plan, stamp_ns, start, covariance);
@@ -36,6 +38,7 @@ SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan,
                                                       std::size_t point) {
   takePoint(trajectory, point);
   if (trajectory.isOpen(point)) return Outcome::kOpenLoop;
+  if (trajectory.isRootless(point)) return Outcome::kNoRoot;
   return computeOne(plan, trajectory.stamps_ns[point], Clock::now(), nullptr);
 }
 
@@ -45,6 +48,7 @@ SampleComputation::Outcome SampleComputation::computeSample(ActivePlan& plan,
   trajectory.samples->evaluate(sample, motion_);
   if (static_motion_) motion_.qd.setZero();
   records_.counters.sampled.add();
+  if (!setRoot(trajectory.samples->stampNs(sample), motion_.root)) return Outcome::kNoRoot;
   const auto start = Clock::now();
   if (!completer_.completeSample(motion_, plan.dynamics, plan.workspace)) {
     return Outcome::kOpenLoop;
@@ -59,6 +63,7 @@ SampleComputation::Outcome SampleComputation::computeNext(ActivePlan& plan,
   if (place == 0) computeBlock(plan, trajectory, point);
   takePoint(trajectory, point);
   if (trajectory.isOpen(point)) return Outcome::kOpenLoop;
+  if (trajectory.isRootless(point)) return Outcome::kNoRoot;
   if (!motion_.finite()) return Outcome::kNotFinite;
   if (!setLoad(trajectory.stamps_ns[point])) return Outcome::kNoWrench;
   return finish(plan, trajectory.stamps_ns[point], plan.points.read(place),
@@ -97,6 +102,24 @@ SampleComputation::Outcome SampleComputation::computeOne(ActivePlan& plan, std::
   const std::chrono::nanoseconds time = Clock::now() - start;
   records_.counters.run_times.record(time.count());
   return finish(plan, stamp_ns, plan.workspace.results(), Of::kSample, covariance);
+}
+
+void SampleComputation::setRoots(TrajectoryMotion& trajectory) {
+  if (!root_) return;
+  const std::size_t points = trajectory.stamps_ns.size();
+  trajectory.table.roots.assign(points, RootMotion());
+  trajectory.rootless.assign(points, false);
+  for (std::size_t i = 0; i < points; ++i) {
+    trajectory.rootless[i] = !setRoot(trajectory.stamps_ns[i], trajectory.table.roots[i]);
+  }
+}
+
+// Sets the motion of the root at an instant, where it moves. Returns false where it is not known.
+bool SampleComputation::setRoot(std::int64_t stamp_ns, RootMotion& motion) {
+  if (!root_) return true;
+  if (!root_->read(stamp_ns, motion)) return false;
+  if (root_->foreseen()) records_.counters.root_foreseen.add();
+  return true;
 }
 
 // Sets the load of motion_ at an instant. Returns false where a live wrench is not known.

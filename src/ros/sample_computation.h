@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/live_wrenches.h"
+#include "motion/root_course.h"
 #include "ros/active_plan.h"
 #include "ros/certificate_record.h"
 #include "ros/counters.h"
@@ -32,21 +33,26 @@ class SampleComputation {
   /// @param static_motion whether the scene takes velocities and accelerations as zero.
   /// @param completer of motions of joint states; must outlive this.
   /// @param wrenches the live ones of `scene`; must outlive this.
+  /// @param root how the root moves, where it moves; must outlive this. Null: it rests.
   SampleComputation(Eigen::Index coordinates, const Scene& scene, MotionCompleter& completer,
-                    LiveWrenches& wrenches, const SampleRecords& records);
+                    LiveWrenches& wrenches, const SampleRecords& records,
+                    RootCourse* root = nullptr);
   SampleComputation(const SampleComputation&) = delete;
   SampleComputation& operator=(const SampleComputation&) = delete;
 
-  /// The motion of the sample to compute next, to be set by the caller.
+  /// The motion of the sample to compute next, to be set by the caller except for the root's.
   Motion& motion() { return motion_; }
 
   /// What became of a sample. Messages change only when it is kDone.
-  enum class Outcome { kDone, kNotFinite, kOpenLoop, kNoWrench };
+  enum class Outcome { kDone, kNotFinite, kOpenLoop, kNoWrench, kNoRoot };
 
   /// Computes the sample whose motion is motion() and writes messages of samples.
   /// @param covariance of motion(), of all coordinates; null: not known
   Outcome compute(ActivePlan& plan, std::int64_t stamp_ns,
                   const MotionCovariance* covariance = nullptr);
+  /// Gives the points of a trajectory the motion of the root, as it is known now. Allocates where
+  /// the root moves.
+  void setRoots(TrajectoryMotion& trajectory);
   /// Computes one point of a trajectory by itself.
   Outcome compute(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t point);
   /// Computes one of TrajectoryMotion::samples, which there must be.
@@ -63,6 +69,7 @@ class SampleComputation {
   using Clock = std::chrono::steady_clock;
 
   void takePoint(const TrajectoryMotion& trajectory, std::size_t point);
+  bool setRoot(std::int64_t stamp_ns, RootMotion& motion);
   bool setLoad(std::int64_t stamp_ns);
   void computeBlock(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t first);
   Outcome computeOne(ActivePlan& plan, std::int64_t stamp_ns, Clock::time_point start,
@@ -75,6 +82,7 @@ class SampleComputation {
   const bool static_motion_;
   MotionCompleter& completer_;
   LiveWrenches& wrenches_;
+  RootCourse* const root_;  // null: it rests
   SampleRecords records_;
   Motion motion_;
   Load load_;                      // of motion_

@@ -9,6 +9,7 @@ foreach(file
     deviation_output.cpp
     deviation_report.cpp
     diagnostics.cpp
+    imu_conversion.cpp
     inverse_dynamics_node.cpp
     inverse_dynamics_parameters.cpp
     joint_state_conversion.cpp
@@ -24,6 +25,9 @@ foreach(file
     private_name.cpp
     private_parameters.cpp
     robot_task.cpp
+    root_conversion.cpp
+    root_frames.cpp
+    root_inputs.cpp
     rviz_configuration.cpp
     rviz_for_robot.cpp
     sample_computation.cpp

@@ -27,12 +27,14 @@ struct TrajectoryMotion {
   bool has_velocities = false;          ///< whether the message has them at every point
   std::vector<bool> open;               ///< points whose loops cannot be closed; empty: no point
   std::string problem;                  ///< why the first such point cannot be closed
+  std::vector<bool> rootless;  ///< points whose root's motion is not known; empty: no point
   /// Where the results of samples are wanted, between the points too; empty: at the points.
   std::optional<TrajectorySamples> samples;
 
   /// Number of results of samples.
   std::size_t results() const { return samples ? samples->count() : stamps_ns.size(); }
   bool isOpen(std::size_t point) const { return point < open.size() && open[point]; }
+  bool isRootless(std::size_t point) const { return point < rootless.size() && rootless[point]; }
 };
 
 /// Converts trajectories by joint name into motions by generalized coordinate.

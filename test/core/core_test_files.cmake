@@ -95,6 +95,10 @@ set(core_test_files
   test/core/rank_factorization_test.cpp
   test/core/reference_recursion_test.cpp
   test/core/reference_test.cpp
+  test/core/root_coordinates_test.cpp
+  test/core/root_estimator_test.cpp
+  test/core/root_imu_test.cpp
+  test/core/root_trajectory_test.cpp
   test/core/run_time_histogram_test.cpp
   test/core/sample_block_test.cpp
   test/core/sample_clock_test.cpp

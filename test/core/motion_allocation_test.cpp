@@ -6,8 +6,11 @@
 
 #include "allocation_guard.h"
 #include "base/run_time_histogram.h"
+#include "motion/root_estimator.h"
+#include "motion/root_trajectory.h"
 #include "motion/trajectory_curve.h"
 #include "sample_robots.h"
+#include "tumbling_roots.h"
 #include "virtual_work_dynamics/motion_estimator.h"
 #include "virtual_work_dynamics/spline.h"
 #include "virtual_work_dynamics/unwrap.h"
@@ -71,6 +74,47 @@ TEST(MotionEstimator, SamplesDoNotAllocate) {
   EXPECT_EQ(gaps, 1);
   EXPECT_EQ(restarts, 1);
   EXPECT_GT(estimator.quality(0).velocity_noise, 0);  // identified
+}
+
+// As above: long enough that noises are identified, with twists and without, late poses, a restart.
+TEST(RootEstimator, PosesDoNotAllocate) {
+  RootEstimator estimator(EstimatorSettings(), 100000000);
+  const TumblingRoot root;
+  int known = 0, reordered = 0, restarts = 0;
+  const AllocationGuard guard;
+  for (int i = 1; i < 3000; ++i) {
+    const int k = i + (i % 7 == 0 ? 1 : i % 7 == 1 ? -1 : 0);  // exchanges two neighbours
+    const int place = k >= 2000 ? k - 2000 : k;
+    const RootMotion truth = root.at(5e-3 * place);
+    RootPose pose;
+    pose.stamp_ns = 5000000LL * place;
+    pose.position = truth.position;
+    pose.orientation = truth.orientation;
+    if (k > 500) pose.velocity = truth.velocity;
+    if (k > 500) pose.angular_velocity = truth.angular_velocity;
+    const RootEstimator::Verdict verdict = estimator.push(pose);
+    reordered += verdict == RootEstimator::Verdict::kReordered;
+    restarts += verdict == RootEstimator::Verdict::kRestartedBack;
+    RootMotion motion;
+    known += estimator.read(pose.stamp_ns - 50000000, motion);
+  }
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_GT(known, 2900);
+  EXPECT_GT(reordered, 400);
+  EXPECT_EQ(restarts, 1);
+  EXPECT_GT(estimator.quality(0).velocity_noise, 0);  // identified
+}
+
+TEST(RootTrajectory, ReadingDoesNotAllocate) {
+  RootTrajectory trajectory(100000000);
+  const TumblingRoot root;
+  trajectory.take({{0, root.at(0)}, {500000000, root.at(0.5)}, {1000000000, root.at(1)}});
+  RootMotion motion;
+  const AllocationGuard guard;
+  int known = 0;
+  for (int i = -10; i < 120; ++i) known += trajectory.read(10000000LL * i, motion);
+  EXPECT_EQ(guard.allocations(), 0u);
+  EXPECT_EQ(known, 111);
 }
 
 TEST(Spline, EvaluateDoesNotAllocate) {

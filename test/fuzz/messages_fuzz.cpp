@@ -1,4 +1,5 @@
-// Joint states, trajectories and wrenches whose values come from bytes, up to the core's motions.
+// Joint states, trajectories, wrenches and motions of the root whose values come from bytes, up to
+// the core's motions.
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include "fuzz_target.h"
 #include "ros/joint_state_conversion.h"
 #include "ros/private_name.h"
+#include "ros/root_conversion.h"
 #include "ros/trajectory_conversion.h"
 #include "ros/wrench_conversion.h"
 #include "virtual_work_dynamics/urdf_reader.h"
@@ -161,12 +163,90 @@ void useWrenches(Values& values) {
   }
 }
 
+geometry_msgs::Transform transformOf(Values& values) {
+  geometry_msgs::Transform transform;
+  transform.rotation.w = 1;
+  if (values.yes()) {
+    for (double* number : {&transform.rotation.x, &transform.rotation.y, &transform.rotation.z,
+                           &transform.rotation.w}) {
+      *number = values.number();
+    }
+  }
+  transform.translation.x = values.number();
+  return transform;
+}
+
+geometry_msgs::Twist twistOf(Values& values) {
+  geometry_msgs::Twist twist;
+  twist.linear.y = values.number();
+  twist.angular.z = values.number();
+  return twist;
+}
+
+void useRootPoses(Values& values) {
+  RootConversion conversion("odom", "a");
+  RootEstimator estimator(EstimatorSettings(), 100000000);
+  nav_msgs::Odometry message;
+  message.header.stamp.sec = values.integer<std::uint32_t>();
+  for (std::size_t left = values.count(32); left > 0; --left) {
+    message.header.frame_id = values.count(8) == 0 ? "map" : "odom";
+    message.child_frame_id = values.count(8) == 0 ? "b" : "a";
+    message.header.stamp.nsec = values.integer<std::uint32_t>() % 1000000000;
+    const geometry_msgs::Transform transform = transformOf(values);
+    message.pose.pose.orientation = transform.rotation;
+    message.pose.pose.position.x = transform.translation.x;
+    message.twist.twist = twistOf(values);
+    RootPose pose;
+    if (const auto rejection = conversion.convert(message, pose)) {
+      requireWord(*rejection);
+      continue;
+    }
+    conversion.takeDoubt();
+    estimator.push(pose);
+    RootMotion motion;
+    if (estimator.read(pose.stamp_ns + values.integer<std::int32_t>(), motion) && !motion.finite())
+      failFuzz("a motion of the root that is not finite");
+  }
+}
+
+void useRootTrajectory(Values& values) {
+  RootConversion conversion("odom", "a");
+  RootTrajectory trajectory(100000000);
+  for (std::size_t left = values.count(4); left > 0; --left) {
+    trajectory_msgs::MultiDOFJointTrajectory message;
+    message.header.frame_id = "odom";
+    message.joint_names = values.yes() ? std::vector<std::string>{"a"} : values.names();
+    message.points.resize(values.count(6));
+    std::int64_t time = 0;
+    for (auto& point : message.points) {
+      point.transforms.assign(message.joint_names.size(), transformOf(values));
+      point.velocities.assign(values.count(2), twistOf(values));
+      point.accelerations.assign(values.count(2), twistOf(values));
+      time += values.integer<std::int32_t>();
+      point.time_from_start.fromNSec(time);
+    }
+    std::vector<RootPoint> points;
+    const std::int64_t start = values.integer<std::uint32_t>();
+    if (const auto rejection = conversion.convert(message, start, points)) {
+      requireWord(*rejection);
+      continue;
+    }
+    trajectory.take(points);
+    RootMotion motion;
+    trajectory.read(start + values.integer<std::int32_t>(), motion);
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Values values(data, size);
   acceptOrRefuse([&] {
-    (values.yes() ? useJointStates : values.yes() ? useTrajectory : useWrenches)(values);
+    (values.yes()   ? useJointStates
+     : values.yes() ? useTrajectory
+     : values.yes() ? useWrenches
+     : values.yes() ? useRootPoses
+                    : useRootTrajectory)(values);
   });
   return 0;
 }

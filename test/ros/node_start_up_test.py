@@ -131,7 +131,21 @@ BAD_PARAMETERS = {
     'unknown_scene_key': ({'scene': {'gravitation': [0, 0, 1]}},
                           ['parameter ~scene: gravitation: unknown key']),
     'root_that_moves': ({'scene': {'root': 'moving'}}, [
-        'root: moving: the node is not told how the root link moves']),
+        'root: moving: ~root/source does not say who tells how the root link moves']),
+    'source_of_a_root_that_rests': ({'root': {'source': 'tf'}}, [
+        "parameter ~root/source: the scene does not say 'root: moving'"]),
+    'source_that_is_unknown': ({'root': {'source': 'gps'}}, [
+        "parameter ~root/source: 'gps' is none of odometry, trajectory, states, tf and imu"]),
+    'imu_and_gravity': ({'root': {'source': 'imu'}, 'scene': {
+        'root': 'moving', 'gravity': [0, 0, -9.81]}}, [
+            'gravity: with ~root/source: imu it is measured, and is not given']),
+    'imu_of_a_static_scene': ({'root': {'source': 'imu'}, 'scene': {
+        'root': 'moving', 'motion': 'static'}}, [
+            'motion: static: with ~root/source: imu the attitude is not known']),
+    'imu_without_estimates': ({'root': {'source': 'imu'}, 'scene': {'root': 'moving'},
+                               'estimator': {'acceleration': 'zero'}}, [
+                                   'parameter ~estimator/acceleration: zero: with']),
+    'timeout_of_the_root': ({'root': {'timeout': 0}}, ['parameter ~root/timeout: 0 s']),
     'gravity_of_two': ({'scene': {'gravity': [0, 1]}}, ['gravity', 'three numbers']),
     'gravity_that_is_no_number': ({'scene': {'gravity': [0, 0, 'down']}}, ['gravity', "'down'"]),
     'closure_without_a_type': ({'scene': {'closures': [{'name': 'pin'}]}},

@@ -241,8 +241,9 @@ class Node(Process):
         return recorder
 
     def feed(self, topic, kind):
-        """A publisher that the node is connected to."""
-        publisher = rospy.Publisher(self.namespace + '/' + topic, kind, queue_size=100000)
+        """A publisher that the node is connected to; of a topic of its namespace or, with /, of all."""
+        name = topic if topic.startswith('/') else self.namespace + '/' + topic
+        publisher = rospy.Publisher(name, kind, queue_size=100000)
         self.test.addCleanup(publisher.unregister)
         wait_until(lambda: publisher.get_num_connections() > 0,
                    lambda: 'the node to subscribe to %s; it says %s' % (topic, self.output()))

@@ -130,6 +130,10 @@ class RigidBodies:
         m2 = (qdd * x + qd ** 2 * x @ x) @ m0
         return t0 @ m0, t1 @ m0 + t0 @ m1, t2 @ m0 + 2 * t1 @ m1 + t0 @ m2
 
+    def motion(self, link, state):
+        """T, T' and T'' of a link, for maps q, q', q'' by joint."""
+        return self._motion(link, state)
+
     def _carried(self, link):
         """The link and everything that hangs on it."""
         return [link] + [other for joint in self._joints.values() if joint.parent == link

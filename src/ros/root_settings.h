@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+namespace virtual_work_dynamics {
+
+/// Which messages tell how the root link moves.
+enum class RootSource { kNone, kOdometry, kTrajectory, kStates, kTf, kImu };
+
+/// How the node learns how the root link moves.
+struct RootSettings {
+  RootSource source = RootSource::kNone;
+  std::string inertial_frame = "odom";  ///< frame_id of the frame that motions are against
+  std::string link;      ///< what messages call the root link; empty: as its own frame_id is
+  double timeout = 0.1;  ///< longest time that a motion is foreseen behind the newest message, s
+};
+
+}  // namespace virtual_work_dynamics
