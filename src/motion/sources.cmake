@@ -21,6 +21,7 @@ vwd_core(
   stream_smoother.cpp
   stream_surprise.cpp
   stream_text.cpp
+  track_samples.cpp
   trajectory_curve.cpp
   unwrap.cpp
   velocity_judge.cpp
