@@ -110,6 +110,7 @@ set(core_test_files
   test/core/property_rerooting_test.cpp
   test/core/property_superposition_test.cpp
   test/core/rank_factorization_test.cpp
+  test/core/recording_test.cpp
   test/core/reference_recursion_test.cpp
   test/core/reference_test.cpp
   test/core/run_time_histogram_test.cpp
