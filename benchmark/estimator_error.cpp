@@ -60,6 +60,7 @@ void measureAll(bool quick, const std::string& recording, const ReportRows& rows
     measureWrongVelocities(arm, spec, rows);
   }
   measureTime(arm, quick, rows);
+  measureDeviationCost(arm, rows);
   if (recording.empty()) return;
   if (readable(recording + "/panda_2s_motion.csv")) {
     measureRecorded(recording, rows);

@@ -26,6 +26,9 @@ void measureNode(const Arm& arm, const StreamSpec& spec, const ReportRows& rows)
 void measureWrongVelocities(const Arm& arm, const StreamSpec& spec, const ReportRows& rows);
 /// Time per sample.
 void measureTime(const Arm& arm, bool quick, const ReportRows& rows);
+/// Thread time of the deviations of a sample of the arm, with and without reactions, beside that of
+/// a block of 3 n + 1 samples, taken in turn: medians.
+void measureDeviationCost(const Arm& arm, const ReportRows& rows);
 /// One joint that turns on for as many samples at 1 kHz.
 void measureLongRun(long samples, const ReportRows& rows);
 /// A real recording, as in `folder`/README.md: explained variance of the measured torques.

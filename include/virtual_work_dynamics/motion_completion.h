@@ -46,7 +46,7 @@ struct CompletionReport {
 
 /// Estimates the velocities or accelerations that a recorded motion lacks by a smoother for each
 /// joint: a Kalman filter forward and the adjoint of its innovations back (Bryson and Frazier
-/// 1963), in which a derivative of the motion (third to fifth, by likelihood) is white noise. The
+/// 1963), in which a derivative of the motion (third to sixth, by likelihood) is white noise. The
 /// noises of positions, velocities and stamps and the density of the motion are those under which
 /// the rows are most likely (Schweppe 1965). Uneven stamps are taken as those of an even clock if
 /// that makes the positions likelier. Where accelerations are missing, positions and velocities

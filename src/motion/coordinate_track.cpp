@@ -32,9 +32,6 @@ constexpr double kFoundModel = 1.21;
 
 /// Later samples after which a sample is recorded.
 constexpr int kSettled = 4;
-/// Intervals that their mean is taken over.
-constexpr int kUsualIntervals = 64;
-
 constexpr double kTwoPi = 6.283185307179586;
 /// Steps that jump to and fro: how long they are at least, rad or m, and by how little the position
 /// before the last one differs.
@@ -49,43 +46,36 @@ CoordinateTrack::CoordinateTrack(const Joint& joint, const EstimatorSettings& se
     : turn_counter_(joint),
       lag_(settings.lag),
       max_gap_(std::llround(settings.max_gap * 1e9)),
-      entries_(settings.estimate ? kCapacity : 1),
+      samples_(settings.estimate ? kCapacity : 1),
       learner_(settings.noise, max_gap_, settings.estimate) {}
 
 void CoordinateTrack::clear() {
   turn_counter_.restart();
-  size_ = 0;
-  stretch_ = 0;
+  samples_.clear();
   jumps_ = 0;
   far_ = 0;
   learner_.forgetRecord();
 }
 
-double CoordinateTrack::moved(const Entry& from, const Entry& to) {
-  return (to.q - from.q) + kTwoPi * (to.turns - from.turns);
-}
-
 CoordinateTrack::Verdict CoordinateTrack::push(std::int64_t stamp, double q, double qd) {
-  if (size_ > 0 && stamp <= newest()) return insert(stamp, q, qd);
-  const bool gap = size_ > 0 && capacity() > 1 && stamp - newest() > max_gap_;
-  const double turns = turn_counter_.turns(q, size_ > 0 ? secondsBetween(newest(), stamp) : 0);
-  newest_ = (newest_ + 1) & (capacity() - 1);
-  size_ = std::min(size_ + 1, capacity());
-  Entry& now = entry(0);
+  if (!empty() && stamp <= newest()) return insert(stamp, q, qd);
+  const bool gap = !empty() && samples_.capacity() > 1 && stamp - newest() > max_gap_;
+  const double turns = turn_counter_.turns(q, empty() ? 0 : secondsBetween(newest(), stamp));
+  TrackSample& now = samples_.add();
   now.stamp = stamp;
   now.q = q;
   now.turns = turns;
   now.qd = qd;
-  if (capacity() == 1) return gap ? Verdict::kAfterGap : Verdict::kTaken;
-  if (size_ > 1 && !gap) noteJump();
-  const bool absurd = size_ > 1 && !gap && !(std::abs(moved(entry(1), now)) < kAbsurdStep);
+  if (samples_.capacity() == 1) return gap ? Verdict::kAfterGap : Verdict::kTaken;
+  if (samples_.size() > 1 && !gap) noteJump();
+  const bool absurd =
+      samples_.size() > 1 && !gap && !(std::abs(moved(samples_[1], now)) < kAbsurdStep);
   if (absurd) learner_.forgetRecord();
-  if (size_ == 1 || gap || absurd) {
+  if (samples_.size() == 1 || gap || absurd) {
     startStretch(stamp);
     begin(now);
   } else {
-    stretch_ = std::min(stretch_ + 1, capacity());
-    noteInterval();
+    samples_.lengthenStretch();
     if (far_ > 0 || newestIsFar()) {
       takeInDoubt();
     } else {
@@ -97,37 +87,37 @@ CoordinateTrack::Verdict CoordinateTrack::push(std::int64_t stamp, double q, dou
 }
 
 /// Takes the newest sample, which belongs to the motion.
-void CoordinateTrack::take(Entry& now) {
+void CoordinateTrack::take(TrackSample& now) {
   noteNoise(0);
   if (startIsStale()) {
-    restart(std::min(stretch_, kMostStarting));
+    restart(std::min(stretch(), kMostStarting));
   } else {
-    follow(entry(1), now);
-    if (stretch_ > kFewest) adapt(now);
+    follow(samples_[1], now);
+    if (stretch() > kFewest) adapt(now);
   }
-  if (learner_.identify(noise_.least(), interval_)) useLearnt();
+  if (learner_.identify(noise_.least(), interval())) useLearnt();
 }
 
 bool CoordinateTrack::newestIsFar() const {
-  const Entry& now = entry(0);
-  const Entry& before = entry(1);
+  const TrackSample& now = samples_[0];
+  const TrackSample& before = samples_[1];
   const double time = secondsBetween(before.stamp, now.stamp);
   double step = moved(before, now);
   // What a steady motion would make of it is not far.
-  if (stretch_ > 2)
-    step -= moved(entry(2), before) * time / secondsBetween(entry(2).stamp, before.stamp);
-  return isFar(step, time, interval_, noise_.least(), std::sqrt(model().position_variance));
+  if (stretch() > 2)
+    step -= moved(samples_[2], before) * time / secondsBetween(samples_[2].stamp, before.stamp);
+  return isFar(step, time, interval(), noise_.least(), std::sqrt(model().position_variance));
 }
 
 /// Takes the newest sample while it is open whether it belongs to the motion.
 void CoordinateTrack::takeInDoubt() {
   ++far_;
-  Entry& now = entry(0);
+  TrackSample& now = samples_[0];
   now.counts = false;
   const FarFinding finding = judgeNewest();
   switch (finding.verdict) {
     case FarVerdict::kOpen:
-      follow(entry(1), now);
+      follow(samples_[1], now);
       return;
     case FarVerdict::kJump:
       ++begun_;
@@ -135,11 +125,11 @@ void CoordinateTrack::takeInDoubt() {
       return;
     case FarVerdict::kMotion:
     case FarVerdict::kAlone:
-      for (int age = 0; age < far_; ++age) entry(age).counts = true;
+      for (int age = 0; age < far_; ++age) samples_[age].counts = true;
       leaveOut(finding.alone);
       for (int age = far_ - 1; age > 0; --age) {
         noteNoise(age);
-        follow(entry(age + 1), entry(age));
+        follow(samples_[age + 1], samples_[age]);
       }
       far_ = 0;
       take(now);
@@ -150,25 +140,25 @@ FarFinding CoordinateTrack::judgeNewest() const {
   std::array<double, kBeforeFar + kMostFar> times;
   std::array<double, kBeforeFar + kMostFar> positions;
   const int far = std::min(far_, kMostFar);
-  const int before = std::min(stretch_ - far_, kBeforeFar);
-  const Entry& reference = entry(far_);
+  const int before = std::min(stretch() - far_, kBeforeFar);
+  const TrackSample& reference = samples_[far_];
   for (int i = 0; i < before + far; ++i) {
-    const Entry& other = entry(far_ + before - 1 - i);
+    const TrackSample& other = samples_[far_ + before - 1 - i];
     times[static_cast<std::size_t>(i)] = secondsBetween(reference.stamp, other.stamp);
     positions[static_cast<std::size_t>(i)] = moved(reference, other);
   }
-  return judgeFar(times.data(), positions.data(), before, before + far, interval_);
+  return judgeFar(times.data(), positions.data(), before, before + far, interval());
 }
 
 /// Leaves out the first samples of those in doubt, which stand alone.
 void CoordinateTrack::leaveOut(int samples) {
   if (samples == 0) return;
   left_out_ += samples;
-  const Entry& before = entry(far_);
-  const Entry& after = entry(far_ - samples - 1);
+  const TrackSample& before = samples_[far_];
+  const TrackSample& after = samples_[far_ - samples - 1];
   const double time = secondsBetween(before.stamp, after.stamp);
   for (int i = 1; i <= samples; ++i) {
-    Entry& alone = entry(far_ - i);
+    TrackSample& alone = samples_[far_ - i];
     alone.counts = false;
     // States count from it, and would lose their digits far away.
     alone.q = before.q + secondsBetween(before.stamp, alone.stamp) / time * moved(before, after);
@@ -177,7 +167,7 @@ void CoordinateTrack::leaveOut(int samples) {
 }
 
 void CoordinateTrack::startStretch(std::int64_t stamp) {
-  stretch_ = 1;
+  samples_.setStretch(1);
   stretch_start_ = stamp;
   far_ = 0;
   learner_.beginStretch();
@@ -187,91 +177,85 @@ void CoordinateTrack::startStretch(std::int64_t stamp) {
 /// Puts a late sample in its place, and filters those after it again.
 CoordinateTrack::Verdict CoordinateTrack::insert(std::int64_t stamp, double q, double qd) {
   int age = 0;  // of the sample that it comes after
-  while (age < size_ && entry(age).stamp > stamp) ++age;
-  if (age < size_ && entry(age).stamp == stamp) return Verdict::kEqualStamp;
+  while (age < samples_.size() && samples_[age].stamp > stamp) ++age;
+  if (age < samples_.size() && samples_[age].stamp == stamp) return Verdict::kEqualStamp;
   // Before the first of a stretch there is a gap, which this sample does not fill alone.
-  if (age >= std::min({size_, stretch_, kMostLate, capacity() - 1})) return Verdict::kTooLate;
-  newest_ = (newest_ + 1) & (capacity() - 1);
-  size_ = std::min(size_ + 1, capacity());
-  stretch_ = std::min(stretch_ + 1, capacity());
-  for (int i = 0; i < age; ++i) entry(i) = entry(i + 1);
-  Entry& place = entry(age);
-  const Entry& before = entry(age + 1);
+  if (age >= std::min({samples_.size(), stretch(), kMostLate, samples_.capacity() - 1}))
+    return Verdict::kTooLate;
+  TrackSample& place = samples_.insert(age);
+  const TrackSample& before = samples_[age + 1];
   place.stamp = stamp;
   place.q = q;
   place.turns = before.turns;
   const double forward = std::abs(moved(before, place));
-  const Entry& after = entry(age - 1);
+  const TrackSample& after = samples_[age - 1];
   place.turns = after.turns;
   if (forward < std::abs(moved(before, place))) place.turns = before.turns;
   place.qd = qd;
   place.counts = age >= far_;
   far_ += place.counts ? 0 : 1;
-  noteInterval();
-  for (int i = age; i >= 0; --i) follow(entry(i + 1), entry(i));
+  samples_.lengthenStretch();
+  for (int i = age; i >= 0; --i) follow(samples_[i + 1], samples_[i]);
   if (age <= kSettled) recordSettled();
   return Verdict::kInserted;
 }
 
 double CoordinateTrack::usualInterval() const {
-  return std::isfinite(interval_) ? interval_ : kUsualInterval;
+  return std::isfinite(interval()) ? interval() : kUsualInterval;
 }
 
 /// Takes the newest samples for the first ones of another motion, with nothing learnt.
 void CoordinateTrack::beginAnew(int samples) {
-  for (int age = 0; age < samples; ++age) entry(age).counts = true;
-  Entry& first = entry(samples - 1);
+  for (int age = 0; age < samples; ++age) samples_[age].counts = true;
+  TrackSample& first = samples_[samples - 1];
   learner_.unlearn();
   startStretch(first.stamp);
   begin(first);
-  stretch_ = samples;
+  samples_.setStretch(samples);
   for (int age = samples - 2; age >= 0; --age) noteNoise(age);
   restart(samples);
 }
 
-void CoordinateTrack::begin(Entry& entry) {
+void CoordinateTrack::begin(TrackSample& entry) {
   if (!learner_.learnt()) learner_.assume(noise_, usualInterval());
   entry.first = true;
   entry.has_position = entry.has_velocity = false;
-  entry.filtered = startAlone();
+  // There is nothing to start from but the sample itself.
+  entry.filtered =
+      firstState<kOrder>(model(), usualInterval(), 1, [](int) { return std::pair(0.0, 0.0); });
   surprise_.restart();
-}
-
-/// The state at a first sample, with nothing to start from but itself.
-StreamState<CoordinateTrack::kOrder> CoordinateTrack::startAlone() const {
-  return firstState<kOrder>(model(), usualInterval(), 1, [](int) { return std::pair(0.0, 0.0); });
 }
 
 /// Samples that the filter is started from, in the end.
 int CoordinateTrack::startingCount() const {
-  return startingSamples(model(), kOrder, interval_);
+  return startingSamples(model(), kOrder, interval());
 }
 
 /// Whether the newest sample tells more of the start of the stretch than was known when the filter
 /// was started.
 bool CoordinateTrack::startIsStale() const {
   if (!learner_.learnt())
-    return stretch_ <= kMostStarting || model().position_variance > 2 * started_variance_;
-  const bool power_of_two = (stretch_ & (stretch_ - 1)) == 0;
-  return power_of_two && stretch_ >= kFewest && stretch_ <= startingCount();
+    return stretch() <= kMostStarting || model().position_variance > 2 * started_variance_;
+  const bool power_of_two = (stretch() & (stretch() - 1)) == 0;
+  return power_of_two && stretch() >= kFewest && stretch() <= startingCount();
 }
 
 /// Starts the filter again so many samples ago, or with the stretch.
 void CoordinateTrack::restart(int samples) {
   started_variance_ = model().position_variance;
-  int oldest = std::min(std::max(samples, startingCount()), stretch_) - 1;
-  while (oldest > 0 && !entry(oldest).counts) --oldest;
-  Entry& first = entry(oldest);
+  int oldest = std::min(std::max(samples, startingCount()), stretch()) - 1;
+  while (oldest > 0 && !samples_[oldest].counts) --oldest;
+  TrackSample& first = samples_[oldest];
   const int count = std::min(startingCount(), oldest + 1);
-  first.filtered = firstState<kOrder>(model(), interval_, count, [&](int i) {
-    const Entry& other = entry(oldest - i);
+  first.filtered = firstState<kOrder>(model(), interval(), count, [&](int i) {
+    const TrackSample& other = samples_[oldest - i];
     return std::pair(secondsBetween(first.stamp, other.stamp), moved(first, other));
   });
-  for (int age = oldest; age-- > 0;) follow(entry(age + 1), entry(age));
+  for (int age = oldest; age-- > 0;) follow(samples_[age + 1], samples_[age]);
 }
 
 /// Takes the filter from the sample before to this one.
-void CoordinateTrack::follow(const Entry& before, Entry& entry) {
+void CoordinateTrack::follow(const TrackSample& before, TrackSample& entry) {
   entry.first = false;
   entry.filtered = before.filtered;
   StreamState<kOrder>& state = entry.filtered;
@@ -288,7 +272,7 @@ void CoordinateTrack::follow(const Entry& before, Entry& entry) {
 /// Changes the model and the state after the newest sample when innovations are much larger than
 /// foreseen: the joint moves faster than it did when the model was learnt, or its positions are
 /// worse, or it is elsewhere.
-void CoordinateTrack::adapt(Entry& now) {
+void CoordinateTrack::adapt(TrackSample& now) {
   const StreamUpdate<kOrder>& update = now.position;
   // Of a slow joint, a step of the encoder stays in the positions for many samples: it is foreseen.
   const double foreseen = 1 / update.precision + kStepVariance * noise_.least() * noise_.least();
@@ -306,41 +290,35 @@ void CoordinateTrack::adapt(Entry& now) {
       if (learner_.worsen(finding.factor)) P *= finding.factor;
       return;
     case StreamSurprise::Verdict::kQuicker:
-      if (!learner_.quicken(interval_)) return;
+      if (!learner_.quicken(interval())) return;
       // What so quick a motion does in one time constant, as much of it as explains the
       // innovations.
       StreamState<kOrder> noise;
       noise.P.setZero();
-      addNoise<kOrder>(timeConstant(model(), kOrder, interval_), 1, noise);
+      addNoise<kOrder>(timeConstant(model(), kOrder, interval()), 1, noise);
       P += finding.factor * foreseen / noise.P(0, 0) * noise.P;
   }
-}
-
-/// The mean of the latest intervals; samples that came late are counted, too.
-void CoordinateTrack::noteInterval() {
-  const int intervals = std::min(stretch_ - 1, kUsualIntervals);
-  interval_ = secondsBetween(entry(intervals).stamp, newest()) / intervals;
 }
 
 /// Learns from the positions up to that of this age how finely they are resolved and, before a
 /// model is learnt, how large their noise is.
 void CoordinateTrack::noteNoise(int age) {
-  const int stretch = stretch_ - age;
-  if (stretch < 3 || entry(age + 2).turns != entry(age).turns) return;
-  for (int i = 0; i < std::min(stretch, static_cast<int>(kDifferenced)); ++i)
-    if (!entry(age + i).counts) return;
-  noise_.takeStep(entry(age + 2).q, entry(age + 1).q, entry(age).q);
+  const int came = stretch() - age;
+  if (came < 3 || samples_[age + 2].turns != samples_[age].turns) return;
+  for (int i = 0; i < std::min(came, static_cast<int>(kDifferenced)); ++i)
+    if (!samples_[age + i].counts) return;
+  noise_.takeStep(samples_[age + 2].q, samples_[age + 1].q, samples_[age].q);
   if (learner_.learnt()) {
     learner_.raise(noise_.least());
     return;
   }
-  if (stretch >= static_cast<int>(kDifferenced)) {
+  if (came >= static_cast<int>(kDifferenced)) {
     std::array<double, kDifferenced> times{};
     std::array<double, kDifferenced> positions{};
     for (std::size_t i = 0; i < kDifferenced; ++i) {
-      const Entry& other = entry(age + static_cast<int>(i));
-      times[i] = secondsBetween(entry(age).stamp, other.stamp);
-      positions[i] = moved(entry(age), other);
+      const TrackSample& other = samples_[age + static_cast<int>(i)];
+      times[i] = secondsBetween(samples_[age].stamp, other.stamp);
+      positions[i] = moved(samples_[age], other);
     }
     noise_.takeDifference(times, positions);
   }
@@ -349,66 +327,19 @@ void CoordinateTrack::noteNoise(int age) {
 
 /// Learns from the latest steps whether positions jump to and fro.
 void CoordinateTrack::noteJump() {
-  if (size_ < 3) return;
-  const double step = std::abs(moved(entry(1), entry(0)));
-  const bool jump = step > kLongJump && std::abs(moved(entry(2), entry(0))) < kReturn * step;
+  if (samples_.size() < 3) return;
+  const double step = std::abs(moved(samples_[1], samples_[0]));
+  const bool jump = step > kLongJump && std::abs(moved(samples_[2], samples_[0])) < kReturn * step;
   jumps_ = jump ? std::min(jumps_ + 1, 2 * kManyJumps) : std::max(jumps_ - 1, 0);
-}
-
-bool CoordinateTrack::nextInstant(std::int64_t after, std::int64_t lag,
-                                  std::int64_t& instant) const {
-  bool found = false;
-  for (int age = 0; age < size_; ++age) {
-    const std::int64_t stamp = entry(age).stamp;
-    if (stamp <= after) break;
-    if (newest() - stamp < lag && age + 1 < capacity()) continue;
-    instant = stamp;
-    found = true;
-  }
-  return found;
-}
-
-/// Age of the latest sample up to an instant; that of the oldest one if all are later.
-int CoordinateTrack::ageAt(std::int64_t instant) const {
-  int later = -1;
-  int age = size_ - 1;
-  while (age - later > 1) {
-    const int middle = later + (age - later) / 2;
-    if (entry(middle).stamp > instant) {
-      later = middle;
-    } else {
-      age = middle;
-    }
-  }
-  return age;
-}
-
-bool CoordinateTrack::covers(std::int64_t instant, std::int64_t longest) const {
-  const int base = ageAt(instant);
-  int newest = base;
-  while (newest > 0 && !entry(newest - 1).first && base - newest < kFewest) --newest;
-  if (newest == base && instant - entry(base).stamp > longest) return false;
-  int oldest = base;
-  while (oldest + 1 < size_ && !entry(oldest).first && oldest - newest < kFewest) ++oldest;
-  return oldest - newest + 1 >= kFewest;
-}
-
-double CoordinateTrack::unwrappedPosition() const {
-  return entry(0).q + kTwoPi * entry(0).turns;
-}
-
-double CoordinateTrack::positionBefore(std::int64_t instant) const {
-  const Entry& before = entry(ageAt(instant));
-  return before.q + kTwoPi * before.turns;
 }
 
 Eigen::Vector3d CoordinateTrack::evaluate(std::int64_t instant, Eigen::Matrix3d* covariance) const {
   const bool with_covariance = covariance != nullptr;
   StreamAdjoint<kOrder> adjoint;
   int age = 0;
-  while (age + 1 < size_ && entry(age).stamp > instant) {
-    const Entry& later = entry(age);
-    const Entry& before = entry(age + 1);
+  while (age + 1 < samples_.size() && samples_[age].stamp > instant) {
+    const TrackSample& later = samples_[age];
+    const TrackSample& before = samples_[age + 1];
     if (later.first) {
       // The instant is in the gap before this stretch, or before the gap.
       adjoint = StreamAdjoint<kOrder>();
@@ -419,7 +350,7 @@ Eigen::Vector3d CoordinateTrack::evaluate(std::int64_t instant, Eigen::Matrix3d*
     }
     ++age;
   }
-  const Entry& base = entry(age);
+  const TrackSample& base = samples_[age];
   StreamState<kOrder> state = base.filtered;
   if (instant > base.stamp)
     predict<kOrder>(secondsBetween(base.stamp, instant), model().density, state);
@@ -428,13 +359,13 @@ Eigen::Vector3d CoordinateTrack::evaluate(std::int64_t instant, Eigen::Matrix3d*
     *covariance = (learner_.finds() ? kFoundModel : 1) * all.topLeftCorner<3, 3>();
   }
   Eigen::Vector3d motion = (state.x + state.P * adjoint.r).head<3>();
-  motion[0] += base.q + kTwoPi * base.turns;
+  motion[0] += base.unwrapped();
   return motion;
 }
 
 StreamQuality CoordinateTrack::quality() const {
   StreamQuality quality;
-  quality.interval = std::isfinite(interval_) ? interval_ : 0;
+  quality.interval = std::isfinite(interval()) ? interval() : 0;
   quality.position_noise = std::sqrt(model().position_variance);
   quality.velocity_noise = model().usesVelocities() ? std::sqrt(model().velocity_variance) : -1;
   quality.stamp_noise = std::sqrt(model().stamp_variance);
@@ -448,21 +379,20 @@ StreamQuality CoordinateTrack::quality() const {
 
 /// Records the sample that late ones no longer come before, as a rule.
 void CoordinateTrack::recordSettled() {
-  if (stretch_ <= kSettled) return;
-  const Entry& settled = entry(kSettled);
+  if (stretch() <= kSettled) return;
+  const TrackSample& settled = samples_[kSettled];
   if (!settled.counts) return;
-  learner_.record(settled.stamp, settled.q + kTwoPi * settled.turns, settled.qd, stretch_,
-                  interval_);
+  learner_.record(settled.stamp, settled.unwrapped(), settled.qd, stretch(), interval());
 }
 
 /// Filters the latest samples again, under the model that was just learnt.
 void CoordinateTrack::useLearnt() {
   // What later samples say of earlier ones is weighed with one model.
   StreamModel at_speed = model();
-  at_speed.position_variance = model().variance(entry(0).filtered.x[1]);
-  const double time = timeConstant(at_speed, kOrder, interval_);
-  const double forgotten = std::max(kForgotten * time / interval_, kForgottenSamples);
-  restart(static_cast<int>(std::min(lag_ / interval_ + forgotten, kCapacity + 0.0)));
+  at_speed.position_variance = model().variance(samples_[0].filtered.x[1]);
+  const double time = timeConstant(at_speed, kOrder, interval());
+  const double forgotten = std::max(kForgotten * time / interval(), kForgottenSamples);
+  restart(static_cast<int>(std::min(lag_ / interval() + forgotten, kCapacity + 0.0)));
   surprise_.restart();
 }
 

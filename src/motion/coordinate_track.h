@@ -3,14 +3,13 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "motion/far_positions.h"
 #include "motion/shown_noise.h"
-#include "motion/stream_filter.h"
 #include "motion/stream_learner.h"
 #include "motion/stream_model.h"
 #include "motion/stream_surprise.h"
+#include "motion/track_samples.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion_estimator.h"
 #include "virtual_work_dynamics/unwrap.h"
@@ -39,36 +38,42 @@ class CoordinateTrack {
   Verdict push(std::int64_t stamp, double q, double qd);
   void clear();
 
-  bool empty() const { return size_ == 0; }
-  std::int64_t newest() const { return entry(0).stamp; }
-  double newestPosition() const { return entry(0).q; }
-  double newestVelocity() const { return entry(0).qd; }
+  bool empty() const { return samples_.size() == 0; }
+  std::int64_t newest() const { return samples_[0].stamp; }
+  double newestPosition() const { return samples_[0].q; }
+  double newestVelocity() const { return samples_[0].qd; }
   /// Usual time between samples, s; infinite before there are two.
-  double interval() const { return interval_; }
+  double interval() const { return samples_.interval(); }
   /// Samples since the latest gap, at most the number that are kept.
-  int stretch() const { return stretch_; }
+  int stretch() const { return samples_.stretch(); }
   /// From which stamp on there is nothing to evaluate yet, as it is open what the newest samples
   /// are; the largest number: there is none.
   std::int64_t doubtStart() const {
     if (far_ == 0) return std::numeric_limits<std::int64_t>::max();
-    return stretch_ - far_ < kFewest ? stretch_start_ : entry(far_ - 1).stamp;
+    return stretch() - far_ < kFewest ? stretch_start_ : samples_[far_ - 1].stamp;
   }
   /// First stamp of the latest stretch.
   std::int64_t stretchStart() const { return stretch_start_; }
 
   /// Finds the earliest sample later than `after` that is at least `lag` ns older than the newest.
-  bool nextInstant(std::int64_t after, std::int64_t lag, std::int64_t& instant) const;
+  bool nextInstant(std::int64_t after, std::int64_t lag, std::int64_t& instant) const {
+    return samples_.nextInstant(after, lag, instant);
+  }
 
   /// Estimates the motion at an instant: position (unwrapped), velocity, acceleration, and their
   /// covariance if not null. To be called with samples only.
   Eigen::Vector3d evaluate(std::int64_t instant, Eigen::Matrix3d* covariance) const;
   /// Whether the motion at an instant can be estimated: the sample before it is at most `longest`
   /// ns old, or followed by others without a gap, and its stretch has enough of them.
-  bool covers(std::int64_t instant, std::int64_t longest) const;
+  bool covers(std::int64_t instant, std::int64_t longest) const {
+    return samples_.surround(instant, longest, kFewest);
+  }
   /// The newest position, unwrapped.
-  double unwrappedPosition() const;
+  double unwrappedPosition() const { return samples_[0].unwrapped(); }
   /// Position of the latest sample up to an instant, unwrapped.
-  double positionBefore(std::int64_t instant) const;
+  double positionBefore(std::int64_t instant) const {
+    return samples_[samples_.ageAt(instant)].unwrapped();
+  }
 
   /// What the samples were found to be.
   StreamQuality quality() const;
@@ -76,49 +81,24 @@ class CoordinateTrack {
   bool contradictory() const { return jumps_ >= kManyJumps; }
 
  private:
-  static constexpr int kOrder = StreamLearner::kOrder;
+  static constexpr int kOrder = TrackSample::kOrder;
   static constexpr int kManyJumps = 20;
 
-  struct Entry {
-    std::int64_t stamp = 0;  // ns
-    double q = 0;            // position as it came
-    double turns = 0;        // 2 pi turns + q is the unwrapped position
-    double qd = 0;           // NaN: not given
-    bool first = false;      // of a stretch
-    bool counts = true;      // false: what it is is open, or it stands alone and is left out
-    bool has_position = false;
-    bool has_velocity = false;
-    StreamUpdate<kOrder> position;
-    StreamUpdate<kOrder> velocity;
-    StreamState<kOrder> filtered;  // after this sample, position relative to it
-  };
-
-  const Entry& entry(int age) const {
-    return entries_[static_cast<std::size_t>((newest_ - age) & (capacity() - 1))];
-  }
-  Entry& entry(int age) {
-    return entries_[static_cast<std::size_t>((newest_ - age) & (capacity() - 1))];
-  }
-  int capacity() const { return static_cast<int>(entries_.size()); }
-  int ageAt(std::int64_t instant) const;
-  static double moved(const Entry& from, const Entry& to);
-  void begin(Entry& entry);
+  void begin(TrackSample& entry);
   void beginAnew(int samples);
-  void take(Entry& now);
+  void take(TrackSample& now);
   bool newestIsFar() const;
   void takeInDoubt();
   FarFinding judgeNewest() const;
   void leaveOut(int samples);
-  StreamState<kOrder> startAlone() const;
   int startingCount() const;
   bool startIsStale() const;
   void restart(int samples);
-  void follow(const Entry& before, Entry& entry);
+  void follow(const TrackSample& before, TrackSample& entry);
   Verdict insert(std::int64_t stamp, double q, double qd);
   void noteNoise(int age);
   void noteJump();
-  void noteInterval();
-  void adapt(Entry& now);
+  void adapt(TrackSample& now);
   double usualInterval() const;
   void startStretch(std::int64_t stamp);
   void recordSettled();
@@ -128,12 +108,8 @@ class CoordinateTrack {
   TurnCounter turn_counter_;
   const double lag_;  // s
   const std::int64_t max_gap_;
-  std::vector<Entry> entries_;  // a ring; the oldest makes room for the newest
-  int newest_ = -1;
-  int size_ = 0;
-  int stretch_ = 0;
+  TrackSamples samples_;
   std::int64_t stretch_start_ = 0;
-  double interval_ = std::numeric_limits<double>::infinity();
   int jumps_ = 0;  // to and fro
   int far_ = 0;    // newest samples of which it is open what they are
   int begun_ = 0;  // motions that began with a jump

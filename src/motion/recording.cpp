@@ -21,10 +21,14 @@ constexpr std::size_t kMostBlocks = 16384;
 constexpr std::size_t kStretch = 2048;
 /// A gap is at least so many usual intervals long.
 constexpr double kGapIntervals = 4;
-/// By how much another order must be likelier than four (twice the logarithm of the likelihood).
-/// Order three is asked for more: it takes slight jumps of the acceleration for the rule.
-constexpr double kMarginOfThree = 100;
-constexpr double kMarginOfFive = 10;
+/// Orders other than four, and by how much they must be likelier than it (twice the logarithm of
+/// the likelihood). Order three is asked for more: it takes slight jumps of the acceleration for
+/// the rule.
+struct OtherOrder {
+  int order;
+  double margin;
+};
+constexpr OtherOrder kOtherOrders[] = {{3, 100}, {5, 10}, {6, 20}};
 constexpr double kTwoPi = 6.283185307179586;
 
 std::vector<StreamBlock> spread(std::vector<StreamBlock> blocks) {
@@ -95,6 +99,7 @@ void Recording::prepare(RecordedStream& stream) const {
   if (settings_.noise.bandwidth > 0)
     knowledge.time_constant = 1 / (kTwoPi * settings_.noise.bandwidth);
   knowledge.longest_gap = longest_gap_;
+  knowledge.rules = IdentificationRules::ofRecordings();
   findFarPositions(stream);
   knowledge.use_velocities = settings_.noise.use_velocity && !stream.velocities.empty();
   if (!knowledge.use_velocities) return;
@@ -173,7 +178,7 @@ void Recording::identify(const std::function<void(std::size_t models)>& found) {
   chooseClock(found);
   for (RecordedStream& stream : streams_) {
     chooseOrder(stream);
-    found(kModels - 2);  // of three orders
+    found(kModels - 2);  // of four orders
   }
 }
 
@@ -226,15 +231,13 @@ void Recording::chooseClock(const std::function<void(std::size_t models)>& found
 void Recording::chooseOrder(RecordedStream& stream) const {
   if (stream.knowledge.order != 4 || stream.still) return;
   RecordedStream best = stream;
-  double best_value = identify(best, times_, even_clock_);
-  const double margins[] = {kMarginOfThree, kMarginOfFive};
-  const int orders[] = {3, 5};
-  for (int i = 0; i < 2; ++i) {
+  double least = identify(best, times_, even_clock_);
+  for (const OtherOrder& candidate : kOtherOrders) {
     RecordedStream other = stream;
-    other.knowledge.order = orders[i];
-    const double value = identify(other, times_, even_clock_);
-    if (!(value < best_value - margins[i])) continue;
-    best_value = value;
+    other.knowledge.order = candidate.order;
+    const double value = identify(other, times_, even_clock_) + candidate.margin;
+    if (!(value < least)) continue;
+    least = value;
     best = std::move(other);
   }
   stream = std::move(best);

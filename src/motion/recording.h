@@ -31,7 +31,7 @@ class Recording {
             const CompletionSettings& settings);
 
   /// Models of each stream that identify() finds, at most.
-  static constexpr std::size_t kModels = 5;
+  static constexpr std::size_t kModels = 6;
 
   /// Finds clock, orders and noises. @param found is told how many more models are found or not
   /// needed, kModels for each stream in the end.

@@ -27,6 +27,7 @@ vwd_core(
   stream_surprise.cpp
   stream_text.cpp
   track_group.cpp
+  track_samples.cpp
   trajectory_curve.cpp
   unwrap.cpp
   velocity_judge.cpp

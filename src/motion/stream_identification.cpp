@@ -13,7 +13,13 @@ namespace virtual_work_dynamics {
 namespace {
 
 /// Blocks after a start whose innovations say more of the start than of the model.
-constexpr int kUnjudged = 5;
+constexpr std::size_t kUnjudged = 5;
+/// Blocks of a stretch that are given to a filter to forget its start, where these are not judged:
+/// twice as many as the start is fitted to at most, but no more than this part of the stretch. How
+/// long it takes depends on the model, but what is judged must not, as all models are to explain
+/// the same.
+constexpr std::size_t kForgetting = 2 * kMostStarting;
+constexpr double kForgettingPart = 0.25;
 /// Time constants that make sense, in intervals: below, everything is followed.
 constexpr double kShortestTime = 0.1;
 constexpr double kLeastLongest = 8;
@@ -22,6 +28,9 @@ constexpr double kGridFactor = 3;
 /// by far less than their error.
 constexpr double kTolerance = 0.05;
 constexpr int kMostValues = 160;
+/// What another search has to find for yet another one to be worth it (twice the logarithm of the
+/// likelihood).
+constexpr double kGain = 1;
 /// Noise of stamps below which they are taken as true, in intervals, or in what makes as much noise
 /// of the positions as is seen.
 constexpr double kLeastStampNoise = 1e-4;
@@ -109,7 +118,7 @@ void StreamIdentification::start(const StreamKnowledge& knowledge, double interv
   shown_noise_ = std::max(noiseFromDifferences(&StreamBlock::position),
                           knowledge_.least_position / std::sqrt(samples_));
   least_stamp_ = kLeastStampNoise * std::min(interval, kLeastStampPart * shown_noise_ / speed());
-  best_value_ = std::numeric_limits<double>::infinity();
+  best_value_ = searched_value_ = std::numeric_limits<double>::infinity();
   searching_ = knowledge.time_constant >= 0;
   best_ = candidate_ = firstGuess(guess);
   if (searching_) {
@@ -178,7 +187,6 @@ double StreamIdentification::penalty(const SimplexSearch::Point& point) const {
 void StreamIdentification::beginCandidate() {
   candidate_model_ = modelAt(candidate_);
   next_ = 0;
-  since_start_ = 0;
   sum_ = 0;
 }
 
@@ -191,7 +199,7 @@ double StreamIdentification::stepOf(StreamState<N>& state) {
       const StreamBlock& other = blocks_[next_ + static_cast<std::size_t>(i)];
       return std::pair(other.time - first.time, other.position - first.position);
     });
-    since_start_ = 0;
+    judged_from_ = firstJudged();
     return 0;
   }
   predict<N>(block.time - blocks_[next_ - 1].time, candidate_model_.density, state);
@@ -204,7 +212,16 @@ double StreamIdentification::stepOf(StreamState<N>& state) {
     done = update<N>(1, block.velocity - state.x[1], candidate_model_.velocity_variance, state);
     value += done.normalizedSquare() - std::log(done.precision);
   }
-  return ++since_start_ < kUnjudged ? 0 : value;
+  return next_ < judged_from_ ? 0 : value;
+}
+
+/// The first block that is judged of the stretch that the next one begins.
+std::size_t StreamIdentification::firstJudged() const {
+  if (knowledge_.rules.judge_start) return next_ + kUnjudged;
+  std::size_t end = next_ + 1;
+  while (end < blocks_.size() && !begins(end)) ++end;
+  const auto share = static_cast<std::size_t>(kForgettingPart * static_cast<double>(end - next_));
+  return next_ + std::clamp(share, kUnjudged, kForgetting);
 }
 
 /// Whether a block is the first one, or the first after a gap or a jump.
@@ -231,6 +248,8 @@ double StreamIdentification::step() {
       return stepOf(state3_);
     case 5:
       return stepOf(state5_);
+    case 6:
+      return stepOf(state6_);
     default:
       return stepOf(state4_);
   }
@@ -263,6 +282,11 @@ void StreamIdentification::endCandidate() {
       return;
     }
     best_ = whole(search_.best());
+    if (knowledge_.rules.search_again && search_.bestValue() < searched_value_ - kGain) {
+      searched_value_ = search_.bestValue();
+      beginSearch(best_);
+      return;
+    }
     value_ = search_.bestValue();
     model_ = modelAt(best_);
     model_.position_variance *= samples_;

@@ -19,9 +19,24 @@ struct StreamBlock {
   bool begins = false;
 };
 
+/// How models are judged, and how long the best one is looked for. The defaults are those of a
+/// real-time path, which has some seconds of samples and little time.
+struct IdentificationRules {
+  /// Whether the first blocks of a stretch are judged as well. The start of a filter is fitted to
+  /// them, so that it foresees them the better the higher its order is, and of a slow motion it
+  /// stays in what is foreseen for long.
+  bool judge_start = true;
+  /// Whether the search starts again from where it ended, as long as that finds better models: the
+  /// corners of a simplex may come to lie in a plane.
+  bool search_again = false;
+
+  /// What models of recordings deserve, whose samples are all there.
+  static IdentificationRules ofRecordings() { return {false, true}; }
+};
+
 /// What of a model is known beforehand. Negative: to be found.
 struct StreamKnowledge {
-  int order = 4;               ///< derivative that is white noise, 3 … 5
+  int order = 4;               ///< derivative that is white noise, 3 … kHighestOrder
   double least_position = 0;   ///< standard deviation that no sample can be better than, rad or m
   double position_noise = -1;  ///< standard deviation of a sample, rad or m
   double velocity_noise = -1;  ///< rad/s or m/s
@@ -30,6 +45,7 @@ struct StreamKnowledge {
   double longest_time = 3;     ///< s, that the time constant may be, or eight blocks
   bool use_velocities = true;  ///< where blocks carry them
   double longest_gap = 0.25;   ///< s between blocks, across which nothing is assumed
+  IdentificationRules rules;
 };
 
 /// Finds the model under which blocks of samples are most likely: noise of positions, velocities
@@ -73,6 +89,7 @@ class StreamIdentification {
   void beginCandidate();
   int startingBlocks() const;
   bool begins(std::size_t block) const;
+  std::size_t firstJudged() const;
   double step();
   template <int N>
   double stepOf(StreamState<N>& state);
@@ -94,6 +111,7 @@ class StreamIdentification {
   SimplexSearch::Point best_{};  // logarithms of the four parameters
   double best_value_ = 0;
   SimplexSearch search_;
+  double searched_value_ = 0;      // that the search before this one found
   std::array<int, 4> searched_{};  // parameter of each dimension of the search
   int dimensions_ = 0;
 
@@ -103,8 +121,9 @@ class StreamIdentification {
   StreamState<3> state3_;
   StreamState<4> state4_;
   StreamState<5> state5_;
+  StreamState<6> state6_;
   std::size_t next_ = 0;
-  int since_start_ = 0;  // blocks since the filter was started
+  std::size_t judged_from_ = 0;  // block of the stretch
   double sum_ = 0;
 
   StreamModel model_;

@@ -20,8 +20,9 @@ constexpr double kShortestFirstIntervals = 1.5;
 constexpr double kFollowingIntervals = 0.5;
 /// A model is no stiffer than this, so that a motion that begins is not overlooked.
 constexpr double kLongestTime = 1.0;  // s
-/// Part of the time of the blocks that a time constant found from them can be.
-constexpr double kLongestPart = 1.0 / 3;
+/// Part of the time of the blocks that a time constant found from them can be: what swings by one
+/// radian in this time has to be seen for a whole swing.
+constexpr double kLongestPart = 1.0 / 6;
 
 /// Shortest time constant that quicken() leads to, s and intervals; less has to be learnt.
 constexpr double kQuickTime = 0.004;

@@ -4,6 +4,9 @@
 
 namespace virtual_work_dynamics {
 
+/// The highest order of a motion, see StreamModel.
+constexpr int kHighestOrder = 6;
+
 /// What is assumed of the samples of one coordinate: their noises, and how fast the motion changes.
 /// The derivative of order N of the position is white noise (N = 4: "white snap"): the motion is a
 /// polynomial of order N - 1 that this noise bends all the time.

@@ -170,6 +170,8 @@ void smoothStream(const std::vector<StreamBlock>& samples, const StreamModel& mo
       return smoothOfOrder<3>(samples, model, interval, longest_gap, lag, covariance, take);
     case 5:
       return smoothOfOrder<5>(samples, model, interval, longest_gap, lag, covariance, take);
+    case 6:
+      return smoothOfOrder<6>(samples, model, interval, longest_gap, lag, covariance, take);
     default:
       return smoothOfOrder<4>(samples, model, interval, longest_gap, lag, covariance, take);
   }

@@ -18,7 +18,8 @@ struct SmoothedSample {
 /// Smooths a recording of one coordinate with all of its samples (fixed interval, without lag):
 /// forward by a Kalman filter, back by the adjoint of Bryson and Frazier (1963).
 /// @param samples times increasing; nothing is assumed across gaps longer than `longest_gap`, s.
-/// @param model of order `order`, 3 … 5.   @param interval usual time from sample to sample, s.
+/// @param model of order `order`, 3 … kHighestOrder.   @param interval usual time from sample to
+/// sample, s.
 /// @param lag s: uses samples up to this time after each one only; infinite: all of them.
 /// @param take receives the result of each row, from the last row of each stretch to its first.
 void smoothStream(const std::vector<StreamBlock>& samples, const StreamModel& model, int order,

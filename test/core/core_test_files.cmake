@@ -93,6 +93,7 @@ set(core_test_files
   test/core/property_rerooting_test.cpp
   test/core/property_superposition_test.cpp
   test/core/rank_factorization_test.cpp
+  test/core/recording_test.cpp
   test/core/reference_recursion_test.cpp
   test/core/reference_test.cpp
   test/core/root_coordinates_test.cpp

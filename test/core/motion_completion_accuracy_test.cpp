@@ -224,6 +224,7 @@ TEST(MotionCompletionAccuracy, OfJitteredOrMissingRowsIsThatOfTheBestWindowOfEve
 TEST(MotionCompletionAccuracy, OfOtherMotionsIsThatOfTheBestWindow) {
   expectAccurate({"trapezoid", Kind::kTrapezoid, false, 500, 1e-4, 0, 0, 0, 0, -1});
   expectAccurate({"fourier", Kind::kFourier, false, 500, 1e-4, 0, 0, 0, 0, -1});
+  expectAccurate({"coarse_fourier", Kind::kFourier, false, 1000, 1e-3, 0, 0, 0, 0, -1});
   expectAccurate({"one_still", Kind::kJerkLimited, true, 500, 1e-4, 0, 0, 0, 0, -1});
 }
 

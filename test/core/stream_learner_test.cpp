@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -70,6 +71,27 @@ TEST(StreamLearner, WorsensNoiseAndMotionAlike) {
   EXPECT_TRUE(learner.worsen(9));
   EXPECT_EQ(learner.model().position_variance, 9 * before.position_variance);
   EXPECT_EQ(learner.model().density, 9 * before.density);
+}
+
+// Of a steady motion any time constant is as likely as a longer one.
+TEST(StreamLearner, FindsNoTimeConstantWhoseSwingItHasNotSeen) {
+  StreamLearner learner(NoiseSettings(), kGap, true);
+  learner.assume(ShownNoise(), kInterval);
+  std::mt19937 generator(4);
+  std::normal_distribution<double> noise(0, 1e-3);
+  int found = 0;
+  for (int i = 1; i <= 1000; ++i) {
+    const double t = kInterval * i;
+    if (learner.identify(kLeast, kInterval)) {
+      ++found;
+      const double time = timeConstant(learner.model(), StreamLearner::kOrder, kInterval);
+      constexpr double kRounding = 1e-12;
+      EXPECT_LE(time, std::max(t / 6, 8 * kInterval) + kRounding) << t;
+      EXPECT_GE(time, t / 60) << t;
+    }
+    learner.record(std::llround(t * 1e9), t + noise(generator), kNone, i, kInterval);
+  }
+  EXPECT_GT(found, 3);
 }
 
 TEST(StreamLearner, QuickensUpToTheShortestTime) {
