@@ -9,7 +9,8 @@ namespace {
 // Names like "deviation.effort.elbow" and "deviation.elbow.fx".
 void addColumns(const std::string& what, const Columns& results,
                 std::vector<std::string>& columns) {
-  for (const std::string& name : results.efforts) columns.push_back(what + "." + effortColumn(name));
+  for (const std::string& name : results.efforts)
+    columns.push_back(what + "." + effortColumn(name));
   for (const std::string& name : results.reactions) {
     for (const char* component : kWrenchComponents) {
       columns.push_back(what + "." + name + "." + component);
