@@ -6,7 +6,6 @@
 #include <sensor_msgs/MultiDOFJointState.h>
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -16,6 +15,7 @@
 #include "ros/deviation_output.h"
 #include "ros/marker_output.h"
 #include "ros/message_copies.h"
+#include "ros/trajectory_output.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -312,53 +312,6 @@ class DeterminacyOutput : public Output {
   std::shared_ptr<DeterminacyMessage> message_;
 };
 
-// --- ~joint_trajectory: the input trajectory with the efforts filled in
-
-class TrajectoryMessage : public MessageOf<trajectory_msgs::JointTrajectory> {
- public:
-  explicit TrajectoryMessage(Eigen::Index coordinates) : coordinates_(coordinates) {}
-
-  void begin(const trajectory_msgs::JointTrajectory& message,
-             const TrajectoryMotion& motion) override {
-    input_ = &message;
-    motion_ = &motion;
-    efforts_.resize(static_cast<Eigen::Index>(message.points.size()), coordinates_);
-    filled_ = 0;
-    exists_ = false;
-  }
-
-  void fill(const OutputSample& sample) override {
-    constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-    for (Eigen::Index i = 0; i < coordinates_; ++i) {
-      const bool exists = sample.results.effortExists(static_cast<std::size_t>(i));
-      efforts_(filled_, i) = exists ? sample.results.effort[i] : kNothing;
-    }
-    // The message is published complete or not at all.
-    exists_ = ++filled_ == efforts_.rows();
-    if (exists_) message_ = withEfforts(*input_, *motion_, efforts_);
-  }
-
- private:
-  const Eigen::Index coordinates_;
-  const trajectory_msgs::JointTrajectory* input_ = nullptr;
-  const TrajectoryMotion* motion_ = nullptr;
-  Eigen::MatrixXd efforts_;  // by point
-  Eigen::Index filled_ = 0;
-};
-
-class TrajectoryOutput : public Output {
- public:
-  std::string topic() const override { return "joint_trajectory"; }
-  ros::AdvertiseOptions options(const std::string& topic, std::uint32_t queue) const override {
-    return advertised<trajectory_msgs::JointTrajectory>(topic, queue);
-  }
-  bool ofTrajectories() const override { return true; }
-  void addTo(Request& request) const override { request.efforts = true; }
-  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan) const override {
-    return std::make_unique<TrajectoryMessage>(plan.coordinates());
-  }
-};
-
 }  // namespace
 
 Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
@@ -378,7 +331,7 @@ Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
     outputs.push_back(
         std::make_unique<ReactionsOutput>(settings.reactions, root_frame, settings.twist));
   }
-  outputs.push_back(std::make_unique<TrajectoryOutput>());
+  outputs.push_back(makeTrajectoryOutput());
   Names frames;
   for (std::size_t i = 0; i < settings.reactions.size(); ++i) {
     const std::string& name = settings.reactions[i];

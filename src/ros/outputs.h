@@ -57,8 +57,8 @@ class MessageOf : public OutputMessage {
 };
 
 /// An output of the node: its topic, what has to be computed for its subscribers, and the message
-/// for the results. Everything about an output is in one class of outputs.cpp, with one line in
-/// makeOutputs().
+/// for the results. Everything about an output is in one class, in outputs.cpp or a file of its
+/// own, with one line in makeOutputs().
 class Output {
  public:
   virtual ~Output() = default;

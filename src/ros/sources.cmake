@@ -39,6 +39,7 @@ foreach(file
     stream_report.cpp
     topic_names.cpp
     trajectory_conversion.cpp
+    trajectory_output.cpp
     trajectory_publisher.cpp
     trajectory_samples.cpp
     trajectory_settings.cpp

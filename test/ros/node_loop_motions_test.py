@@ -158,6 +158,25 @@ class LoopMotions(LoopTest):
             values = self.node.wait_for_count('trajectory points computed', 300)
             self.assertEqual(values['samples that violate a loop'], '0')
 
+    def test_free_motion(self):
+        # Nothing drives the crank: what its motion demands is no effort, and is not filled in as one.
+        scene = dict(SLIDER_CRANK_SCENE, actuated=[], free_motion=True, given=['crank_joint'])
+        self.start('effort', 'joint_trajectory', scene=scene)
+        self.assertIn('free motions: residual.motion.crank_joint', self.node.output())
+        times = [EPOCH + STEP * i for i in range(50)]
+        message = JointTrajectory(joint_names=['crank_joint'])
+        message.header.stamp = ros_time(EPOCH)
+        for ns in times:
+            motion = at(ns)
+            message.points.append(trajectory_point(
+                ns - EPOCH, ['crank_joint'], (motion.q, motion.qd, motion.qdd)))
+        self.trajectories.publish(message)
+        for ns, result in zip(times, self.recorders['effort'].wait(len(times))):
+            self.assertEqual(result.name, ['residual.motion.crank_joint'] + JOINTS[1:])
+            self.assertClose(result.effort, [at(ns).torque, 0, 0], CLOSED_FORM, 'residual')
+        filled = self.recorders['joint_trajectory'].wait(1)[0]
+        self.assertEqual([list(point.effort) for point in filled.points], [[0]] * len(times))
+
     def test_a_trajectory_without_derivatives(self):
         self.start('effort')
         times = [EPOCH + STEP * i for i in range(50)]

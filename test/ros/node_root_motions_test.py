@@ -3,109 +3,23 @@
 import math
 import random
 
-from geometry_msgs.msg import Transform, TransformStamped, Vector3
 from nav_msgs.msg import Odometry
 import numpy as np
 from sensor_msgs.msg import Imu, JointState, MultiDOFJointState
 from tf2_msgs.msg import TFMessage
-from trajectory_msgs.msg import (JointTrajectory, MultiDOFJointTrajectory,
-                                 MultiDOFJointTrajectoryPoint)
+from trajectory_msgs.msg import JointTrajectory, MultiDOFJointTrajectory
 
-from carried_arm import ARM, JOINTS, ROOT, CarriedArm, quaternion, transform, twist
+from carried_arm import ARM, JOINTS, ROOT, CarriedArm
 from node_under_test import (EPOCH, Node, NodeTest, joint_state, ros_time, run, trajectory_point,
                              vector, wait_until)
+from root_messages import (HANGS_AT, HANGS_BY, WITH_UNIT, frame, frames, imu, odometry,
+                           root_trajectory, state)
 
 MS = 1000000
 # Times that are no multiples of each other, ns.
 UNEVEN = [0, 130 * MS + 1, 250 * MS + 77, 300 * MS, 710 * MS + 13]
 # Rounding of the oracle and of quaternions, with efforts of some hundred N m.
 EXACT = 1e-11
-
-
-def root_trajectory(arm, stamps, start=None, link=ROOT, frame='odom'):
-    """Points at these stamps, the header at the first one."""
-    start = stamps[0] if start is None else start
-    message = MultiDOFJointTrajectory(joint_names=['wheel', link])
-    message.header.stamp = ros_time(start)
-    message.header.frame_id = frame
-    for ns in stamps:
-        root = arm.root(ns)
-        point = MultiDOFJointTrajectoryPoint()
-        point.transforms = [transform(arm.root(0)), transform(root)]
-        point.velocities = [twist([9] * 3, [9] * 3), twist(root.velocity, root.angular)]
-        point.accelerations = [twist([9] * 3, [9] * 3),
-                               twist(root.acceleration, root.angular_acceleration)]
-        point.time_from_start.secs, point.time_from_start.nsecs = divmod(ns - start, 1000000000)
-        message.points.append(point)
-    return message
-
-
-def odometry(arm, ns, stamp=None, noise=None, size=0.0):
-    """Pose in the inertial frame, twist in the axes of the root; deviations m, rad, and per s."""
-    root = arm.root(ns)
-    turn = root.rotation
-    message = Odometry(child_frame_id=ROOT)
-    message.header.frame_id = 'odom'
-    message.header.stamp = ros_time(ns if stamp is None else stamp)
-    errors = np.zeros((4, 3)) if noise is None else size * noise.normal(size=(4, 3))
-    message.pose.pose.position = Vector3(*(root.position + errors[0]))
-    message.pose.pose.orientation = quaternion(turn, errors[1])
-    message.twist.twist = twist(turn.T @ root.velocity + 10 * errors[2],
-                                turn.T @ root.angular + 10 * errors[3])
-    return message
-
-
-def state(arm, ns):
-    """Without twists."""
-    message = MultiDOFJointState(joint_names=['wheel', ROOT])
-    message.header.frame_id = 'odom'
-    message.header.stamp = ros_time(ns)
-    message.transforms = [transform(arm.root(0)), transform(arm.root(ns))]
-    return message
-
-
-def frame(parent, child, ns, position, turn):
-    message = TransformStamped(child_frame_id=child)
-    message.header.frame_id = parent
-    message.header.stamp = ros_time(ns)
-    message.transform = Transform(translation=Vector3(*position), rotation=quaternion(turn))
-    return message
-
-
-# The root hangs on a frame beside it: its origin and axes in that frame.
-HANGS_AT = np.array([0.3, -0.2, 0.5])
-HANGS_BY = np.array([[0.0, 0.0, 1.0], [0.6, 0.8, 0.0], [-0.8, 0.6, 0.0]])
-
-
-def frames(arm, ns):
-    """The frame that the root hangs on, against the inertial frame."""
-    root = arm.root(ns)
-    turn = root.rotation @ HANGS_BY.T
-    return TFMessage([frame('left/mount', 'left/finger', ns, [0, 0, 1], np.eye(3)),
-                      frame('odom', 'left/mount', ns, root.position - turn @ HANGS_AT, turn)])
-
-
-# A unit on a mount that is fixed to the root: its origin and axes in the root link.
-UNIT_AT = np.array([0.2, -0.1, 0.3])
-UNIT_TURN = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
-WITH_UNIT = ARM.replace('</robot>', """<link name="unit"/><joint name="mount" type="fixed">
-    <parent link="base"/><child link="unit"/><origin xyz="0.2 -0.1 0.3" rpy="0 0 %r"/></joint>
-    </robot>""" % (math.pi / 2))
-
-
-def imu(arm, ns, noise=None, sizes=(0.0, 0.0)):
-    """What the unit measures; deviations in rad/s and m/s^2."""
-    rate, force = arm.unit(ns, UNIT_AT, UNIT_TURN)
-    message = Imu()
-    message.header.frame_id = 'unit'
-    message.header.stamp = ros_time(ns)
-    message.orientation_covariance[0] = -1
-    if noise is not None:
-        rate = rate + sizes[0] * noise.normal(size=3)
-        force = force + sizes[1] * noise.normal(size=3)
-    message.angular_velocity = Vector3(*rate)
-    message.linear_acceleration = Vector3(*force)
-    return message
 
 
 class RootTest(NodeTest):
