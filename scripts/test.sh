@@ -57,10 +57,10 @@ check() {
 }
 
 build() {
-  local benchmarks=ON
-  if $portable; then benchmarks=OFF; fi
-  local options=(-DVWD_WARNINGS_AS_ERRORS=ON -DCATKIN_ENABLE_TESTING=ON -DVWD_PRECOMPILE_HEADERS=ON
-    "-DVWD_BUILD_BENCHMARKS=$benchmarks")
+  local all=ON
+  if $portable; then all=OFF; fi
+  local options=(-DVWD_WARNINGS_AS_ERRORS=ON -DCATKIN_ENABLE_TESTING=ON
+    "-DVWD_PRECOMPILE_HEADERS=$all" "-DVWD_BUILD_BENCHMARKS=$all")
   scripts/build.sh "${options[@]}" && scripts/build.sh "${options[@]}" tests
 }
 

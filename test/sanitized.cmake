@@ -36,7 +36,6 @@ endfunction()
 set(VWD_CORE_TEST_OBJECTS "" CACHE FILEPATH
   "The archive core_test_objects of the build that has compiled the tests")
 if(VWD_CORE_TEST_OBJECTS)
-  find_package(GTest REQUIRED)
   include(test/core/core_test_files.cmake)
   include(test/core/real_113.cmake)
   vwd_add_sanitized(sanitized_offline_tool ${sanitizers}
@@ -47,7 +46,7 @@ if(VWD_CORE_TEST_OBJECTS)
     OFFLINE_TOOL="$<TARGET_FILE:sanitized_offline_tool>" VWD_SHARED_DATA="${VWD_SHARED_DATA}")
   target_link_libraries(sanitized_core_tests PRIVATE
     -Wl,--whole-archive ${VWD_CORE_TEST_OBJECTS} -Wl,--no-whole-archive
-    GTest::GTest GTest::Main ${VWD_REAL113_LIBRARIES})
+    ${gtest_libraries} ${VWD_REAL113_LIBRARIES})
   set_property(TARGET sanitized_core_tests APPEND PROPERTY LINK_DEPENDS ${VWD_CORE_TEST_OBJECTS})
   add_dependencies(sanitized_core_tests sanitized_offline_tool)
 endif()

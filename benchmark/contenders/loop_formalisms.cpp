@@ -4,6 +4,7 @@
 #include "contenders/own_request.h"
 #include "lagrange_multipliers_oracle.h"
 #include "maximal_coordinates_oracle.h"
+#include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
 namespace {
