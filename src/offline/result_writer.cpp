@@ -4,7 +4,6 @@
 
 #include "base/number_text.h"
 #include "base/printable.h"
-#include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -21,10 +20,6 @@ const std::string& checkedName(const char* what, const std::string& name) {
 }
 
 }  // namespace
-
-std::string effortColumn(const std::string& name) {
-  return (isMotionResidual(name) ? "" : "effort.") + name;
-}
 
 std::string resultHeader(const Columns& columns) {
   std::string header = "time";

@@ -6,6 +6,7 @@
 
 #include "base/wrench_components.h"
 #include "offline/output_file.h"
+#include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/results.h"
 
 namespace virtual_work_dynamics {
@@ -19,7 +20,9 @@ struct Columns {
 
 /// The column of an effort, such as "effort.elbow"; a residual of free motions has no more than its
 /// name.
-std::string effortColumn(const std::string& name);
+inline std::string effortColumn(const std::string& name) {
+  return (isMotionResidual(name) ? "" : "effort.") + name;
+}
 
 /// The header line of a result.
 /// @throws FileError naming a name that cannot stand in a CSV header.

@@ -12,7 +12,8 @@ set_source_files_properties(
   PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
 vwd_precompile(core_test_objects <Eigen/Core> <functional> <gtest/gtest.h> <string> <vector>)
 set_target_properties(core_test_objects PROPERTIES ARCHIVE_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
-vwd_add_gtest(core_tests $<TARGET_OBJECTS:core_test_objects> ${core_test_files_of_build})
+vwd_add_gtest(core_tests ${core_test_files_of_build} $<TARGET_OBJECTS:core_test_objects>
+  $<TARGET_OBJECTS:core_oracles> $<TARGET_OBJECTS:stability_scenes>)
 if(NOT TARGET core_tests)
   return()
 endif()
