@@ -23,7 +23,7 @@ the code they reached. Whatever crashes, hangs, leaks or takes much memory is a 
   --jobs N     processes for each target ($jobs)
   --seed N     of the random changes, for the same ones again (another each time)
 Starts from test/fuzz/corpus, and from what earlier runs have found in build/fuzz/corpus. Findings and
-logs are in build/fuzz; to run one finding again, give it to the program in build/sanitized.
+logs are in build/fuzz; to run one finding again, give it to the program in build/fuzz_build.
 The exit status is 1 when there is a finding. Ctrl-C ends the run; what it has learnt stays.
 END
 }
@@ -53,21 +53,29 @@ if [[ ${#chosen[@]} -eq 0 ]]; then chosen=("${targets[@]}"); fi
 
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$repository"
+build=$repository/build/fuzz_build
 found=$repository/build/fuzz
 seeds=$repository/test/fuzz
 source scripts/running.sh
-source scripts/sanitizing.sh
 end_well fuzz.sh "what was learnt is in $found/corpus"
-mkdir -p "$found"
+mkdir -p "$build" "$found"
 
-echo "Building ${chosen[*]} ..."
+compiler=$(command -v clang++-14 || command -v clang++ || true)
+if [[ -z "$compiler" ]]; then
+  echo "fuzz.sh: clang++ is missing; see scripts/install_dependencies.sh --checks" >&2
+  exit 1
+fi
+echo "Building ${chosen[*]} with $compiler ..."
 start=$SECONDS
-sanitized_options=()
 build_targets() {
-  build_sanitized "${chosen[@]/%/_fuzz}" 2>&1 | tee "$found/build.log" | show_build_progress
+  {
+    cmake -S . -B "$build" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release \
+      -DVWD_CORE_ONLY=ON -DBUILD_TESTING=OFF -DVWD_BUILD_FUZZERS=ON &&
+      cmake --build "$build" --target "${chosen[@]/%/_fuzz}" -- -j"${JOBS:-$(nproc)}"
+  } 2>&1 | tee "$found/build.log" | show_build_progress
 }
 if ! run build_targets; then
-  grep -E -A 5 'error|Error|missing' "$found/build.log" | head -n 40 >&2 || tail -n 40 "$found/build.log" >&2
+  grep -E -A 5 'error|Error' "$found/build.log" | head -n 40 >&2 || tail -n 40 "$found/build.log" >&2
   echo "fuzz.sh: the build failed; its whole output is in $found/build.log" >&2
   exit 1
 fi
@@ -90,7 +98,7 @@ statistic() {
 # fuzz TARGET LOG [OPTION]...: runs a target and shows how far it is.
 fuzz() {
   local begin=$SECONDS left status=0
-  "$sanitized_build/$1_fuzz" "${@:3}" >"$2" 2>&1 &
+  "$build/$1_fuzz" "${@:3}" >"$2" 2>&1 &
   while kill -0 $! 2>/dev/null; do
     left=$((seconds - SECONDS + begin))
     if [[ -t 2 ]]; then show "$1: $(statistic "$2" cov) edges, $((left > 0 ? left : 0)) s left"; fi

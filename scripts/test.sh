@@ -35,7 +35,6 @@ cd "$repository"
 workspace=$repository/build/.catkin_ws
 results=$repository/build/test_results
 package_build=$workspace/build/virtual_work_dynamics
-source scripts/sanitizing.sh
 
 export PATH=/usr/bin:$PATH
 export ROS_HOSTNAME=localhost ROS_HOME=$repository/build/ros_home
@@ -70,16 +69,15 @@ run_tests() {
   cmake --build "$workspace/build" --target run_tests -- -j1
 }
 
-# sanitized_tests_build: links the core's tests, as they are compiled, to a core with sanitizers.
-sanitized_tests_build() {
-  local sanitized_options=("-DVWD_CORE_TEST_OBJECTS=$package_build/libcore_test_objects.a")
-  build_sanitized sanitized_core_tests
+# sanitized_build JOBS: builds the core's tests with sanitizers.
+sanitized_build() {
+  cmake --build "$workspace/build" --target sanitized_core_tests -- -j"$1"
 }
 
 # Starts the longest of the builds while tests through ROS run, which leave most of the processor free.
 start_long_builds() {
   set -m  # a process group of its own, to be ended as a whole
-  (renice -n 19 -p "$BASHPID" && export JOBS=1 && sanitized_tests_build && scripts/fuzz.sh --build) \
+  (renice -n 19 -p "$BASHPID" && sanitized_build 1 && JOBS=1 scripts/fuzz.sh --build) \
     >"$results/started_builds.log" 2>&1 </dev/null &
   started_build=$!
   set +m
@@ -94,11 +92,11 @@ stop_long_builds() {
 # In two halves at once, as they take long and use one processor each; without the tests that measure
 # how accurate motions and kernels are, which take long and run no other code than the rest.
 sanitized_core_tests() {
-  sanitized_tests_build || return 1
+  sanitized_build "${JOBS:-$(nproc)}" || return 1
   local half halves=() failed=false
   for half in 0 1; do
     (cd "$package_build" && GTEST_TOTAL_SHARDS=2 GTEST_SHARD_INDEX=$half \
-      UBSAN_OPTIONS=print_stacktrace=1 "$sanitized_build/sanitized_core_tests" \
+      UBSAN_OPTIONS=print_stacktrace=1 sanitized/sanitized_core_tests \
       --gtest_filter='-*Accuracy.*' --gtest_output="xml:$results/sanitized_core_tests.junit/core_tests_$half.xml") &
     halves+=($!)
   done
