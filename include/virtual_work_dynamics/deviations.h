@@ -66,6 +66,8 @@ class Deviations {
   Eigen::Index coordinates() const;
   /// Names of what has an effort, as Dynamics::effortNames().
   const std::vector<std::string>& effortNames() const;
+  /// Whether each of them is a residual, as Dynamics::residuals().
+  const std::vector<bool>& residuals() const;
   /// Whether the scene has tolerances, and so the description a share.
   bool hasTolerances() const;
   /// Whether a coordinate is shifted by itself; the others follow from the closures.

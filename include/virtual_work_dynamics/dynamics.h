@@ -19,10 +19,9 @@
 
 namespace virtual_work_dynamics {
 
-/// Begins the names of efforts that are residuals of free motions.
+/// Begins the names of efforts that are residuals of free motions. That a name begins so says
+/// nothing: a joint may be called so, see Dynamics::residuals().
 constexpr const char* kMotionResidual = "residual.motion.";
-/// Whether that is how the name of an effort begins.
-bool isMotionResidual(const std::string& effort_name);
 
 /// Inverse dynamics of a mechanism, open or closed: efforts and reaction wrenches of a request. In
 /// an open chain nothing has to be completed and everything is determined, and it pays nothing for
@@ -51,6 +50,8 @@ class Dynamics {
   /// Names of what has an effort: the coordinates, then the actuated closures. An effort that
   /// nothing delivers, see ClosedLoopDynamics::residual(), has kMotionResidual before the name.
   const std::vector<std::string>& effortNames() const;
+  /// Whether each effort, in the order of effortNames(), is a residual that nothing delivers.
+  const std::vector<bool>& residuals() const;
 
   /// Whether the scene has closures, springs between points or passive joints.
   bool closed() const;

@@ -21,6 +21,7 @@ struct Dynamics::Impl {
   Request tree_request;
   Load own_load;  // values in the scene
   std::vector<std::string> effort_names, closure_names;
+  std::vector<bool> residuals;  // by effort
   std::vector<bool> actuated;
   Given given;
   Eigen::VectorXd assembly;

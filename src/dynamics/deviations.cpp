@@ -189,6 +189,10 @@ const std::vector<std::string>& Deviations::effortNames() const {
   return impl_->dynamics.effortNames();
 }
 
+const std::vector<bool>& Deviations::residuals() const {
+  return impl_->dynamics.residuals();
+}
+
 bool Deviations::hasTolerances() const {
   return impl_->has_tolerances;
 }

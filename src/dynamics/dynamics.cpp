@@ -27,16 +27,13 @@ Request everything(const Mechanism& mechanism, const Scene& scene) {
 
 }  // namespace
 
-bool isMotionResidual(const std::string& effort_name) {
-  return effort_name.rfind(kMotionResidual, 0) == 0;
-}
-
 Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Request& request,
                      InstructionSet instruction_set)
     : tree(scene),
       tree_request(request),
       own_load(scene),
       effort_names(mechanism.coordinateNames()),
+      residuals(effort_names.size(), false),
       actuated(mechanism.coordinates().size(), true),
       assembly(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(actuated.size()))) {
   given.coordinates = actuated;
@@ -52,7 +49,8 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
   tree_request = virtual_work_dynamics::treeRequest(mechanism, request);
   actuated = loops->actuated();
   for (std::size_t i = 0; i < actuated.size(); ++i) {
-    if (loops->residual()[i]) effort_names[i] = kMotionResidual + effort_names[i];
+    residuals[i] = loops->residual()[i];
+    if (residuals[i]) effort_names[i] = kMotionResidual + effort_names[i];
   }
   given = loops->given();
   // The axes of actuated closures would have to be given, too.
@@ -62,6 +60,7 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
   assembly = loops->assembly();
   const std::vector<std::string>& closures = loops->actuatedClosures();
   effort_names.insert(effort_names.end(), closures.begin(), closures.end());
+  residuals.resize(effort_names.size(), false);
   for (const Closure& closure : scene.closures) closure_names.push_back(closure.name);
 }
 
@@ -90,6 +89,10 @@ const Request& Dynamics::request() const {
 
 const std::vector<std::string>& Dynamics::effortNames() const {
   return impl_->effort_names;
+}
+
+const std::vector<bool>& Dynamics::residuals() const {
+  return impl_->residuals;
 }
 
 bool Dynamics::closed() const {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "base/printable.h"
-#include "virtual_work_dynamics/dynamics.h"
 
 namespace virtual_work_dynamics {
 
@@ -22,8 +21,11 @@ std::string toString(const EffortDoubt& doubt) {
   return text.str();
 }
 
-EffortDoubts::EffortDoubts(std::vector<std::string> efforts, std::vector<std::string> coordinates)
-    : efforts_(std::move(efforts)), coordinates_(std::move(coordinates)) {
+EffortDoubts::EffortDoubts(std::vector<std::string> efforts, std::vector<bool> residuals,
+                           std::vector<std::string> coordinates)
+    : efforts_(std::move(efforts)),
+      coordinates_(std::move(coordinates)),
+      residuals_(std::move(residuals)) {
   const auto count = static_cast<Eigen::Index>(efforts_.size());
   effort_counts_.setZero(count);
   effort_squares_.setZero(count);
@@ -62,8 +64,7 @@ void EffortDoubts::forgetDeviations() {
 std::vector<EffortDoubt> EffortDoubts::above(double threshold) const {
   std::vector<EffortDoubt> doubts;
   for (Eigen::Index i = 0; i < counts_.size(); ++i) {
-    // A residual that vanishes is in no doubt.
-    if (counts_[i] == 0 || isMotionResidual(efforts_[static_cast<std::size_t>(i)])) continue;
+    if (counts_[i] == 0 || residuals_[static_cast<std::size_t>(i)]) continue;
     const double deviation = std::sqrt((motion_squares_[i] + description_squares_[i]) / counts_[i]);
     const double effort = std::sqrt(effort_squares_[i] / effort_counts_[i]);
     if (!(deviation > threshold * effort)) continue;

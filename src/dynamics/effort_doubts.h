@@ -29,8 +29,10 @@ std::string toString(const EffortDoubt& doubt);
 class EffortDoubts {
  public:
   /// @param efforts names of efforts
+  /// @param residuals whether each is a residual, of which none is in doubt: it is to vanish
   /// @param coordinates names of the coordinates, the first of the efforts
-  EffortDoubts(std::vector<std::string> efforts, std::vector<std::string> coordinates);
+  EffortDoubts(std::vector<std::string> efforts, std::vector<bool> residuals,
+               std::vector<std::string> coordinates);
 
   /// Adds a sample. Efforts without a value or deviation do not count. Does not allocate.
   /// @param computed deviations of the sample
@@ -51,6 +53,7 @@ class EffortDoubts {
   std::string causeOf(Eigen::Index effort) const;
 
   std::vector<std::string> efforts_, coordinates_;
+  std::vector<bool> residuals_;
   std::size_t samples_ = 0;
   Eigen::VectorXd effort_counts_, effort_squares_;                 // by effort
   Eigen::VectorXd counts_, motion_squares_, description_squares_;  // by effort

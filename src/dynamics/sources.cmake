@@ -3,6 +3,7 @@ vwd_core(
   deviations.cpp
   dynamics.cpp
   effort_doubts.cpp
+  effort_groups.cpp
   given_joints.cpp
   live_wrenches.cpp
   model_view.cpp

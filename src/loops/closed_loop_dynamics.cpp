@@ -96,7 +96,7 @@ void ClosedLoopDynamics::Impl::close(const Scene& scene) {
   LoopCompletion completion(mechanism, kinematics, groups, loops.rank_tolerance, start_length);
   assembly = assemble(scene, loops, completion, kinematics);
   length = loops.length.value_or(loopLength(groups, kinematics));
-  if (loops.free_motion) chooseResidual(scene);
+  if (scene.free_motion) chooseResidual(scene);
   LoopSolvers solvers(mechanism, loops, groups, kinematics, length, closures);
   way = solvers.completion.largest(assembly - loops.start);
   requireHeld(mechanism, loops, assembly, solvers.completion, solvers.kinematics, solvers.forces);

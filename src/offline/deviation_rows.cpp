@@ -9,8 +9,9 @@ namespace {
 // Names like "deviation.effort.elbow" and "deviation.elbow.fx".
 void addColumns(const std::string& what, const Columns& results,
                 std::vector<std::string>& columns) {
-  for (const std::string& name : results.efforts)
-    columns.push_back(what + "." + effortColumn(name));
+  for (std::size_t i = 0; i < results.efforts.size(); ++i) {
+    columns.push_back(what + "." + results.effortColumn(i));
+  }
   for (const std::string& name : results.reactions) {
     for (const char* component : kWrenchComponents) {
       columns.push_back(what + "." + name + "." + component);
@@ -46,7 +47,8 @@ DeviationRows::DeviationRows(const Mechanism& mechanism, const Scene& scene, con
   }
   covariance_.coordinates.resize(table.joints.size());
   if (request.efforts) {
-    doubts_.emplace(deviations_.effortNames(), mechanism.coordinateNames());
+    doubts_.emplace(deviations_.effortNames(), deviations_.residuals(),
+                    mechanism.coordinateNames());
   }
 }
 

@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "base/wrench_components.h"
+#include "dynamics/effort_groups.h"
 #include "offline/check_report.h"
-#include "offline/result_writer.h"
 #include "scene/closure_types.h"
 
 namespace virtual_work_dynamics {
@@ -33,17 +34,11 @@ void printClosures(std::ostream& out, const Scene& scene) {
   printNames(out, "springs", springs);
 }
 
-void printActuated(std::ostream& out, const Mechanism& mechanism, const Dynamics& dynamics) {
-  Names actuated, passive, residuals;
-  const std::size_t coordinates = mechanism.coordinateNames().size();
-  for (std::size_t i = 0; i < dynamics.effortNames().size(); ++i) {
-    const std::string& name = dynamics.effortNames()[i];
-    const bool carries = i >= coordinates || dynamics.actuated()[i];
-    (!carries ? passive : isMotionResidual(name) ? residuals : actuated).push_back(name);
-  }
-  printNames(out, "actuated", actuated);
-  printNames(out, "passive", passive);
-  if (!residuals.empty()) printNames(out, "free motions", residuals);
+void printActuated(std::ostream& out, const Dynamics& dynamics) {
+  const EffortGroups efforts(dynamics);
+  printNames(out, "actuated", efforts.actuated);
+  printNames(out, "passive", efforts.passive);
+  if (!efforts.residuals.empty()) printNames(out, "free motions", efforts.residuals);
 }
 
 void printCount(std::ostream& out, const std::string& what, int count) {
@@ -72,7 +67,7 @@ void printUndetermined(std::ostream& out, const Dynamics& dynamics, const Result
     for (std::size_t i = 0; i < dynamics.effortNames().size(); ++i) {
       const std::string& name = dynamics.effortNames()[i];
       if (!loops.effort_determined[i]) {
-        texts.push_back((isMotionResidual(name) ? "" : "effort of ") + name);
+        texts.push_back((dynamics.residuals()[i] ? "" : "effort of ") + name);
       }
     }
   }
@@ -89,7 +84,7 @@ void printUndetermined(std::ostream& out, const Dynamics& dynamics, const Result
 void printLoops(std::ostream& out, const Mechanism& mechanism, const Scene& scene,
                 const Dynamics& dynamics) {
   printClosures(out, scene);
-  printActuated(out, mechanism, dynamics);
+  printActuated(out, dynamics);
   Motion assembled(dynamics.coordinates());
   assembled.q = dynamics.assembly();
   Dynamics::Workspace workspace = dynamics.makeWorkspace();

@@ -80,7 +80,10 @@ Request computedFor(const Request& written, const Arguments& arguments) {
 // The columns of the table that is written.
 Columns columnsOf(const Dynamics& dynamics, const Request& written, const Arguments& arguments) {
   Columns columns;
-  if (written.efforts) columns.efforts = dynamics.effortNames();
+  if (written.efforts) {
+    columns.efforts = dynamics.effortNames();
+    columns.residuals = dynamics.residuals();
+  }
   columns.reactions = arguments.child_axes ? written.child_axes : written.root_axes;
   if (dynamics.closed()) columns.more = loopColumns(columns, dynamics.closureNames());
   if (arguments.certificates) {

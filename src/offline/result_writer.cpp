@@ -23,8 +23,9 @@ const std::string& checkedName(const char* what, const std::string& name) {
 
 std::string resultHeader(const Columns& columns) {
   std::string header = "time";
-  for (const std::string& name : columns.efforts) {
-    header += "," + effortColumn(checkedName("joint", name));
+  for (std::size_t i = 0; i < columns.efforts.size(); ++i) {
+    checkedName("joint", columns.efforts[i]);
+    header += "," + columns.effortColumn(i);
   }
   for (const std::string& name : columns.reactions) {
     for (const char* component : kWrenchComponents) {

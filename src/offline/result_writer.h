@@ -1,28 +1,29 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "base/wrench_components.h"
 #include "offline/output_file.h"
-#include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/results.h"
 
 namespace virtual_work_dynamics {
 
 /// What the columns of a result hold, in this order after the time.
 struct Columns {
-  std::vector<std::string> efforts;    ///< names of joints
+  std::vector<std::string> efforts;    ///< as Dynamics::effortNames()
+  std::vector<bool> residuals;         ///< as Dynamics::residuals()
   std::vector<std::string> reactions;  ///< names of joints, six columns each
   std::vector<std::string> more;       ///< names of columns
-};
 
-/// The column of an effort, such as "effort.elbow"; a residual of free motions has no more than its
-/// name.
-inline std::string effortColumn(const std::string& name) {
-  return (isMotionResidual(name) ? "" : "effort.") + name;
-}
+  /// The column of an effort, such as "effort.elbow"; a residual of free motions has no more than
+  /// its name.
+  std::string effortColumn(std::size_t effort) const {
+    return (residuals[effort] ? "" : "effort.") + efforts[effort];
+  }
+};
 
 /// The header line of a result.
 /// @throws FileError naming a name that cannot stand in a CSV header.

@@ -12,8 +12,9 @@ namespace virtual_work_dynamics {
 std::vector<std::string> loopColumns(const Columns& results,
                                      const std::vector<std::string>& closures) {
   std::vector<std::string> columns;
-  for (const std::string& name : results.efforts)
-    columns.push_back("determined." + effortColumn(name));
+  for (std::size_t i = 0; i < results.efforts.size(); ++i) {
+    columns.push_back("determined." + results.effortColumn(i));
+  }
   for (const std::string& name : results.reactions) {
     for (const char* component : kWrenchComponents) {
       columns.push_back("determined." + name + "." + component);

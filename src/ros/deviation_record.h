@@ -15,8 +15,9 @@ namespace virtual_work_dynamics {
 /// takes reports; the recording one neither waits nor allocates.
 class DeviationRecord {
  public:
-  DeviationRecord(std::vector<std::string> efforts, std::vector<std::string> coordinates)
-      : doubts_(std::move(efforts), std::move(coordinates)) {}
+  DeviationRecord(std::vector<std::string> efforts, std::vector<bool> residuals,
+                  std::vector<std::string> coordinates)
+      : doubts_(std::move(efforts), std::move(residuals), std::move(coordinates)) {}
 
   /// Records the deviations of a sample, of which the share of the motion is computed. A sample
   /// that comes while a report is taken is left out.

@@ -8,6 +8,7 @@
 
 #include "base/number_text.h"
 #include "base/printable.h"
+#include "dynamics/effort_groups.h"
 #include "ros/determinacy_message.h"
 #include "ros/message_text.h"
 #include "ros/private_name.h"
@@ -52,15 +53,7 @@ std::string count(std::size_t number, const char* one, const char* many) {
 
 Names loopLines(const Mechanism& mechanism, const Scene& scene, const Dynamics& everything,
                 double condition_warn) {
-  Names actuated, passive, residuals;
-  const Names& efforts = everything.effortNames();
-  for (std::size_t i = 0; i < efforts.size(); ++i) {
-    const bool carries = i >= everything.actuated().size() || everything.actuated()[i];
-    (!carries                       ? passive
-     : isMotionResidual(efforts[i]) ? residuals
-                                    : actuated)
-        .push_back(efforts[i]);
-  }
+  const EffortGroups efforts(everything);
   const DeterminacyMessage assembled = assembledDeterminacy(
       mechanism, everything, requestedReactions(mechanism, scene), condition_warn);
   const diagnostic_msgs::DiagnosticArray& found = assembled.message();
@@ -70,9 +63,9 @@ Names loopLines(const Mechanism& mechanism, const Scene& scene, const Dynamics& 
     numbers += (i == 0 ? "" : ", ") + entry.key + " " + entry.value;
   }
   return {"closed loops: " + count(scene.closures.size(), "closure", "closures") + ", " +
-              count(scene.springs.size(), "spring", "springs") + "; actuated: " + listOf(actuated) +
-              "; passive: " + listOf(passive) +
-              (residuals.empty() ? "" : "; free motions: " + listOf(residuals)),
+              count(scene.springs.size(), "spring", "springs") +
+              "; actuated: " + listOf(efforts.actuated) + "; passive: " + listOf(efforts.passive) +
+              (efforts.residuals.empty() ? "" : "; free motions: " + listOf(efforts.residuals)),
           "as assembled: " + numbers + "; efforts: " + found.status[0].message +
               "; components of reactions: " + found.status[2].message};
 }

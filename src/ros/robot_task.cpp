@@ -90,8 +90,8 @@ RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
         "given: joint states have no axes of closures and no poses of links: name joints");
   }
   closure_frames = closureFrames(mechanism, scene, reactions, parameters.frame_prefix);
-  deviations =
-      std::make_shared<DeviationRecord>(everything.effortNames(), mechanism.coordinateNames());
+  deviations = std::make_shared<DeviationRecord>(everything.effortNames(), everything.residuals(),
+                                                 mechanism.coordinateNames());
   outputs =
       makeOutputs(mechanism, everything,
                   {reactions, reaction_topics, parameters.frame_prefix, parameters.twist,

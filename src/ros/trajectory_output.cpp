@@ -11,7 +11,7 @@ class TrajectoryMessage : public MessageOf<trajectory_msgs::JointTrajectory> {
  public:
   explicit TrajectoryMessage(const Dynamics& plan) : coordinates_(plan.coordinates()) {
     for (Eigen::Index i = 0; i < coordinates_; ++i) {
-      is_residual_.push_back(isMotionResidual(plan.effortNames()[static_cast<std::size_t>(i)]));
+      is_residual_.push_back(plan.residuals()[static_cast<std::size_t>(i)]);
     }
   }
 

@@ -101,7 +101,6 @@ class Resolver {
   }
 
   void readActuated() {
-    loops_.free_motion = scene_.free_motion;
     if (!scene_.actuated && scene_.free_motion) {
       throw SceneError("free_motion: every joint is actuated unless 'actuated' says which are");
     }

@@ -14,7 +14,6 @@ namespace virtual_work_dynamics {
 /// What a scene says about loops, with its names resolved.
 struct LoopScene {
   std::vector<bool> actuated;                  ///< by coordinate; with those of residual
-  bool free_motion = false;                    ///< whether motions may be held by nothing
   std::vector<bool> residual;                  ///< by coordinate, see chooseResidual()
   std::vector<std::size_t> actuated_closures;  ///< in the scene's order
   Given given;                                 ///< what motions give

@@ -27,7 +27,8 @@ class EffortDoubtsOf : public testing::Test {
   }
 
   EffortDoubts doubts() const {
-    return EffortDoubts(deviations_.front().effortNames(), mechanism_.coordinateNames());
+    return EffortDoubts(deviations_.front().effortNames(), deviations_.front().residuals(),
+                        mechanism_.coordinateNames());
   }
   Deviations::Workspace computed(std::size_t coordinate, int level, double deviation) const {
     Deviations::Workspace workspace = deviations_.front().makeWorkspace();

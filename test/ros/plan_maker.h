@@ -25,8 +25,8 @@ struct PlanMaker {
         scene(wanted),
         reactions(requestedReactions(mechanism, scene)),
         everything(mechanism, scene),
-        deviations(std::make_shared<DeviationRecord>(everything.effortNames(),
-                                                     mechanism.coordinateNames())),
+        deviations(std::make_shared<DeviationRecord>(
+            everything.effortNames(), everything.residuals(), mechanism.coordinateNames())),
         outputs(makeOutputs(
             mechanism, everything,
             {reactions, reactions, frame_prefix, twist, limits.condition, scene, deviations})),
