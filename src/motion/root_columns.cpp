@@ -69,6 +69,11 @@ std::string rootColumnsText(const std::string& quantity) {
   return kPrefix + quantity + (quantity == "orientation" ? ".{x,y,z,w}" : ".{x,y,z}");
 }
 
+bool givesRoot(const MotionTable& table, const std::string& quantity) {
+  const std::vector<std::string>& lack = table.roots_lack;
+  return !table.roots.empty() && std::find(lack.begin(), lack.end(), quantity) == lack.end();
+}
+
 std::size_t takeRoots(const std::vector<std::string>& columns, const Eigen::MatrixXd& values,
                       MotionTable& table) {
   if (columns.empty()) return static_cast<std::size_t>(values.rows());

@@ -24,6 +24,9 @@ std::vector<std::string> rootColumnsOf(const std::vector<std::string>& header);
 /// The columns of a quantity, as a message names them together: "root.acceleration.{x,y,z}".
 std::string rootColumnsText(const std::string& quantity);
 
+/// Whether a table has a quantity of the motion of the root link, such as "position".
+bool givesRoot(const MotionTable& table, const std::string& quantity);
+
 /// Fills MotionTable::roots and what belongs to it. Orientations become of unit length.
 /// @param columns as rootColumnsOf() gives them
 /// @param values rows x columns

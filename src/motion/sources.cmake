@@ -14,6 +14,7 @@ vwd_core(
   root_coordinates.cpp
   root_estimator.cpp
   root_imu.cpp
+  root_law.cpp
   root_motion.cpp
   root_trajectory.cpp
   sample_blocks.cpp
@@ -24,6 +25,7 @@ vwd_core(
   stream_identification.cpp
   stream_learner.cpp
   stream_smoother.cpp
+  stream_start.cpp
   stream_surprise.cpp
   stream_text.cpp
   track_group.cpp

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -19,6 +18,34 @@ inline int startingSamples(const StreamModel& model, int order, double interval)
   // Also where `samples` is not a number.
   return samples > order ? static_cast<int>(std::min(samples, kMostStarting + 0.0)) : order;
 }
+
+/// The polynomial c_0 t + c_1 t^2 + … that is closest to some values (least squares). Does not
+/// allocate.
+class StartFit {
+ public:
+  /// @param rows number of values, below kMostStarting   @param terms at most `rows`
+  StartFit(int rows, int terms);
+
+  void set(int row, double t, double value);
+  /// Finds the coefficients, when all rows are set.
+  void solve();
+  double coefficient(int term) const { return coefficients_[term]; }
+  /// Variance of a coefficient, in that of the values.
+  double spread(int term) const { return inverse_.row(term).squaredNorm(); }
+
+ private:
+  static constexpr int kTerms = kHighestOrder - 1;
+  template <int kRows>
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kRows>;
+  template <int kRows>
+  using Columns =
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kRows, kTerms>;
+
+  Columns<kMostStarting> powers_;
+  Vector<kMostStarting> values_;
+  Vector<kTerms> coefficients_;
+  Columns<kTerms> inverse_;  // of R
+};
 
 /// The state at the first of some samples, position relative to it. Its derivatives are those of
 /// the polynomial of order N - 1 through the samples (least squares), with all that the white noise
@@ -49,33 +76,21 @@ StreamState<N> firstState(const StreamModel& model, double interval, int count,
   if (rows < 1) return state;
   // The polynomial goes through the first sample: its other coefficients are fitted to the rest.
   const int terms = std::min(rows, N - 1);
+  StartFit fit(rows, terms);
   const double span = sample(rows).first;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostStarting, N> powers(
-      rows, terms);
-  Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostStarting, 1> positions(rows);
   for (int row = 0; row < rows; ++row) {
     const auto [t, q] = sample(row + 1);
-    double power = 1;
-    for (int i = 0; i < terms; ++i) powers(row, i) = power *= t / span;
-    positions[row] = q;
+    fit.set(row, t / span, q);
   }
-  using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, N, N>;
-  const auto qr = powers.householderQr();
-  const Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, N, 1> coefficients =
-      qr.solve(positions);
-  // Deviations of the coefficients: the rows of the inverse of R.
-  const Square inverse = qr.matrixQR()
-                             .topLeftCorner(terms, terms)
-                             .template triangularView<Eigen::Upper>()
-                             .solve(Square::Identity(terms, terms));
+  fit.solve();
   constexpr double kMargin = 100;  // in variances: the samples are taken in once more
-  const double variance = model.variance(coefficients[0] / span);
+  const double variance = model.variance(fit.coefficient(0) / span);
   state.P(0, 0) = variance;
   double scale = 1;
   for (int i = 0; i < terms; ++i) {
     scale *= (i + 1) / span;  // derivative i + 1 of (t / span)^(i + 1)
-    state.x[i + 1] = coefficients[i] * scale;
-    state.P(i + 1, i + 1) += kMargin * variance * inverse.row(i).squaredNorm() * scale * scale;
+    state.x[i + 1] = fit.coefficient(i) * scale;
+    state.P(i + 1, i + 1) += kMargin * variance * fit.spread(i) * scale * scale;
   }
   return state;
 }

@@ -1,6 +1,5 @@
 #include "offline/root_rows.h"
 
-#include <algorithm>
 #include <iostream>
 #include <sstream>
 #include <string>
@@ -16,11 +15,6 @@ namespace {
 
 // Digits of single precision are no reason to warn.
 constexpr double kSinglePrecision = 1e-6;
-
-bool gives(const MotionTable& table, const char* quantity) {
-  const auto& lack = table.roots_lack;
-  return !table.roots.empty() && std::find(lack.begin(), lack.end(), quantity) == lack.end();
-}
 
 std::string joined(const std::vector<std::string>& words) {
   std::string text;
@@ -39,8 +33,8 @@ void checkRoots(const Scene& scene, const MotionFile& file) {
     return;
   }
   std::vector<std::string> missing;
-  if (!gives(table, "orientation")) missing.push_back(rootColumnsText("orientation"));
-  if (!scene.static_motion && !gives(table, "acceleration") && !gives(table, "position")) {
+  if (!givesRoot(table, "orientation")) missing.push_back(rootColumnsText("orientation"));
+  if (!scene.static_motion && !givesRoot(table, "acceleration") && !givesRoot(table, "position")) {
     missing.push_back(rootColumnsText("acceleration") + " or " + rootColumnsText("position"));
   }
   if (!missing.empty()) {
@@ -61,7 +55,7 @@ void completeRoots(const Mechanism& mechanism, const Scene& scene,
   if (!scene.root_moves || scene.static_motion) return;
   std::vector<std::string> missing;
   for (const char* quantity : {"angular_velocity", "acceleration", "angular_acceleration"}) {
-    if (!gives(file.table, quantity)) missing.push_back(rootColumnsText(quantity));
+    if (!givesRoot(file.table, quantity)) missing.push_back(rootColumnsText(quantity));
   }
   if (missing.empty()) return;
   std::cerr << "note: " << printable(file.path) << ": estimated: " << joined(missing) << "\n";

@@ -181,21 +181,8 @@ double readMarkerRate(PrivateParameters& parameters, double fallback) {
 }
 
 RootSettings readRoot(PrivateParameters& parameters) {
-  constexpr std::pair<const char*, RootSource> kSources[] = {
-      {"odometry", RootSource::kOdometry},
-      {"trajectory", RootSource::kTrajectory},
-      {"states", RootSource::kStates},
-      {"tf", RootSource::kTf},
-      {"imu", RootSource::kImu}};
   RootSettings settings;
-  const std::string source = parameters.text("root/source", "");
-  for (const auto& [name, value] : kSources) {
-    if (source == name) settings.source = value;
-  }
-  if (!source.empty() && settings.source == RootSource::kNone) {
-    throw parameterError("root/source",
-                         inQuotes(source) + " is none of odometry, trajectory, states, tf and imu");
-  }
+  settings.source = readRootSource(parameters);
   settings.inertial_frame = parameters.text("root/inertial_frame", settings.inertial_frame);
   settings.link = parameters.text("root/link", settings.link);
   settings.timeout = readPeriod(parameters, "root/timeout", settings.timeout);

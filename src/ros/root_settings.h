@@ -2,10 +2,16 @@
 
 #include <string>
 
+#include "ros/private_parameters.h"
+
 namespace virtual_work_dynamics {
 
 /// Which messages tell how the root link moves.
 enum class RootSource { kNone, kOdometry, kTrajectory, kStates, kTf, kImu };
+
+/// Reads ~root/source; none when it is empty.
+/// @throws ParameterError for a word that is no source.
+RootSource readRootSource(PrivateParameters& parameters);
 
 /// How the node learns how the root link moves.
 struct RootSettings {

@@ -28,6 +28,8 @@ foreach(file
     root_conversion.cpp
     root_frames.cpp
     root_inputs.cpp
+    root_publisher.cpp
+    root_settings.cpp
     rviz_configuration.cpp
     rviz_for_robot.cpp
     sample_computation.cpp

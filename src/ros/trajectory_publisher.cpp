@@ -65,7 +65,9 @@ trajectory_msgs::JointTrajectory sampled(const TrajectorySettings& settings,
 }  // namespace
 
 TrajectoryPublisher::TrajectoryPublisher(ros::NodeHandle node, TrajectorySettings settings)
-    : settings_(std::move(settings)), samples_(settings_.law->duration(), settings_.rate) {
+    : settings_(std::move(settings)),
+      samples_(settings_.law->duration(), settings_.rate),
+      root_(node, settings_.root) {
   if (settings_.as_trajectory) {
     publisher_ =
         node.advertise<trajectory_msgs::JointTrajectory>("joint_trajectory", kTrajectoryQueue);
@@ -111,6 +113,7 @@ std::int64_t TrajectoryPublisher::playStates() {
       copy(motion.q, state.position);
       if (settings_.velocities) copy(motion.qd, state.velocity);
       if (!sleepUntil(steady_start + nanoseconds(offset))) return count;
+      root_.publish(samples_.time(k), state.header.stamp);
       publisher_.publish(state);
       ++count;
     }
@@ -128,6 +131,7 @@ std::int64_t TrajectoryPublisher::playTrajectories() {
   for (std::int64_t round = 0; round == 0 || settings_.loop; ++round) {
     if (!sleepUntil(steady_start + nanoseconds(round * round_ns))) break;
     if (!settings_.zero_stamp) trajectory.header.stamp = after(start, round * round_ns);
+    root_.publish(samples_, trajectory.header.stamp);
     publisher_.publish(trajectory);
     ++count;
   }

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 
+#include "ros/root_publisher.h"
 #include "ros/sample_times.h"
 #include "ros/trajectory_settings.h"
 
@@ -14,7 +15,8 @@ namespace virtual_work_dynamics {
 /// Plays a motion as sensor_msgs/JointState on `joint_states`, or as
 /// trajectory_msgs/JointTrajectory on `joint_trajectory`. The steady clock sets the pace with
 /// absolute deadlines; a publisher that is late catches up and leaves no sample out. Stamps are the
-/// start plus whole nanoseconds, whatever the pace.
+/// start plus whole nanoseconds, whatever the pace. How a root link moves is told before the joint
+/// states of the same instant, or before the trajectory.
 class TrajectoryPublisher {
  public:
   /// Advertises the topic in the namespace of `node`.
@@ -32,6 +34,7 @@ class TrajectoryPublisher {
   TrajectorySettings settings_;
   SampleTimes samples_;
   ros::Publisher publisher_;
+  RootPublisher root_;
 };
 
 }  // namespace virtual_work_dynamics

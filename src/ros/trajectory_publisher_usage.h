@@ -11,6 +11,11 @@ Plays a motion of joints at a set rate, as a stream of joint states or as one tr
 publishes one of
   joint_states      sensor_msgs/JointState           positions, velocities
   joint_trajectory  trajectory_msgs/JointTrajectory  exact positions, velocities, accelerations
+and, of a table that has the motion of a root link, on /tf and one of
+  odom                        nav_msgs/Odometry
+  multi_dof_joint_states      sensor_msgs/MultiDOFJointState
+  multi_dof_joint_trajectory  trajectory_msgs/MultiDOFJointTrajectory
+  imu                         sensor_msgs/Imu
 
 parameters (in brackets: the defaults, which play the paper's pendulum)
   ~joints                names ([joint_1, joint_2]); with the law table, [] means all of the file
@@ -26,6 +31,11 @@ parameters (in brackets: the defaults, which play the paper's pendulum)
                          joints are continuous: whole turns that their driver left out are added. A
                          path is relative to where the node, or with the launch files roslaunch, is
                          started
+  ~root/source           odometry | states | trajectory | imu | tf: how columns root.… of the table
+                         are published ("": not at all)
+  ~root/inertial_frame   frame_id that they are against (odom)
+  ~root/link             frame_id of the root link ("": its name in robot_description)
+  ~root/gravity          that an inertial measurement unit feels, m/s^2 ([0, 0, -9.81])
   ~message               joint_state | joint_trajectory (joint_state)
   ~rate                  samples per second, Hz (1000)
   ~velocities            whether joint states carry velocities (true)

@@ -6,6 +6,7 @@
 #include "base/nearest_name.h"
 #include "base/number_text.h"
 #include "base/printable.h"
+#include "motion/root_law.h"
 #include "ros/message_text.h"
 #include "ros/sample_times.h"
 #include "virtual_work_dynamics/motion_csv.h"
@@ -117,14 +118,19 @@ MotionTable readTable(const std::string& file, const std::vector<std::string>& j
 /// @param robot see readTrajectorySettings()
 /// @param joints the parameter `joints`; when it is empty and the law is `table`, it receives the
 ///   joints of the file.
+/// @param root receives the root's law where it has a source
 std::shared_ptr<const MotionLaw> makeLaw(const LawParameters& parameters, const RobotSource& robot,
-                                         std::vector<std::string>& joints) {
+                                         std::vector<std::string>& joints, RootPlay& root) {
+  if (root.source != RootSource::kNone && parameters.law != "table") {
+    throw parameterError("root/source", "only the law `table` knows how a root moves");
+  }
   if (parameters.law == "table") {
     if (parameters.file.empty()) throw parameterError("file", "the law `table` needs a file");
     try {
       const MotionTable table = readTable(parameters.file, joints, robot);
       joints = table.joints;
       checkJoints(joints);
+      if (root.source != RootSource::kNone) root.law = std::make_shared<RootLaw>(table);
       return tableLaw(table);
     } catch (const ParameterError&) {
       throw;
@@ -157,6 +163,26 @@ std::shared_ptr<const MotionLaw> makeLaw(const LawParameters& parameters, const 
   checkNotNegative(parameters.end_frequency, "end_frequency", "Hz");
   return sineSweepLaw(amplitudes, parameters.start_frequency, parameters.end_frequency,
                       parameters.duration);
+}
+
+RootPlay readRoot(PrivateParameters& parameters, const RobotSource& source) {
+  RootPlay root;
+  root.source = readRootSource(parameters);
+  root.inertial_frame = parameters.text("root/inertial_frame", RootSettings().inertial_frame);
+  root.link = parameters.text("root/link", "");
+  const std::vector<double> gravity = parameters.numbers("root/gravity", {0, 0, -9.81});
+  if (gravity.size() != 3) {
+    throw parameterError("root/gravity",
+                         "expected three numbers, m/s^2, got " + std::to_string(gravity.size()));
+  }
+  root.gravity = Eigen::Vector3d(gravity.data());
+  if (root.source == RootSource::kNone || !root.link.empty()) return root;
+  const std::optional<Mechanism> robot = source ? source() : std::nullopt;
+  if (!robot) {
+    throw parameterError("root/link", "without a robot_description the root link has to be named");
+  }
+  root.link = robot->links().front().name;
+  return root;
 }
 
 /// Reads a parameter that is one of two words, `no` by default. @returns whether it is `yes`.
@@ -204,6 +230,13 @@ void checkSampling(const TrajectorySettings& settings, const std::string& law) {
     }
     return;
   }
+  if (settings.root.source != RootSource::kNone &&
+      settings.root.source != RootSource::kTrajectory) {
+    throw parameterError(
+        "root/source",
+        "with message: joint_trajectory, expected trajectory: other messages would "
+        "tell of the root when the trajectory is over");
+  }
   const double points = static_cast<double>(SampleTimes(duration, settings.rate).last()) + 1;
   const double bytes = points * (24.0 * static_cast<double>(settings.joints.size()) + 24.0);
   if (bytes > kMaxMessageBytes) {
@@ -227,12 +260,13 @@ TrajectorySettings readTrajectorySettings(PrivateParameters& parameters, const R
   settings.wait_for_subscribers = parameters.integer("wait_for_subscribers", 1);
   settings.start_delay = atLeastZero(parameters, "start_delay", 0.5);
   settings.linger = atLeastZero(parameters, "linger", 1);
+  settings.root = readRoot(parameters, robot);
   parameters.refuseUnknown();
   if (settings.wait_for_subscribers < 0) {
     throw parameterError("wait_for_subscribers", "expected a number from 0 on, got " +
                                                      std::to_string(settings.wait_for_subscribers));
   }
-  settings.law = makeLaw(law, robot, settings.joints);
+  settings.law = makeLaw(law, robot, settings.joints, settings.root);
   checkSampling(settings, law.law);
   return settings;
 }

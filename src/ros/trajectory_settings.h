@@ -1,16 +1,27 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "motion/root_law.h"
 #include "ros/private_parameters.h"
+#include "ros/root_settings.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion_law.h"
 
 namespace virtual_work_dynamics {
+
+/// How a root link moves beside the joints, and which messages tell it.
+struct RootPlay {
+  RootSource source = RootSource::kNone;
+  std::string inertial_frame, link;  ///< as RootSettings
+  Eigen::Vector3d gravity;           ///< that an inertial measurement unit feels, m/s^2
+  std::shared_ptr<const RootLaw> law;
+};
 
 /// What a trajectory publisher plays and how it does so (config/trajectory_publisher.yaml).
 struct TrajectorySettings {
@@ -25,6 +36,8 @@ struct TrajectorySettings {
   int wait_for_subscribers = 0;
   double start_delay = 0;  ///< s
   double linger = 0;       ///< s
+
+  RootPlay root;
 };
 
 /// Gives the robot that is described, if there is one.

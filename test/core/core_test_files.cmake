@@ -99,6 +99,7 @@ set(core_test_files
   test/core/root_coordinates_test.cpp
   test/core/root_estimator_test.cpp
   test/core/root_imu_test.cpp
+  test/core/root_law_test.cpp
   test/core/root_trajectory_test.cpp
   test/core/run_time_histogram_test.cpp
   test/core/sample_block_test.cpp

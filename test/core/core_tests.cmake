@@ -45,6 +45,9 @@ finish_core_tests(sanitized_core_tests ${sanitized_tool})
 # Warnings are the other build's: GCC sees uninitialized variables in what the sanitizers add.
 separate_arguments(sanitized_options UNIX_COMMAND
   "-O1 -g1 -UNDEBUG -fno-omit-frame-pointer -w ${sanitizers}")
+# Null pointers and places outside of objects the address sanitizer finds, too, and addresses that are
+# not aligned the processor: these checks at every access cost half of the time of compiling.
+list(APPEND sanitized_options -fno-sanitize=null,alignment,object-size)
 # Tests free what the library allocates: with sanitizers, Eigen would allocate in another way.
 list(APPEND sanitized_options -DEIGEN_MALLOC_ALREADY_ALIGNED=1)
 foreach(target ${sanitized_library} ${sanitized_tool} sanitized_core_tests)

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "closed_loops.h"
+#include "dynamics/effort_groups.h"
 #include "four_bar.h"
 #include "loop_examples.h"
 #include "newton_euler_oracle.h"
@@ -208,6 +209,27 @@ TEST(FreeMotion, IsRefusedUnlessAskedForAndWhereNothingIsFree) {
   scene.free_motion = true;
   expectRefusal(mechanism, scene,
                 "free_motion: every joint is actuated unless 'actuated' says which are");
+}
+
+// Residuals are known by their place: a description may give a joint the same name.
+TEST(FreeMotion, JointsMayHaveTheNamesOfResiduals) {
+  std::string description = kPendulum;
+  for (const std::string name : {"shoulder", "elbow"}) {
+    const std::size_t at = description.find("joint name=\"" + name);
+    description.insert(at + 12, "residual.motion.");
+  }
+  const Mechanism mechanism = readUrdf(description);
+  Scene part = freeScene();
+  part.actuated = std::vector<std::string>{"residual.motion.elbow"};
+  const Dynamics dynamics(mechanism, part, Request{}), whole(mechanism, Scene{}, Request{});
+  EXPECT_EQ(dynamics.effortNames(),
+            (std::vector<std::string>{"residual.motion.residual.motion.shoulder",
+                                      "residual.motion.elbow"}));
+  EXPECT_EQ(dynamics.residuals(), (std::vector<bool>{true, false}));
+  EXPECT_EQ(whole.residuals(), (std::vector<bool>{false, false}));
+  const EffortGroups groups(dynamics);
+  EXPECT_EQ(groups.residuals.size(), 1u);
+  EXPECT_EQ(groups.actuated, std::vector<std::string>{"residual.motion.elbow"});
 }
 
 TEST(FreeMotion, LinkageWithEnoughActuatorsHasNoResidual) {

@@ -52,6 +52,20 @@ class OfflineToolNames : public OfflineTool {
   }
 };
 
+TEST_F(OfflineToolNames, AJointMayHaveTheNameOfAResidual) {
+  std::string description = kLinkage;
+  for (std::size_t at; (at = description.find("\"knee\"")) != std::string::npos;) {
+    description.replace(at, 6, "\"residual.motion.k\"");
+  }
+  write("named.urdf", description);
+  write("m.csv", "time,position.slider,position.crank,position.residual.motion.k\n0,0,0,0\n");
+  const Run result = run("--urdf named.urdf --motion m.csv --static --output r.csv");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string table = readFile(path("r.csv"));
+  EXPECT_EQ(table.substr(0, table.find('\n')),
+            "time,effort.slider,effort.crank,effort.residual.motion.k");
+}
+
 TEST_F(OfflineToolNames, AMisspeltNameHasFileAndKeyInFrontAndTheNearestBehind) {
   EXPECT_EQ(scene("reactions: [crank, knee, slidr]"),
             "s.yaml: reactions[2]: no joint 'slidr'; did you mean 'slider'?");
