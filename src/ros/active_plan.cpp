@@ -38,7 +38,7 @@ ActivePlan::ActivePlan(const Mechanism& mechanism, const Scene& scene, const Out
       workspace(dynamics.makeWorkspace()),
       points(dynamics, kPointsAtOnce) {
   for (const std::size_t i : audience) {
-    outputs.push_back({i, all[i]->ofTrajectories(), all[i]->makeMessage(dynamics)});
+    outputs.push_back({i, all[i]->ofTrajectories(), all[i]->makeMessage(dynamics, scene)});
     (outputs.back().of_trajectories ? wants_trajectories : wants_samples) = true;
     wants_covariance = wants_covariance || all[i]->usesCovariance();
   }

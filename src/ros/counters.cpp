@@ -3,8 +3,8 @@
 namespace virtual_work_dynamics {
 
 void Counters::drop(DropReason reason, const std::string& text) {
+  const std::lock_guard<std::mutex> lock(last_drop_mutex_);  // two threads may drop messages
   dropped[index(reason)].add();
-  const std::lock_guard<std::mutex> lock(last_drop_mutex_);
   last_drop_ = text;
 }
 

@@ -21,12 +21,14 @@ class Counter {
   std::atomic<std::uint64_t> value_{0};
 };
 
-/// Counts what the receiving thread does; any thread may read them.
+/// Counts what the receiving thread does, unless something else is said; any thread may read them.
 struct Counters {
   Counter joint_states;
   Counter trajectories;
   Counter wrenches;  ///< live ones received
-  Counter roots;     ///< messages received that tell how the root link moves
+  Counter
+      payloads;   ///< messages of payloads and gravity received, counted by the node's own thread
+  Counter roots;  ///< messages received that tell how the root link moves
   Counter accepted_joint_states;
   Counter restarts;             ///< as time went back
   Counter gaps;                 ///< joint states after a gap of one of their joints

@@ -76,12 +76,9 @@ class DescriptionDeviations : public JointDeviations {
 
 class JointDeviationOutput : public Output {
  public:
-  JointDeviationOutput(const Mechanism& mechanism, const Scene& scene, std::string frame,
+  JointDeviationOutput(const Mechanism& mechanism, std::string frame,
                        std::shared_ptr<DeviationRecord> record)
-      : mechanism_(mechanism),
-        scene_(scene),
-        frame_(std::move(frame)),
-        record_(std::move(record)) {}
+      : mechanism_(mechanism), frame_(std::move(frame)), record_(std::move(record)) {}
 
   std::string topic() const override { return record_ ? "effort_deviation" : "effort_tolerance"; }
   ros::AdvertiseOptions options(const std::string& topic, std::uint32_t queue) const override {
@@ -90,29 +87,26 @@ class JointDeviationOutput : public Output {
   }
   bool usesCovariance() const override { return record_ != nullptr; }
   void addTo(Request& request) const override { request.efforts = true; }
-  std::unique_ptr<OutputMessage> makeMessage(const Dynamics&) const override {
-    if (!record_) return std::make_unique<DescriptionDeviations>(mechanism_, scene_, frame_);
-    return std::make_unique<MotionDeviations>(mechanism_, scene_, frame_, record_);
+  std::unique_ptr<OutputMessage> makeMessage(const Dynamics&, const Scene& scene) const override {
+    if (!record_) return std::make_unique<DescriptionDeviations>(mechanism_, scene, frame_);
+    return std::make_unique<MotionDeviations>(mechanism_, scene, frame_, record_);
   }
 
  private:
   const Mechanism mechanism_;
-  const Scene scene_;
   const std::string frame_;
   const std::shared_ptr<DeviationRecord> record_;  // none: of tolerances
 };
 
 }  // namespace
 
-std::unique_ptr<Output> makeDeviationOutput(const Mechanism& mechanism, const Scene& scene,
-                                            const std::string& frame,
+std::unique_ptr<Output> makeDeviationOutput(const Mechanism& mechanism, const std::string& frame,
                                             std::shared_ptr<DeviationRecord> record) {
-  return std::make_unique<JointDeviationOutput>(mechanism, scene, frame, std::move(record));
+  return std::make_unique<JointDeviationOutput>(mechanism, frame, std::move(record));
 }
 
-std::unique_ptr<Output> makeToleranceOutput(const Mechanism& mechanism, const Scene& scene,
-                                            const std::string& frame) {
-  return std::make_unique<JointDeviationOutput>(mechanism, scene, frame, nullptr);
+std::unique_ptr<Output> makeToleranceOutput(const Mechanism& mechanism, const std::string& frame) {
+  return std::make_unique<JointDeviationOutput>(mechanism, frame, nullptr);
 }
 
 }  // namespace virtual_work_dynamics

@@ -164,6 +164,7 @@ void Diagnostics::addCounts(DiagnosticStatusWrapper& status) const {
              counters_.velocity_not_finite.value());
   status.add("samples with a joint held", counters_.held.value());
   status.add("wrenches received", counters_.wrenches.value());
+  status.add("payloads and gravity received", counters_.payloads.value());
   status.add("samples with a wrench held", counters_.wrench_held.value());
   status.add("root messages received", counters_.roots.value());
   status.add("restarts of the root", counters_.root_restarts.value());

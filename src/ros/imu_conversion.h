@@ -2,12 +2,12 @@
 
 #include <sensor_msgs/Imu.h>
 
-#include <Eigen/Core>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "motion/root_imu.h"
+#include "ros/fixed_frames.h"
 #include "ros/rejection.h"
 #include "virtual_work_dynamics/mechanism.h"
 
@@ -27,14 +27,11 @@ class ImuConversion {
   std::optional<Rejection> convert(const sensor_msgs::Imu& message, ImuSample& sample);
 
  private:
-  std::optional<Rejection> findFrame(const std::string& id);
-
   const Mechanism& mechanism_;
   const std::string frame_prefix_;
   bool found_ = false;
   std::string frame_;  // found last
-  Eigen::Matrix3d R_0F_;
-  Eigen::Vector3d p_0oFo_0_;
+  FixedFrame placed_;  // against the root link
 };
 
 }  // namespace virtual_work_dynamics

@@ -48,6 +48,8 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       streams_(task_.mechanism.coordinates().size()),
       gap_throttles_(task_.mechanism.coordinates().size(), Throttle(kGapPeriod)),
       joint_watch_(task_.mechanism.coordinateNames(), task_.waitedFor(completer_.needed())),
+      scene_inputs_(task_.mechanism, task_.scene, parameters.frame_prefix, parameters.root,
+                    counters_),
       plans_(compile(Audience())),
       cross_check_(checks_.cross_check
                        ? std::make_unique<CrossCheck>(parameters.self_check.cross_check_rate)
@@ -81,6 +83,7 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
                                           &InverseDynamicsNode::receiveTrajectory, this, hints);
   root_inputs_.subscribe(node, queue);
   wrench_inputs_.subscribe(ros::NodeHandle("~"), task_.wrench_topics, queue);
+  scene_inputs_.subscribe(ros::NodeHandle("~"), manage_queue_);
   if (!at_once_) {
     const double period = std::max(1 / parameters.trajectory_rate, TrajectoryQueue::kTick);
     player_ = node.createSteadyTimer(
@@ -356,7 +359,7 @@ void InverseDynamicsNode::manage() {
     manage_queue_.callAvailable(ros::WallDuration(kManageWait));
     const Clock::time_point now = Clock::now();
     joint_watch_.setTime(now);
-    if (audience_changed_) adaptPlan();
+    if (audience_changed_ || scene_inputs_.changed()) adaptPlan();
     plans_.collect();
     watchJoints(now);
     diagnostics_.update(now);
@@ -364,21 +367,27 @@ void InverseDynamicsNode::manage() {
 }
 
 std::unique_ptr<ActivePlan> InverseDynamicsNode::compile(const Audience& audience) const {
-  return std::make_unique<ActivePlan>(task_.mechanism, task_.scene, task_.outputs, task_.reactions,
-                                      audience, checks_);
+  return std::make_unique<ActivePlan>(task_.mechanism, scene_inputs_.scene(), task_.outputs,
+                                      task_.reactions, audience, checks_);
 }
 
 void InverseDynamicsNode::adaptPlan() {
   audience_changed_ = false;
   const Audience audience = outputs_.audience();
-  if (audience == audience_) return;
+  if (audience == audience_ && !scene_inputs_.changed()) return;
   try {
     std::unique_ptr<ActivePlan> plan = compile(audience);
     diagnostics_.setPlan(outputs_.names(audience), describe(*plan), operationsOf(*plan));
     if (cross_check_) cross_check_->watch(plan->cross_check);
     plans_.offer(std::move(plan));
     audience_ = audience;
+    scene_inputs_.keep();
   } catch (const std::exception& error) {
+    if (scene_inputs_.changed()) {
+      audience_changed_ = audience != audience_;
+      scene_inputs_.takeBack(error.what());
+      return;
+    }
     ROS_ERROR("the change of subscribers failed, and what is computed stays as it is: %s",
               printable(error.what()).c_str());
   }

@@ -32,6 +32,7 @@
 #include "ros/robot_task.h"
 #include "ros/root_inputs.h"
 #include "ros/sample_computation.h"
+#include "ros/scene_inputs.h"
 #include "ros/stream_record.h"
 #include "ros/throttle.h"
 #include "ros/trajectory_conversion.h"
@@ -46,8 +47,8 @@ namespace virtual_work_dynamics {
 ///
 /// It has two threads, and a third one if Lagrange's equations check results (CrossCheck). The
 /// thread that spins the global callback queue receives messages, computes and publishes. The other
-/// one is the node's own: it watches who subscribes, compiles the plan for them, hands it over by
-/// PlanSwitch, and reports diagnostics.
+/// one is the node's own: it watches who subscribes and what changes of the scene, compiles the
+/// plan for them, hands it over by PlanSwitch, and reports diagnostics.
 class InverseDynamicsNode {
  public:
   /// Checks everything, then advertises and subscribes; if it throws, it has done neither.
@@ -115,11 +116,12 @@ class InverseDynamicsNode {
   Throttle queue_throttle_;
 
   JointWatch joint_watch_;
+  ros::CallbackQueue manage_queue_;  // of the node's own thread
+  SceneInputs scene_inputs_;
   PlanSwitch plans_;
   std::unique_ptr<CrossCheck> cross_check_;  // null when off
 
   // Constructing the members from here on talks to ROS.
-  ros::CallbackQueue manage_queue_;
   bool audience_changed_ = true;
   Audience audience_;
   OutputTopics outputs_;

@@ -187,7 +187,7 @@ class MarkerOutput : public Output {
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
   }
-  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan) const override {
+  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan, const Scene&) const override {
     return std::make_unique<MarkerMessage>(
         plan, modelView(mechanism_, settings_.scene, settings_.reactions), settings_, frames_,
         root_frame_);

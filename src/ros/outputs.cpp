@@ -97,7 +97,7 @@ class EffortOutput : public Output {
     return advertised<sensor_msgs::JointState>(topic, queue);
   }
   void addTo(Request& request) const override { request.efforts = true; }
-  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan) const override {
+  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan, const Scene&) const override {
     return std::make_unique<EffortMessage>(plan, frame_);
   }
 
@@ -141,7 +141,7 @@ class MotionOutput : public Output {
     return advertised<trajectory_msgs::JointTrajectory>(topic, queue);
   }
   void addTo(Request&) const override {}
-  std::unique_ptr<OutputMessage> makeMessage(const Dynamics&) const override {
+  std::unique_ptr<OutputMessage> makeMessage(const Dynamics&, const Scene&) const override {
     return std::make_unique<MotionMessage>(names_, frame_);
   }
 
@@ -212,7 +212,7 @@ class ReactionsOutput : public Output {
     request.poses = true;
     request.twists = request.twists || twist_;
   }
-  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan) const override {
+  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan, const Scene&) const override {
     return std::make_unique<ReactionsMessage>(plan, reactions_, frame_, twist_);
   }
 
@@ -251,7 +251,7 @@ class WrenchOutput : public Output {
     return advertised<geometry_msgs::WrenchStamped>(topic, queue);
   }
   void addTo(Request& request) const override { addOnce({reaction_}, request.child_axes); }
-  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan) const override {
+  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan, const Scene&) const override {
     return std::make_unique<WrenchMessage>(plan, reaction_, frame_);
   }
 
@@ -302,7 +302,7 @@ class DeterminacyOutput : public Output {
     addOnce(reactions_, request.child_axes);
     addOnce(reactions_, request.root_axes);
   }
-  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan) const override {
+  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan, const Scene&) const override {
     return std::make_unique<DeterminacyOutputMessage>(plan, reactions_, message_);
   }
 
@@ -321,11 +321,10 @@ Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
   outputs.push_back(std::make_unique<EffortOutput>(root_frame));
   outputs.push_back(std::make_unique<MotionOutput>(mechanism.coordinateNames(), root_frame));
   if (settings.deviations) {
-    outputs.push_back(
-        makeDeviationOutput(mechanism, settings.scene, root_frame, settings.deviations));
+    outputs.push_back(makeDeviationOutput(mechanism, root_frame, settings.deviations));
   }
   if (settings.scene.tolerances.any()) {
-    outputs.push_back(makeToleranceOutput(mechanism, settings.scene, root_frame));
+    outputs.push_back(makeToleranceOutput(mechanism, root_frame));
   }
   if (!settings.reactions.empty()) {
     outputs.push_back(

@@ -77,7 +77,9 @@ class Output {
   /// Adds what its subscribers need.
   virtual void addTo(Request& request) const = 0;
   /// Its message in a plan whose request has what addTo() adds.
-  virtual std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan) const = 0;
+  /// @param scene that the plan was compiled of: payloads and gravity may change
+  virtual std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan,
+                                                     const Scene& scene) const = 0;
 };
 
 using Outputs = std::vector<std::unique_ptr<Output>>;
@@ -89,7 +91,7 @@ struct OutputSettings {
   std::string frame_prefix;                  ///< put before every frame_id
   bool twist = false;                        ///< whether ~reactions has twists
   double condition_warn = kCloseToSingular;  ///< a larger condition is close to a singular position
-  Scene scene;                               ///< of which deviations and arrows are computed
+  Scene scene;                               ///< whose closures and springs are shown
   std::shared_ptr<DeviationRecord> deviations;  ///< what they are recorded in; null: no deviations
   double marker_rate = 20;                      ///< largest rate of ~markers, Hz
 };

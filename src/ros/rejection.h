@@ -27,15 +27,17 @@ enum class DropReason : std::size_t {
   kNoWrench,
   kOrientation,
   kNoRoot,
+  kNoBody,
   kInternal
 };
 
 /// The reasons as diagnostics show them, in the order of DropReason.
-constexpr std::array<const char*, 20> kDropReasonNames = {
+constexpr std::array<const char*, 21> kDropReasonNames = {
     "array length",  "not finite",     "no known joint", "joint twice",    "zero stamp",
     "equal stamp",   "too late",       "no points",      "times",          "joint never seen",
     "overflow",      "passive joints", "open loop",      "no time yet",    "backlog",
-    "unknown frame", "no wrench",      "orientation",    "no root motion", "internal"};
+    "unknown frame", "no wrench",      "orientation",    "no root motion", "no such body",
+    "internal"};
 
 constexpr std::size_t index(DropReason reason) {
   return static_cast<std::size_t>(reason);

@@ -9,6 +9,7 @@ foreach(file
     deviation_output.cpp
     deviation_report.cpp
     diagnostics.cpp
+    fixed_frames.cpp
     imu_conversion.cpp
     inverse_dynamics_node.cpp
     inverse_dynamics_parameters.cpp
@@ -34,6 +35,7 @@ foreach(file
     rviz_for_robot.cpp
     sample_computation.cpp
     sample_times.cpp
+    scene_inputs.cpp
     scene_parameter.cpp
     self_check_report.cpp
     start_position.cpp

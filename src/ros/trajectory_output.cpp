@@ -54,7 +54,7 @@ class TrajectoryOutput : public Output {
   }
   bool ofTrajectories() const override { return true; }
   void addTo(Request& request) const override { request.efforts = true; }
-  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan) const override {
+  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan, const Scene&) const override {
     return std::make_unique<TrajectoryMessage>(plan);
   }
 };

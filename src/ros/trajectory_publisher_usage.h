@@ -34,7 +34,9 @@ parameters (in brackets: the defaults, which play the paper's pendulum)
   ~root/source           odometry | states | trajectory | imu | tf: how columns root.… of the table
                          are published ("": not at all)
   ~root/inertial_frame   frame_id that they are against (odom)
-  ~root/link             frame_id of the root link ("": its name in robot_description)
+  ~root/link             frame_id of the root link ("": ~frame_prefix and its name in
+                         robot_description)
+  ~frame_prefix          such as left/ ("")
   ~root/gravity          that an inertial measurement unit feels, m/s^2 ([0, 0, -9.81])
   ~message               joint_state | joint_trajectory (joint_state)
   ~rate                  samples per second, Hz (1000)

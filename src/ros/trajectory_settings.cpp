@@ -170,6 +170,7 @@ RootPlay readRoot(PrivateParameters& parameters, const RobotSource& source) {
   root.source = readRootSource(parameters);
   root.inertial_frame = parameters.text("root/inertial_frame", RootSettings().inertial_frame);
   root.link = parameters.text("root/link", "");
+  const std::string prefix = parameters.text("frame_prefix", "");
   const std::vector<double> gravity = parameters.numbers("root/gravity", {0, 0, -9.81});
   if (gravity.size() != 3) {
     throw parameterError("root/gravity",
@@ -181,7 +182,7 @@ RootPlay readRoot(PrivateParameters& parameters, const RobotSource& source) {
   if (!robot) {
     throw parameterError("root/link", "without a robot_description the root link has to be named");
   }
-  root.link = robot->links().front().name;
+  root.link = prefix + robot->links().front().name;
   return root;
 }
 

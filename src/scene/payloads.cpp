@@ -11,14 +11,6 @@
 namespace virtual_work_dynamics {
 namespace {
 
-void requireBody(const Payload& payload, const std::string& place) {
-  if (!(payload.mass > 0)) {
-    throw SceneError(place + ".mass: " + numberText(payload.mass) + " kg is not a positive mass");
-  }
-  const std::string why = impossibleInertia(payload.inertia.cast<long double>());
-  if (!why.empty()) throw SceneError(place + ".inertia: " + why);
-}
-
 // Inertia of a mass about a point at a distance.
 Matrix3l steiner(long double mass, const Vector3l& from) {
   return mass * (from.squaredNorm() * Matrix3l::Identity() - from * from.transpose());
@@ -36,6 +28,14 @@ void add(const Payload& payload, Link& link) {
 
 }  // namespace
 
+std::string payloadProblem(const Payload& payload) {
+  if (!(payload.mass > 0)) {
+    return "mass: " + numberText(payload.mass) + " kg is not a positive mass";
+  }
+  const std::string why = impossibleInertia(payload.inertia.cast<long double>());
+  return why.empty() ? "" : "inertia: " + why;
+}
+
 LoadedMechanism::LoadedMechanism(const Mechanism& mechanism, const Scene& scene)
     : bare_(mechanism) {
   if (scene.payloads.empty()) return;
@@ -43,7 +43,8 @@ LoadedMechanism::LoadedMechanism(const Mechanism& mechanism, const Scene& scene)
   for (std::size_t i = 0; i < scene.payloads.size(); ++i) {
     const std::string place = entryOf("payload", i);
     const Payload& payload = scene.payloads[i];
-    requireBody(payload, place);
+    const std::string problem = payloadProblem(payload);
+    if (!problem.empty()) throw SceneError(place + "." + problem);
     add(payload,
         links[static_cast<std::size_t>(linkNamed(mechanism, payload.link, place + ".link"))]);
   }

@@ -1,0 +1,138 @@
+#!/usr/bin/python3
+"""Writes the motions of the examples with a root that moves.
+
+Usage: example_motions.py FOLDER
+
+FOLDER/<example>_motion.csv has positions of the joints, and position and orientation of the root link in
+inertial axes, of which z points up. Each motion ends as it begins, and can be looped.
+"""
+import os
+import sys
+
+import numpy as np
+
+LEGS = {'lf': (1, 1), 'rf': (1, -1), 'lh': (-1, 1), 'rh': (-1, -1)}
+# Of urdf/quadruped.urdf, m: hips in the trunk, from hip to thigh sideways, thigh and shank.
+HIP = np.array([0.26, 0.08])
+SIDE, BONE = 0.09, 0.3
+
+
+def about(axis, angle):
+    """The quaternion x, y, z, w of a turn about a coordinate axis."""
+    q = np.zeros(4)
+    q[axis], q[3] = np.sin(angle / 2), np.cos(angle / 2)
+    return q
+
+
+def product(a, b):
+    w = a[3] * b[3] - a[:3] @ b[:3]
+    return np.append(a[3] * b[:3] + b[3] * a[:3] + np.cross(a[:3], b[:3]), w)
+
+
+def attitude(yaw, pitch, roll):
+    return product(product(about(2, yaw), about(1, pitch)), about(0, roll))
+
+
+def matrix(q):
+    x, y, z, w = q
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
+
+
+def waves(t, *parts):
+    """A sum of amplitude * sin(2 pi times / 12 s * t + phase)."""
+    return sum(amplitude * np.sin(2 * np.pi * times / 12 * t + phase)
+               for amplitude, times, phase in parts)
+
+
+def arm_on_a_ship(t):
+    """The six-axis arm at work on the deck of a ship that rolls, pitches and heaves."""
+    joints = {'joint_1': waves(t, (0.8, 1, 0)), 'joint_2': -1.3 + waves(t, (0.5, 2, 1)),
+              'joint_3': 1.6 + waves(t, (0.6, 2, 2)), 'joint_4': -1.8 + waves(t, (0.5, 3, 0)),
+              'joint_5': -1.6 + waves(t, (0.4, 1, 2)), 'joint_6': waves(t, (1.0, 2, 0))}
+    position = np.array([waves(t, (0.2, 1, 1)), waves(t, (0.4, 2, 0)), waves(t, (0.8, 2, 1), (0.2, 3, 0))])
+    return joints, position, attitude(waves(t, (0.05, 1, 2)), waves(t, (0.08, 2, 2)),
+                                      waves(t, (0.26, 2, 0.5)))
+
+
+def balance_board(t):
+    """A person on a board that rocks to and fro on a roller, 0.12 m below its upper side."""
+    pitch, roll = waves(t, (0.14, 7, 0), (0.05, 11, 1)), waves(t, (0.06, 5, 2))
+    knee = 0.5 + waves(t, (0.15, 7, 1))
+    # The ankle keeps the shank from most of the board's pitch; hip and waist keep the trunk upright.
+    joints = {'ankle': 0.25 - 0.9 * pitch, 'knee': knee, 'hip': knee - 0.25, 'waist': -0.8 * roll}
+    orientation = attitude(0, pitch, roll)
+    rolled = np.array([0.12 * pitch, -0.12 * roll, 0.12])
+    return joints, rolled, orientation
+
+
+def lifted(phase):
+    """How far a foot is up, 0 to 1, in a step of phase 0 to 1; smooth up to accelerations."""
+    phase = np.clip(phase, 0, 1)
+    return 64 * (phase * (1 - phase)) ** 3
+
+
+def leg_angles(foot, fore, left):
+    """Hip, thigh and shank of a leg whose foot is at this place in axes of the trunk."""
+    x, y, z = foot - np.array([HIP[0] * fore, HIP[1] * left, 0])
+    down = np.sqrt(y * y + z * z - SIDE * SIDE)  # in the plane of the leg
+    hip = np.arctan2(z, y) + np.arctan2(down, SIDE * left)
+    length = np.hypot(x, down)
+    bend = np.arccos(length * length / (2 * BONE * BONE) - 1)
+    return (hip + np.pi) % (2 * np.pi) - np.pi, np.arctan2(-x, down) + bend / 2, -bend
+
+
+def quadruped(t):
+    """It stands, shifts its weight, and trots on the spot from 1.2 s to 3.6 s."""
+    start, step, steps, height = 1.2, 0.4, 6, 0.06
+    k = (t - start) / step
+    fade = 1 if 0 <= k < steps else 0
+    standing = np.sin(2 * np.pi * t / 4.8)
+    position = np.array([0.02 * standing, 0.015 * np.sin(4 * np.pi * t / 4.8),
+                         0.5 + 0.008 * fade * lifted(k % 1)])
+    orientation = attitude(0, 0.03 * standing, 0.02 * np.sin(4 * np.pi * t / 4.8))
+    turn, joints = matrix(orientation), {}
+    for leg, (fore, left) in LEGS.items():
+        swings = fade and (int(k) % 2 == (fore * left > 0))
+        foot = np.array([HIP[0] * fore, (HIP[1] + SIDE) * left,
+                         height * lifted(k % 1) if swings else 0])
+        angles = leg_angles(turn.T @ (foot - position), fore, left)
+        joints.update(zip((leg + '_hip', leg + '_thigh', leg + '_shank'), angles))
+    return joints, position, orientation
+
+
+# Duration and time from row to row, s.
+EXAMPLES = {'arm_on_a_ship': (arm_on_a_ship, 12, 0.05), 'balance_board': (balance_board, 12, 0.02),
+            'quadruped': (quadruped, 4.8, 0.02)}
+
+
+def table(name):
+    """The text of the CSV."""
+    motion, duration, step = EXAMPLES[name]
+    lines = []
+    for i in range(round(duration / step) + 1):
+        joints, position, orientation = motion(i * step)
+        if not lines:
+            lines.append(','.join(['time'] + ['position.' + joint for joint in joints]
+                                  + ['root.position.' + axis for axis in 'xyz']
+                                  + ['root.orientation.' + axis for axis in 'xyzw']))
+        values = np.round([*joints.values(), *position, *orientation], 6) + 0.0  # no -0
+        lines.append(','.join(['%.2f' % (i * step)] + ['%.6f' % value for value in values]))
+    return '\n'.join(lines) + '\n'
+
+
+def main(arguments):
+    if len(arguments) != 2 or arguments[1].startswith('-'):
+        print(__doc__.strip(), file=sys.stderr if len(arguments) != 2 else sys.stdout)
+        return 2 if len(arguments) != 2 else 0
+    for name in EXAMPLES:
+        path = os.path.join(arguments[1], name + '_motion.csv')
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write(table(name))
+        print('wrote', path)
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main(sys.argv))

@@ -1,0 +1,177 @@
+#include "ros/scene_inputs.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <set>
+#include <utility>
+
+#include "base/number_text.h"
+#include "base/printable.h"
+#include "ros/fixed_frames.h"
+#include "ros/topic_names.h"
+#include "scene/payloads.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+// Topics of single values, of which the newest one counts.
+constexpr std::uint32_t kQueue = 10;
+
+std::string textOf(const Eigen::Vector3d& vector) {
+  return "[" + numberText(vector.x()) + ", " + numberText(vector.y()) + ", " +
+         numberText(vector.z()) + "]";
+}
+
+bool sameBody(const Payload& one, const Payload& other) {
+  return one.mass == other.mass && one.at == other.at && one.inertia == other.inertia;
+}
+
+}  // namespace
+
+SceneInputs::SceneInputs(const Mechanism& mechanism, const Scene& scene, std::string frame_prefix,
+                         const RootSettings& root, Counters& counters)
+    : mechanism_(mechanism),
+      frame_prefix_(std::move(frame_prefix)),
+      root_(root),
+      counters_(counters),
+      scene_(scene),
+      kept_(scene) {}
+
+template <typename Message>
+ros::Subscriber SceneInputs::listen(
+    ros::NodeHandle& node, ros::CallbackQueueInterface& queue, const std::string& topic,
+    std::optional<Rejection> (SceneInputs::*take)(int, const Message&), int link) {
+  const std::string name = node.resolveName(topic);
+  ros::SubscribeOptions options;
+  options.init<Message>(topic, kQueue,
+                        [this, name, take, link](const boost::shared_ptr<const Message>& message) {
+                          counters_.payloads.add();
+                          try {
+                            if (const auto rejection = (this->*take)(link, *message))
+                              drop(name, *rejection);
+                          } catch (const std::exception& error) {
+                            drop(name, {DropReason::kInternal, printable(error.what())});
+                          }
+                        });
+  options.callback_queue = &queue;
+  return node.subscribe(options);
+}
+
+void SceneInputs::subscribe(ros::NodeHandle private_node, ros::CallbackQueueInterface& queue) {
+  subscribers_.push_back(listen(private_node, queue, "gravity", &SceneInputs::takeGravity, 0));
+  std::set<std::string> topics;
+  for (std::size_t i = 0; i < mechanism_.links().size(); ++i) {
+    const std::string topic = "payload/" + legalTopicName(mechanism_.links()[i].name);
+    if (!topics.insert(topic).second) {
+      ROS_INFO("Link %s has no payload topic, as another one's has the same name",
+               inQuotes(mechanism_.links()[i].name).c_str());
+      continue;
+    }
+    subscribers_.push_back(
+        listen(private_node, queue, topic, &SceneInputs::takePayload, static_cast<int>(i)));
+  }
+}
+
+std::optional<Rejection> SceneInputs::takePayload(int link,
+                                                  const geometry_msgs::InertiaStamped& message) {
+  const geometry_msgs::Inertia& given = message.inertia;
+  for (const double value : {given.m, given.com.x, given.com.y, given.com.z, given.ixx, given.ixy,
+                             given.ixz, given.iyy, given.iyz, given.izz}) {
+    if (!std::isfinite(value)) {
+      return Rejection{DropReason::kNotFinite, "it has a number that is not finite"};
+    }
+  }
+  FixedFrame frame;
+  if (auto rejection =
+          findFixedFrame(mechanism_, frame_prefix_, message.header.frame_id, link, frame)) {
+    return rejection;
+  }
+  Payload payload;
+  payload.link = mechanism_.link(link).name;
+  payload.mass = given.m;
+  payload.at = frame.origin + frame.R * Eigen::Vector3d(given.com.x, given.com.y, given.com.z);
+  Eigen::Matrix3d inertia;
+  inertia << given.ixx, given.ixy, given.ixz, given.ixy, given.iyy, given.iyz, given.ixz, given.iyz,
+      given.izz;
+  payload.inertia = frame.R * inertia * frame.R.transpose();
+  const bool removed = given.m == 0;
+  if (!removed) {
+    const std::string problem = payloadProblem(payload);
+    if (!problem.empty()) return Rejection{DropReason::kNoBody, problem};
+  }
+  std::vector<Payload> payloads;
+  bool is_there = false;
+  for (const Payload& other : scene_.payloads) {
+    if (other.link != payload.link) {
+      payloads.push_back(other);
+    } else {
+      is_there = is_there || removed || sameBody(other, payload);
+    }
+  }
+  if (removed != is_there) return std::nullopt;  // as before
+  if (!removed) payloads.push_back(payload);
+  scene_.payloads = std::move(payloads);
+  changes_.push_back(
+      "link " + inQuotes(payload.link) +
+      (removed ? " carries nothing"
+               : " carries " + numberText(payload.mass) + " kg at " + textOf(payload.at) + " m"));
+  return std::nullopt;
+}
+
+std::optional<Rejection> SceneInputs::takeGravity(int,
+                                                  const geometry_msgs::Vector3Stamped& message) {
+  Eigen::Vector3d gravity(message.vector.x, message.vector.y, message.vector.z);
+  if (!gravity.allFinite()) {
+    return Rejection{DropReason::kNotFinite, "its vector is not finite"};
+  }
+  const std::string& id = message.header.frame_id;
+  if (root_.source == RootSource::kImu) {
+    return Rejection{DropReason::kUnknownFrame,
+                     "the inertial measurement unit feels gravity already"};
+  }
+  if (scene_.root_moves) {
+    if (id != root_.inertial_frame) {
+      return Rejection{DropReason::kUnknownFrame, "its frame " + inQuotes(id) +
+                                                      " is not the inertial frame " +
+                                                      inQuotes(root_.inertial_frame)};
+    }
+  } else {
+    FixedFrame frame;
+    if (auto rejection = findFixedFrame(mechanism_, frame_prefix_, id, 0, frame)) return rejection;
+    gravity = frame.R * gravity;
+  }
+  if (gravity == scene_.gravity) return std::nullopt;
+  scene_.gravity = gravity;
+  changes_.push_back("gravity is " + textOf(gravity) + " m/s^2");
+  return std::nullopt;
+}
+
+void SceneInputs::keep() {
+  kept_ = scene_;
+  // What comes at a rate, as gravity from a sensor, is said now and then.
+  if (!changes_.empty() && change_throttle_.open()) {
+    std::string text;
+    for (const std::string& change : changes_) text += (text.empty() ? "" : "; ") + change;
+    ROS_INFO("The scene has changed: %s", text.c_str());
+  }
+  changes_.clear();
+}
+
+void SceneInputs::takeBack(const std::string& why) {
+  scene_ = kept_;
+  changes_.clear();
+  ROS_ERROR("the change of payload or gravity failed, and what is computed stays as it is: %s",
+            printable(why).c_str());
+}
+
+void SceneInputs::drop(const std::string& topic, const Rejection& rejection) {
+  counters_.drop(rejection.reason, topic + ": " + rejection.text);
+  if (!drop_throttle_.open()) return;
+  ROS_WARN("%s: message dropped (%s): %s", topic.c_str(), kDropReasonNames[index(rejection.reason)],
+           rejection.text.c_str());
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,157 @@
+#!/usr/bin/python3
+"""Payloads and gravity that change while the node runs."""
+import math
+
+from geometry_msgs.msg import InertiaStamped, Vector3Stamped
+from sensor_msgs.msg import JointState
+
+from node_under_test import EPOCH, Node, NodeTest, joint_state, run, wait_until
+
+G = 9.81
+# 1 kg at 1 m below the axis y: its effort is G sin q while it rests. The flange hangs together with it, its
+# z axis along x of the bob.
+PENDULUM = """<robot name="pendulum"><link name="base"/><link name="wall"/>
+  <link name="bob"><inertial><origin xyz="0 0 -1"/><mass value="1"/>
+    <inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+  <link name="flange"/>
+  <joint name="wheel" type="continuous"><parent link="base"/><child link="bob"/><axis xyz="0 1 0"/></joint>
+  <joint name="bolts" type="fixed"><parent link="bob"/><child link="flange"/>
+    <origin xyz="0 0 -1.5" rpy="0 %r 0"/></joint>
+  <joint name="mount" type="fixed"><parent link="base"/><child link="wall"/>
+    <origin xyz="0 0 1" rpy="%r 0 0"/></joint></robot>""" % (math.pi / 2, math.pi)
+ANGLE = 0.7
+STEP = 2000000  # ns
+# Turns by quarters are of the description, with a rounding error of 1e-16 in each number.
+EXACT = 1e-14
+
+
+def payload(mass, at, frame='bob', **inertia):
+    message = InertiaStamped()
+    message.header.frame_id = frame
+    message.inertia.m = mass
+    message.inertia.com.x, message.inertia.com.y, message.inertia.com.z = at
+    for name, value in inertia.items():
+        setattr(message.inertia, name, value)
+    return message
+
+
+def gravity(vector, frame='base'):
+    message = Vector3Stamped()
+    message.header.frame_id = frame
+    message.vector.x, message.vector.y, message.vector.z = vector
+    return message
+
+
+class SceneChanges(NodeTest):
+    def start(self, scene=None, parameters=None, outputs=('effort',)):
+        self.node = Node(self, PENDULUM, dict({'scene': dict({'motion': 'static'}, **(scene or {}))},
+                                              **(parameters or {})))
+        self.efforts = self.node.record('effort', JointState)
+        self.states = self.node.feed('joint_states', JointState)
+        self.node.wait_for_plan(*outputs)
+        self.sent = 0
+
+    def change(self, topic, message):
+        """Publishes a message once the node listens; there is one publisher a topic."""
+        self.publishers = getattr(self, 'publishers', {})
+        if topic not in self.publishers:
+            self.publishers[topic] = self.node.feed('inverse_dynamics/' + topic, type(message))
+        self.publishers[topic].publish(message)
+
+    def effort(self):
+        """Of another joint state, each of which has its result."""
+        self.states.publish(joint_state(EPOCH + self.sent * STEP, {'wheel': ANGLE}))
+        self.sent += 1
+        message = self.efforts.wait(self.sent)[-1]
+        self.assertEqual(message.header.stamp.to_nsec(), EPOCH + (self.sent - 1) * STEP)
+        return message.effort[0]
+
+    def assertChanges(self, topic, message, before, after):
+        """Results are those before or those after, change once, and none is lost."""
+        self.assertClose([self.effort()], [before], EXACT, 'before')
+        self.change(topic, message)
+        found = []
+
+        def changed():
+            found.append(self.effort())
+            return abs(found[-1] - after) <= EXACT * max(1, abs(after))
+        wait_until(changed, lambda: '%r after %r, got %r' % (after, before, found[-1]))
+        self.assertClose(found[:-1], [before] * (len(found) - 1), EXACT, 'until then')
+        self.assertClose([self.effort()], [after], EXACT, 'after')
+        self.assertEqual(len(self.efforts.messages()), self.sent)
+
+    def test_payloads_and_gravity(self):
+        self.start()
+        bob = G * math.sin(ANGLE)
+        self.assertChanges('payload/bob', payload(2, (0, 0, -0.5)), bob, 2 * bob)
+        # Replaced, and by the frame of a link that hangs together with it: z of the flange is x.
+        with_flange = bob + 3 * (1.5 * math.sin(ANGLE) - 0.25 * math.cos(ANGLE)) * G
+        self.assertChanges('payload/bob', payload(3, (0, 0, 0.25), 'flange'), 2 * bob, with_flange)
+        # Another link's is added.
+        self.assertChanges('payload/flange', payload(1, (0, 0, -1), 'bob'), with_flange,
+                           with_flange + bob)
+        self.assertChanges('payload/bob', payload(0, (0, 0, 0)), with_flange + bob, 2 * bob)
+        self.assertChanges('gravity', gravity((0, 0, -1.62)), 2 * bob, 2 * 1.62 * math.sin(ANGLE))
+        # The wall's z axis points down.
+        self.assertChanges('gravity', gravity((0, 0, G), 'wall'), 2 * 1.62 * math.sin(ANGLE), 2 * bob)
+        values = self.node.wait_for_count('payloads and gravity received', 6)
+        self.assertEqual(values['dropped'], '0')
+        self.assertIn("link 'bob' carries 2 kg at [0, 0, -0.5] m", self.node.output())
+
+    def test_payloads_of_the_scene_are_replaced(self):
+        self.start({'payload': [{'link': 'bob', 'mass': 1, 'at': [0, 0, -1]}]})
+        bob = G * math.sin(ANGLE)
+        self.assertChanges('payload/bob', payload(4, (0, 0, -0.5)), 2 * bob, 3 * bob)
+
+    def test_deviations_know_of_the_change(self):
+        self.start({'tolerances': {'mass': 0.1}})
+        deviations = self.node.record('effort_tolerance', JointState)
+        self.node.wait_for_plan('effort', 'effort_tolerance')
+        bob = G * math.sin(ANGLE)
+        self.effort()
+        self.assertClose(deviations.wait(1)[-1].effort, [0.1 * bob], EXACT, 'tolerance')
+        self.assertChanges('gravity', gravity((0, 0, -2 * G)), bob, 2 * bob)
+        self.assertClose(deviations.wait(self.sent)[-1].effort, [0.2 * bob], EXACT, 'tolerance')
+
+    def test_the_same_again_is_no_change(self):
+        self.start()
+        for _ in range(5):
+            self.change('payload/bob', payload(1, (0, 0, -1)))
+            self.change('gravity', gravity((0, 0, -G)))
+        self.node.wait_for_count('payloads and gravity received', 10)
+        self.assertClose([self.effort()], [2 * G * math.sin(ANGLE)], EXACT, 'effort')
+        said = self.node.output()
+        self.assertEqual(said.count('The scene has changed'), 1, said)
+        self.assertNotIn('gravity is', said)
+
+    def test_what_is_wrong_is_dropped(self):
+        self.start()
+        before = self.effort()
+        for topic, message, reason, text in (
+                ('payload/bob', payload(-1, (0, 0, 0)), 'no such body',
+                 'mass: -1 kg is not a positive mass'),
+                ('payload/bob', payload(1, (0, 0, 0), ixx=1), 'no such body', 'inertia: '),
+                ('payload/bob', payload(float('nan'), (0, 0, 0)), 'not finite',
+                 'it has a number that is not finite'),
+                ('payload/bob', payload(1, (0, 0, 0), 'bop'), 'unknown frame',
+                 "its frame 'bop' is not a link of robot 'pendulum'; did you mean 'bob'?"),
+                ('payload/bob', payload(1, (0, 0, 0), 'wall'), 'unknown frame',
+                 "its frame 'wall' moves against link 'bob', by joint 'wheel'"),
+                ('gravity', gravity((0, 0, -G), 'bob'), 'unknown frame',
+                 "its frame 'bob' moves against the root link, by joint 'wheel'"),
+                ('gravity', gravity((0, 0, float('inf'))), 'not finite', 'its vector is not finite')):
+            count = int(self.node.diagnostics()['dropped: ' + reason])
+            self.change(topic, message)
+            values = self.node.wait_for_count('dropped: ' + reason, count + 1)
+            self.assertIn('%s/%s: %s' % (self.node.name, topic, text), values['last drop'])
+            self.assertEqual(self.effort(), before)
+
+    def test_gravity_of_a_moving_root_is_in_the_inertial_frame(self):
+        self.start({'root': 'moving'}, {'root': {'source': 'odometry'}})
+        self.change('gravity', gravity((0, 0, -1)))
+        values = self.node.wait_for_count('dropped: unknown frame', 1)
+        self.assertIn("its frame 'base' is not the inertial frame 'odom'", values['last drop'])
+
+
+if __name__ == '__main__':
+    run(SceneChanges)

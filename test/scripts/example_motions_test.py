@@ -1,0 +1,88 @@
+#!/usr/bin/python3
+"""The tables of the examples with a root that moves: as the script makes them, with feet that stand."""
+import csv
+import importlib.util
+import pathlib
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def script():
+    spec = importlib.util.spec_from_file_location("example_motions", ROOT / "scripts/example_motions.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def turn(axis, angle):
+    """Rodrigues' formula."""
+    x, y, z = axis
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+
+def vector(element, key):
+    return np.array([float(x) for x in element.get(key).split()])
+
+
+def place(urdf, link, row):
+    """Where the origin of a link of an open chain is, in inertial axes, by the joints above it."""
+    joints = {joint.find("child").get("link"): joint for joint in urdf.findall("joint")}
+    point = np.zeros(3)
+    while link in joints:
+        joint = joints[link]
+        if joint.get("type") != "fixed":
+            angle = float(row["position." + joint.get("name")])
+            point = turn(vector(joint.find("axis"), "xyz"), angle) @ point
+        point = vector(joint.find("origin"), "xyz") + point
+        link = joint.find("parent").get("link")
+    x, y, z, w = (float(row["root.orientation." + name]) for name in "xyzw")
+    axis = np.array([x, y, z])
+    point = point + 2 * np.cross(axis, np.cross(axis, point) + w * point)
+    return point + [float(row["root.position." + name]) for name in "xyz"]
+
+
+class ExampleMotions(unittest.TestCase):
+    def test_tables_are_what_the_script_makes(self):
+        examples = script()
+        for name in examples.EXAMPLES:
+            with self.subTest(example=name):
+                self.assertEqual((ROOT / "config" / (name + "_motion.csv")).read_text(), examples.table(name))
+
+    def test_tables_have_every_joint_and_end_as_they_begin(self):
+        for name, robot in (("arm_on_a_ship", "six_axis_arm"), ("balance_board", "balance_board"),
+                            ("quadruped", "quadruped")):
+            with self.subTest(example=name), open(ROOT / "config" / (name + "_motion.csv")) as file:
+                rows = list(csv.DictReader(file))
+                urdf = ElementTree.parse(ROOT / "urdf" / (robot + ".urdf")).getroot()
+                joints = {j.get("name") for j in urdf.findall("joint") if j.get("type") != "fixed"}
+                self.assertEqual({key[9:] for key in rows[0] if key.startswith("position.")}, joints)
+                for key, value in rows[0].items():
+                    if key != "time":
+                        self.assertAlmostEqual(float(value), float(rows[-1][key]), delta=2e-6, msg=key)
+
+    def test_feet_of_the_quadruped_stand_while_they_carry(self):
+        urdf = ElementTree.parse(ROOT / "urdf/quadruped.urdf").getroot()
+        with open(ROOT / "config/quadruped_motion.csv") as file:
+            rows = list(csv.DictReader(file))
+        stand = {leg: place(urdf, leg + "_foot", rows[0]) for leg in ("lf", "rf", "lh", "rh")}
+        lifts = dict.fromkeys(stand, 0.0)
+        for row in rows:
+            standing = 0
+            for leg, start in stand.items():
+                foot = place(urdf, leg + "_foot", row)
+                self.assertLess(np.abs(foot[:2] - start[:2]).max(), 1e-5, row["time"])
+                self.assertGreater(foot[2], -1e-5)
+                standing += foot[2] < 1e-5
+                lifts[leg] = max(lifts[leg], foot[2])
+            self.assertIn(standing, (2, 4), row["time"])
+        for leg, lift in lifts.items():
+            self.assertAlmostEqual(lift, 0.06, delta=1e-3, msg=leg)
+
+
+if __name__ == "__main__":
+    unittest.main()
