@@ -14,6 +14,8 @@ subscribes
   odom, multi_dof_joint_trajectory, multi_dof_joint_states, /tf, imu
                      by ~root/source                  how the root link moves, where the scene says so
   ~wrench/<name>     geometry_msgs/WrenchStamped      each live applied wrench of the scene
+  ~payload/<link>    geometry_msgs/InertiaStamped     what a link carries from now on; mass 0: nothing
+  ~gravity           geometry_msgs/Vector3Stamped     gravity from now on
 
 publishes (each only while somebody subscribes)
   ~effort            sensor_msgs/JointState           positions and velocities used, efforts
