@@ -70,7 +70,7 @@ start=$SECONDS
 build_targets() {
   {
     cmake -S . -B "$build" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release \
-      -DVWD_CORE_ONLY=ON -DBUILD_TESTING=OFF -DVWD_BUILD_FUZZERS=ON &&
+      -DVWD_CORE_ONLY=ON -DBUILD_TESTING=OFF -DVWD_BUILD_FUZZERS=ON -DVWD_JOIN_SOURCES=ON &&
       cmake --build "$build" --target "${chosen[@]/%/_fuzz}" -- -j"${JOBS:-$(nproc)}"
   } 2>&1 | tee "$found/build.log" | show_build_progress
 }

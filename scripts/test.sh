@@ -59,7 +59,7 @@ build() {
   local all=ON
   if $portable; then all=OFF; fi
   local options=(-DVWD_WARNINGS_AS_ERRORS=ON -DCATKIN_ENABLE_TESTING=ON
-    "-DVWD_PRECOMPILE_HEADERS=$all" "-DVWD_BUILD_BENCHMARKS=$all")
+    "-DVWD_PRECOMPILE_HEADERS=$all" "-DVWD_JOIN_SOURCES=$all" "-DVWD_BUILD_BENCHMARKS=$all")
   scripts/build.sh "${options[@]}" && scripts/build.sh "${options[@]}" tests
 }
 

@@ -94,6 +94,12 @@ std::string inQuotes(std::string_view name) {
   return "'" + shortened(name) + "'";
 }
 
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
 std::string namesInQuotes(const std::vector<std::string>& names) {
   if (names.empty()) return "none";
   const std::size_t count = std::min(names.size(), kMostNames);

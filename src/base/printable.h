@@ -16,6 +16,9 @@ std::string shortened(std::string_view name);
 /// A shortened() name in single quotes.
 std::string inQuotes(std::string_view name);
 
+/// Words with commas between them.
+std::string joined(const std::vector<std::string>& words);
+
 /// Names as "'a', 'b' and 3 more", cut after a few; "none" when there are none.
 std::string namesInQuotes(const std::vector<std::string>& names);
 

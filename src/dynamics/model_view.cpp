@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 constexpr double kStandardGravity = 9.80665;  // m/s^2
 constexpr double kYaw = 0.8, kPitch = 0.35;   // rad
 constexpr double kSame = 1e-6;                // directions that differ by less are the same
-constexpr double kTurn =
+constexpr double kViewTurn =
     0.6;  // rad that joints of an open chain turn to either side, to be in view
 constexpr double kCell = 0.2;  // of a grid, of the size
 // A force below this part of the weight, a moment below this part of force times size, is nothing.
@@ -140,7 +140,7 @@ Eigen::VectorXd startOf(const Mechanism& mechanism, const Dynamics& dynamics) {
 void setBox(const Mechanism& mechanism, const Scene& scene, const Eigen::VectorXd& start,
             bool closed, LinkPoints& points, ModelView& view) {
   if (!closed) {
-    for (const double angle : {-kTurn, kTurn}) {
+    for (const double angle : {-kViewTurn, kViewTurn}) {
       points.setPosition(turned(mechanism, angle));
       points.addTo(view.box, scene);
     }

@@ -13,7 +13,7 @@ namespace virtual_work_dynamics {
 namespace {
 
 // What is open by less, m or rad, counts as closed, so that the position or the rates are at fault.
-constexpr double kClosed = 1e-9;
+constexpr double kClosedTogether = 1e-9;
 
 }  // namespace
 
@@ -104,7 +104,7 @@ std::string GivenLoops::whyOpen(const Eigen::VectorXd& q) {
     open = amount;
     worst = s;
   }
-  if (open <= kClosed * std::max(1.0, completion_.length())) {
+  if (open <= kClosedTogether * std::max(1.0, completion_.length())) {
     return determine(q) ? kContradiction : kSingularPosition;
   }
   const bool closure = worst < closure_names_.size();

@@ -16,9 +16,9 @@ using Matrix3 = Eigen::Matrix3d;
 using Vector3 = Eigen::Vector3d;
 
 // Misfit below which Newton's method on the conditions themselves finds the rest of the way.
-constexpr double kClosed = 1e-11;
+constexpr double kClosedMisfit = 1e-11;
 // Longest step of a coordinate, rad or of the length: short, so that the way is nearly continuous.
-constexpr double kLongestStep = 0.15;
+constexpr double kLongestSearchStep = 0.15;
 constexpr int kMostSteps = 200;
 // Damping: of the squares of unit columns, at first, at least, and where a descent has failed.
 constexpr double kDamping = 1e-4, kLeastDamping = 1e-14, kMostDamping = 1e8;
@@ -29,7 +29,7 @@ constexpr double kNear = 0.02;
 constexpr int kAttempts = 32, kFewAttempts = 4;
 constexpr std::size_t kManyCoordinates = 60;
 // Where nothing is closed yet, they set out from up to so far.
-constexpr double kDisplacement = 1.5;
+constexpr double kLargestDisplacement = 1.5;
 // Squared sine below which two directions count as parallel.
 constexpr double kParallel = 1e-24;
 
@@ -71,7 +71,7 @@ struct NearestClosing::System {
 
 // A closed attempt is better than an open one, then that which moved less.
 bool NearestClosing::Attempt::better(const Attempt& other) const {
-  const bool closed = misfit <= kClosed, other_closed = other.misfit <= kClosed;
+  const bool closed = misfit <= kClosedMisfit, other_closed = other.misfit <= kClosedMisfit;
   if (closed != other_closed) return closed;
   return closed ? moved < other.moved : misfit < other.misfit;
 }
@@ -196,7 +196,7 @@ NearestClosing::Attempt NearestClosing::descend(const LoopGroup& group,
   kinematics_.setPosition(attempt.q);
   setSystem(group, moving, now);
   double damping = kDamping;
-  for (int steps = 0; steps < kMostSteps && now.misfit() > kClosed / 1e3; ++steps) {
+  for (int steps = 0; steps < kMostSteps && now.misfit() > kClosedMisfit / 1e3; ++steps) {
     const auto J = now.J.topRows(now.rows);
     const Eigen::MatrixXd squares = J.transpose() * J;
     const Eigen::VectorXd slope = -(J.transpose() * now.misfits.head(now.rows));
@@ -206,7 +206,7 @@ NearestClosing::Attempt NearestClosing::descend(const LoopGroup& group,
       damped.diagonal().array() += damping;
       Eigen::VectorXd step = damped.ldlt().solve(slope);
       const double longest = width > 0 ? step.cwiseAbs().maxCoeff() : 0;
-      if (longest > kLongestStep) step *= kLongestStep / longest;
+      if (longest > kLongestSearchStep) step *= kLongestSearchStep / longest;
       Eigen::VectorXd tried = attempt.q;
       for (Eigen::Index k = 0; k < width; ++k) {
         const int coordinate = moving[static_cast<std::size_t>(k)];
@@ -243,12 +243,12 @@ bool NearestClosing::closeGroup(const LoopGroup& group, Eigen::VectorXd& q,
   const Eigen::VectorXd start = q;
   Attempt best = descend(group, start, start, moving);
   const bool many = scales_.size() > kManyCoordinates;
-  const int attempts = many && best.misfit <= kClosed ? 0 : many ? kFewAttempts : kAttempts;
+  const int attempts = many && best.misfit <= kClosedMisfit ? 0 : many ? kFewAttempts : kAttempts;
   Eigen::VectorXd shares(moving.size());
-  for (int i = 0; i < attempts && (best.misfit > kClosed || best.moved > kNear); ++i) {
+  for (int i = 0; i < attempts && (best.misfit > kClosedMisfit || best.moved > kNear); ++i) {
     // A nearer solution lies within the distance of the one at hand. Directions do not repeat.
-    const double reach =
-        best.misfit > kClosed ? kDisplacement : std::min(kDisplacement, best.moved);
+    const double reach = best.misfit > kClosedMisfit ? kLargestDisplacement
+                                                     : std::min(kLargestDisplacement, best.moved);
     for (Eigen::Index k = 0; k < shares.size(); ++k) {
       shares[k] = std::sin(1.0 + 2.1 * static_cast<double>(k) + 3.7 * i);
     }
@@ -261,7 +261,7 @@ bool NearestClosing::closeGroup(const LoopGroup& group, Eigen::VectorXd& q,
     if (attempt.better(best)) best = attempt;
   }
   q = best.q;
-  return best.misfit <= kClosed;
+  return best.misfit <= kClosedMisfit;
 }
 
 bool NearestClosing::close(Eigen::VectorXd& q, const std::vector<bool>& given) {

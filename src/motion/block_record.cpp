@@ -7,7 +7,6 @@
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr double kBlockTime = 0.002;  // s
 /// Time that the blocks of slow streams go back, s, but so many blocks of any.
 constexpr double kLongest = 6;
 constexpr std::size_t kFewestKept = 768;

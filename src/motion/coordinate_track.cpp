@@ -32,11 +32,10 @@ constexpr double kFoundModel = 1.21;
 
 /// Later samples after which a sample is recorded.
 constexpr int kSettled = 4;
-constexpr double kTwoPi = 6.283185307179586;
 /// Steps that jump to and fro: how long they are at least, rad or m, and by how little the position
 /// before the last one differs.
 constexpr double kLongJump = 0.01;
-constexpr double kReturn = 0.2;
+constexpr double kJumpReturn = 0.2;
 /// Steps in which the digits of positions are lost, rad or m.
 constexpr double kAbsurdStep = 1e9;
 
@@ -329,7 +328,8 @@ void CoordinateTrack::noteNoise(int age) {
 void CoordinateTrack::noteJump() {
   if (samples_.size() < 3) return;
   const double step = std::abs(moved(samples_[1], samples_[0]));
-  const bool jump = step > kLongJump && std::abs(moved(samples_[2], samples_[0])) < kReturn * step;
+  const bool jump =
+      step > kLongJump && std::abs(moved(samples_[2], samples_[0])) < kJumpReturn * step;
   jumps_ = jump ? std::min(jumps_ + 1, 2 * kManyJumps) : std::max(jumps_ - 1, 0);
 }
 
@@ -370,7 +370,7 @@ StreamQuality CoordinateTrack::quality() const {
   quality.velocity_noise = model().usesVelocities() ? std::sqrt(model().velocity_variance) : -1;
   quality.stamp_noise = std::sqrt(model().stamp_variance);
   if (quality.interval > 0)
-    quality.bandwidth = 1 / (kTwoPi * timeConstant(model(), kOrder, quality.interval));
+    quality.bandwidth = bandwidthOf(timeConstant(model(), kOrder, quality.interval));
   quality.velocity_ratio = learner_.velocityRatio();
   quality.jumps = begun_;
   quality.left_out = left_out_;

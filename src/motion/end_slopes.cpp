@@ -12,7 +12,7 @@ using Eigen::Index;
 
 constexpr Index kMostRows = 5;
 /// A slope that is less than this many times its uncertainty may as well be noise at rest.
-constexpr double kCertain = 3;
+constexpr double kCertainSlope = 3;
 
 // The slope of the polynomial through the first rows, or counted from the end the last ones, in
 // Newton's form: each further row adds the divided difference up to it, times the product of the
@@ -38,7 +38,7 @@ double slopeAt(bool at_end, const MotionTable& table, Index column) {
     correction = difference[order] * product;
     slope += correction;
   }
-  return std::abs(slope) > kCertain * std::abs(correction) ? slope : 0;
+  return std::abs(slope) > kCertainSlope * std::abs(correction) ? slope : 0;
 }
 
 }  // namespace

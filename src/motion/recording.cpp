@@ -14,8 +14,6 @@
 namespace virtual_work_dynamics {
 namespace {
 
-/// Time from block to block that models are found from, s, unless samples come more slowly.
-constexpr double kBlockTime = 0.002;
 /// Blocks that models are found from: where there are more, stretches of them spread evenly.
 constexpr std::size_t kMostBlocks = 16384;
 constexpr std::size_t kStretch = 2048;
@@ -29,7 +27,6 @@ struct OtherOrder {
   double margin;
 };
 constexpr OtherOrder kOtherOrders[] = {{3, 100}, {5, 10}, {6, 20}};
-constexpr double kTwoPi = 6.283185307179586;
 
 std::vector<StreamBlock> spread(std::vector<StreamBlock> blocks) {
   if (blocks.size() <= kMostBlocks) return blocks;
@@ -97,7 +94,7 @@ void Recording::prepare(RecordedStream& stream) const {
   knowledge.velocity_noise = settings_.noise.velocity_noise;
   knowledge.stamp_noise = settings_.noise.stamp_noise;
   if (settings_.noise.bandwidth > 0)
-    knowledge.time_constant = 1 / (kTwoPi * settings_.noise.bandwidth);
+    knowledge.time_constant = bandwidthOf(settings_.noise.bandwidth);
   knowledge.longest_gap = longest_gap_;
   knowledge.rules = IdentificationRules::ofRecordings();
   findFarPositions(stream);
@@ -266,7 +263,7 @@ StreamQuality Recording::quality(std::size_t stream) const {
   quality.position_noise = std::sqrt(model.position_variance);
   quality.velocity_noise = model.usesVelocities() ? std::sqrt(model.velocity_variance) : -1;
   quality.stamp_noise = std::sqrt(model.stamp_variance);
-  quality.bandwidth = 1 / (kTwoPi * timeConstant(model, chosen.knowledge.order, interval_));
+  quality.bandwidth = bandwidthOf(timeConstant(model, chosen.knowledge.order, interval_));
   quality.velocity_ratio = chosen.velocity_ratio;
   quality.jumps = static_cast<int>(chosen.jumps.size());
   quality.left_out = static_cast<int>(chosen.left_out.size());

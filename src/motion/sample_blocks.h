@@ -14,6 +14,9 @@ inline double secondsBetween(std::int64_t from, std::int64_t to) {
   return static_cast<double>(to - from) * 1e-9;
 }
 
+/// Time from block to block that models are found from, s, unless samples come more slowly.
+constexpr double kBlockTime = 0.002;
+
 /// Number of samples in blocks that are about `block_time` long, s; at least one.
 int blockSize(double block_time, double interval);
 

@@ -42,7 +42,6 @@ constexpr std::size_t kBlocksOfRest = 4 * StreamIdentification::kFewest;
 /// rest it has no effect, and where a joint sets off it would explain the acceleration.
 constexpr int kBlocksAtSpeed = 64;
 constexpr double kStepsAtSpeed = 3;
-constexpr double kTwoPi = 6.283185307179586;
 
 /// Time constant before anything is learnt of the motion, s.
 double firstTime(double position_noise, double interval, bool follow) {
@@ -89,7 +88,7 @@ void StreamLearner::assume(const ShownNoise& shown, double interval) {
   knowledge.stamp_noise = settings_.stamp_noise;
   knowledge.use_velocities = false;
   const double noise = std::max(knowledge.position_noise, knowledge.least_position);
-  knowledge.time_constant = settings_.bandwidth > 0 ? 1 / (kTwoPi * settings_.bandwidth)
+  knowledge.time_constant = settings_.bandwidth > 0 ? bandwidthOf(settings_.bandwidth)
                                                     : firstTime(noise, interval, shown.ofMotion());
   model_ = unlearnt(knowledge, interval);
 }
@@ -160,7 +159,7 @@ void StreamLearner::startIdentification(double least_position, double interval) 
     wanted_blocks_ = StreamIdentification::kFewest;
   }
   if (settings_.bandwidth > 0) {
-    known.time_constant = 1 / (kTwoPi * settings_.bandwidth);
+    known.time_constant = bandwidthOf(settings_.bandwidth);
   } else if (travel.range < kMovingSteps * deviation) {
     // At rest noise can be learnt, but not how fast the joint will move; nor shall that wait behind
     // the rest.

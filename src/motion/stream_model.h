@@ -33,4 +33,10 @@ inline double densityFor(double time_constant, double position_variance, int ord
   return position_variance * interval / std::pow(time_constant, 2 * order);
 }
 
+/// The bandwidth, Hz, that belongs to a time constant, s; and the other way round.
+inline double bandwidthOf(double time_constant) {
+  constexpr double kTwoPi = 6.283185307179586;
+  return 1 / (kTwoPi * time_constant);
+}
+
 }  // namespace virtual_work_dynamics

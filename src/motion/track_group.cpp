@@ -7,7 +7,7 @@ namespace virtual_work_dynamics {
 namespace {
 
 /// Samples one after the other that are behind the newest before time is taken to have gone back.
-constexpr int kPatience = 10;
+constexpr int kMostBehind = 10;
 
 }  // namespace
 
@@ -20,7 +20,7 @@ TrackGroup::TrackGroup(std::size_t coordinates, const EstimatorSettings& setting
 }
 
 bool TrackGroup::startsWith(std::int64_t stamp_ns) const {
-  return empty() || last() - stamp_ns > max_gap_ns_ || behind_ >= kPatience;
+  return empty() || last() - stamp_ns > max_gap_ns_ || behind_ >= kMostBehind;
 }
 
 TrackGroup::Verdict TrackGroup::push(std::int64_t stamp_ns, const double* values,

@@ -16,12 +16,6 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-std::string joined(const Names& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 // Widens the covariances, like the table.
 void widenCovariances(const Mechanism& mechanism, MotionTable& table) {
   const Names& all = mechanism.coordinateNames();

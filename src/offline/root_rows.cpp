@@ -16,12 +16,6 @@ namespace {
 // Digits of single precision are no reason to warn.
 constexpr double kSinglePrecision = 1e-6;
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
-  return text;
-}
-
 }  // namespace
 
 void checkRoots(const Scene& scene, const MotionFile& file) {

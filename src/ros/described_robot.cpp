@@ -13,7 +13,7 @@ namespace virtual_work_dynamics {
 
 std::optional<Mechanism> describedRobot(const ros::NodeHandle& private_node) {
   std::string key, description;
-  if (!private_node.searchParam("robot_description", key)) return std::nullopt;
+  if (!private_node.searchParam(kRobotDescription, key)) return std::nullopt;
   if (!private_node.getParam(key, description)) return std::nullopt;
   try {
     return readUrdf(description);

@@ -10,6 +10,9 @@ class NodeHandle;
 
 namespace virtual_work_dynamics {
 
+/// The parameter that has the text of a description.
+constexpr char kRobotDescription[] = "robot_description";
+
 /// The robot of robot_description, which is searched upwards from the private namespace, for a node
 /// that can do without it: nothing when there is none, or, with a warning, when it is broken.
 /// @param private_node the handle NodeHandle("~").

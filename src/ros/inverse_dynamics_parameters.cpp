@@ -7,6 +7,7 @@
 
 #include "base/number_text.h"
 #include "base/printable.h"
+#include "ros/described_robot.h"
 #include "ros/private_name.h"
 #include "ros/private_parameters.h"
 #include "ros/scene_parameter.h"
@@ -15,8 +16,6 @@
 
 namespace virtual_work_dynamics {
 namespace {
-
-constexpr char kRobotDescription[] = "robot_description";
 
 void readRobotDescription(const ros::NodeHandle& node, InverseDynamicsParameters& parameters) {
   std::string& key = parameters.robot_description_key;

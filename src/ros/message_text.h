@@ -21,6 +21,11 @@ std::string shortList(const Names& names) {
   return text;
 }
 
+/// What a point of a trajectory is called: they count from 1.
+inline std::string pointText(std::size_t point) {
+  return "point " + std::to_string(point + 1);
+}
+
 /// A stamp in seconds with all nine decimals.
 inline std::string stampText(std::int64_t stamp_ns) {
   std::string fraction = std::to_string(stamp_ns % 1000000000);

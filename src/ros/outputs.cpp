@@ -33,7 +33,7 @@ std::size_t placeOf(const std::string& name, const Names& names) {
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
 
-std::vector<std::size_t> placesOf(const Names& wanted, const Names& names) {
+std::vector<std::size_t> placesIn(const Names& wanted, const Names& names) {
   std::unordered_map<std::string, std::size_t> place_of;
   for (const std::string& name : names) place_of.emplace(name, place_of.size());
   std::vector<std::size_t> places;
@@ -156,7 +156,7 @@ class ReactionsMessage : public MessageOf<sensor_msgs::MultiDOFJointState> {
  public:
   ReactionsMessage(const Dynamics& plan, const Names& reactions, const std::string& frame,
                    bool twist)
-      : names_(reactions), places_(placesOf(reactions, plan.request().root_axes)), twist_(twist) {
+      : names_(reactions), places_(placesIn(reactions, plan.request().root_axes)), twist_(twist) {
     message_.header.frame_id = frame;
     message_.joint_names = names_;
     resize(names_.size());
@@ -265,8 +265,8 @@ class DeterminacyOutputMessage : public OutputMessage {
  public:
   DeterminacyOutputMessage(const Dynamics& plan, const Names& reactions,
                            std::shared_ptr<DeterminacyMessage> message)
-      : root_places_(placesOf(reactions, plan.request().root_axes)),
-        child_places_(placesOf(reactions, plan.request().child_axes)),
+      : root_places_(placesIn(reactions, plan.request().root_axes)),
+        child_places_(placesIn(reactions, plan.request().child_axes)),
         message_(std::move(message)) {}
 
   void fill(const OutputSample& sample) override {

@@ -46,10 +46,6 @@ std::optional<Rejection> readTwist(const geometry_msgs::Twist& message, const st
   return readVector(message.angular, what + ".angular", angular);
 }
 
-std::string pointText(std::size_t point) {
-  return "point " + std::to_string(point + 1);
-}
-
 Rejection wrongLength(const std::string& whose, std::size_t values, const char* what,
                       std::size_t names) {
   return {DropReason::kArrayLength, whose + " has " + std::to_string(values) + " " + what +

@@ -111,7 +111,7 @@ YAML::Node markersOf(const RvizScene& scene) {
   return display;
 }
 
-YAML::Node parsed(const std::string& text, const std::string& source) {
+YAML::Node parsedTemplate(const std::string& text, const std::string& source) {
   try {
     YAML::Node config = YAML::Load(text);
     const YAML::Node displays = config["Visualization Manager"]["Displays"];
@@ -126,7 +126,7 @@ YAML::Node parsed(const std::string& text, const std::string& source) {
 
 std::string rvizConfiguration(const std::string& rviz_template, const std::string& source,
                               const RvizScene& scene) {
-  YAML::Node config = parsed(rviz_template, source);
+  YAML::Node config = parsedTemplate(rviz_template, source);
   try {
     YAML::Node manager = config["Visualization Manager"];
     YAML::Node displays(YAML::NodeType::Sequence), sample;

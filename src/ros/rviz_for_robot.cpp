@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "base/text_file.h"
+#include "ros/described_robot.h"
 #include "ros/private_parameters.h"
 #include "ros/rviz_configuration.h"
 #include "ros/rviz_for_robot_usage.h"
@@ -31,7 +32,6 @@ namespace {
 
 // Bytes, beyond configurations with thousands of displays.
 constexpr std::size_t kLongestTemplate = std::size_t{64} << 20;
-constexpr char kRobotDescription[] = "robot_description";
 constexpr char kDefaultTemplate[] = "config/inverse_dynamics.rviz";
 
 class UsageError : public Error {

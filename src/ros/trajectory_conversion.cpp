@@ -27,10 +27,6 @@ constexpr std::int64_t kNanosecondsPerSecond = 1000000000;
 constexpr std::int64_t kLastStamp =
     (std::int64_t{std::numeric_limits<std::uint32_t>::max()} + 1) * kNanosecondsPerSecond - 1;
 
-std::string pointText(std::size_t point) {
-  return "point " + std::to_string(point + 1);
-}
-
 std::string secondsText(std::int64_t nanoseconds) {
   return numberText(static_cast<double>(nanoseconds) / kNanosecondsPerSecond) + " s";
 }

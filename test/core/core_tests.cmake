@@ -5,12 +5,14 @@
 
 include(test/core/core_test_files.cmake)
 include(test/core/real_113.cmake)
-vwd_add_objects(core_test_objects OBJECT ${core_test_files})
 # GCC 12 forgets that a precompiled header is the system's, and warns of strings there where it is wrong.
-set_source_files_properties(
+set(without_precompiled_headers
   test/core/dirty_faults.cpp test/core/instruction_set_test.cpp
-  test/core/offline_certificates_test.cpp test/core/offline_plan_test.cpp
-  PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  test/core/offline_certificates_test.cpp test/core/offline_plan_test.cpp)
+set_source_files_properties(${without_precompiled_headers} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+list(REMOVE_ITEM core_test_files ${without_precompiled_headers})
+vwd_joined_tests(core_test_files ${core_test_files})
+vwd_add_objects(core_test_objects OBJECT ${core_test_files} ${without_precompiled_headers})
 vwd_precompile(core_test_objects <Eigen/Core> <functional> <gtest/gtest.h> <string> <vector>)
 set(core_test_objects $<TARGET_OBJECTS:core_test_objects> $<TARGET_OBJECTS:core_oracles>
   $<TARGET_OBJECTS:stability_scenes>)
@@ -36,6 +38,8 @@ set(sanitized_tool offline_tool_of_sanitized_tests)  # what has "test" in its na
 add_library(${sanitized_library} SHARED ${core_files})
 add_executable(${sanitized_tool} src/inverse_dynamics_offline_main.cpp ${offline_files})
 vwd_link_core(${sanitized_library} ${sanitized_tool})
+vwd_join(${sanitized_library})
+vwd_join(${sanitized_tool})
 add_executable(sanitized_core_tests ${core_test_files_of_build} ${core_test_objects})
 target_compile_definitions(sanitized_core_tests PRIVATE VWD_SANITIZED)
 target_include_directories(sanitized_core_tests PRIVATE src test/core)

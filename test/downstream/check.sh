@@ -72,7 +72,7 @@ run_below() {
 
 core() {
   local build=$folder/build prefix=$folder/installed moved=$folder/elsewhere/moved version
-  cmake -S "$repository" -B "$build" -DVWD_CORE_ONLY=ON -DBUILD_TESTING=OFF \
+  cmake -S "$repository" -B "$build" -DVWD_CORE_ONLY=ON -DBUILD_TESTING=OFF -DVWD_JOIN_SOURCES=ON \
     -DCMAKE_INSTALL_PREFIX="$prefix" \
     "-DCMAKE_CXX_COMPILER_LAUNCHER=$repository/test/downstream/reuse_object.sh;$workspace/build/virtual_work_dynamics"
   cmake --build "$build" --target install -- -j"${JOBS:-$(nproc)}"

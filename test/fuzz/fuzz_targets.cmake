@@ -12,6 +12,7 @@ set(fuzz_options -O1 -g1 -UNDEBUG -D_GLIBCXX_ASSERTIONS -fno-omit-frame-pointer
   -DEIGEN_MALLOC_ALREADY_ALIGNED=1)
 set(fuzzed_library ${PROJECT_NAME}_fuzzed)
 add_library(${fuzzed_library} STATIC EXCLUDE_FROM_ALL ${core_files})
+vwd_join(${fuzzed_library})
 target_compile_options(${fuzzed_library} PRIVATE ${fuzz_options} -fsanitize=fuzzer-no-link)
 
 # vwd_add_fuzz_target(<name> <more sources>...)
