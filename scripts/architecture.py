@@ -24,7 +24,8 @@ MAY_INCLUDE = {
     "loops": {"base", "algebra", "robot", "motion", "scene", "results", "tree"},
     "witness": {"base", "robot", "motion", "scene", "results"},
     "dynamics": {"base", "robot", "motion", "scene", "results", "tree", "loops", "witness"},
-    "offline": {"base", "robot", "motion", "scene", "results", "witness", "dynamics"},
+    "bag": {"base"},
+    "offline": {"base", "robot", "motion", "scene", "results", "witness", "dynamics", "bag"},
     "ros": {"base", "robot", "motion", "scene", "results", "witness", "dynamics"},
     "programs": {"base", "offline", "ros"},
 }

@@ -22,6 +22,7 @@ namespace virtual_work_dynamics {
 namespace {
 
 constexpr char kTime[] = "time";
+constexpr char kStamp[] = "stamp";  // of results of a bag
 constexpr std::array<const char*, 3> kKinds{"position", "velocity", "acceleration"};
 // Columns that recordings and results have besides, and that no motion is read from.
 constexpr std::array<const char*, 7> kIgnored{"effort",    "reaction", "determined", "deviation",
@@ -146,8 +147,9 @@ class CsvReader {
   }
 
   void checkKind(std::size_t column, const std::string& column_name) const {
-    if (column_name == kTime || isOf(kKinds, column_name) || isOf(kIgnored, column_name) ||
-        !wrenchOf(column_name).empty() || isRootColumn(column_name)) {
+    if (column_name == kTime || column_name == kStamp || isOf(kKinds, column_name) ||
+        isOf(kIgnored, column_name) || !wrenchOf(column_name).empty() ||
+        isRootColumn(column_name)) {
       return;
     }
     throw FileError(atCell(header_line_, column) + ": " + inQuotes(column_name) +

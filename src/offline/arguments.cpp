@@ -17,7 +17,7 @@ namespace {
 constexpr char kHelp[] =
     R"(inverse_dynamics_offline: active efforts and joint reactions of a recorded motion
 
-  inverse_dynamics_offline --urdf ROBOT.urdf --motion MOTION.csv [options]
+  inverse_dynamics_offline --urdf ROBOT.urdf --motion MOTION.csv|BAG... [options]
   inverse_dynamics_offline --urdf ROBOT.urdf --check [options]
   inverse_dynamics_offline --urdf ROBOT.urdf --explain [options]
 
@@ -31,6 +31,11 @@ Input
                         others: the actuated ones, or any other choice, free axes of closures
                         (position.<closure>) and poses of links (position.pose.<link>.x, y, z, qx,
                         qy, qz, qw, in axes of the root link) included. - reads standard input.
+  --motion BAG...       motion as a bag of ROS 1, or the parts that rosbag split it into: a row for
+                        each sensor_msgs/JointState that has all joints. The result has their stamps
+                        in a column stamp (s, all nanoseconds), and times from the first one on. A bag
+                        that is damaged or was not closed gives what can be read of it.
+  --topic NAME          topic of the joint states in the bag (default: the only one, or /joint_states)
   --scene FILE          scene file (YAML); the options below override it
 
 How missing derivatives are estimated
@@ -41,8 +46,8 @@ How missing derivatives are estimated
   --lag S               estimates each row from the rows up to S seconds after it, as
                         inverse_dynamics_node does (default: from all rows)
   --max-gap S           nothing is assumed of the motion across longer gaps (default: 0.25)
-  --rest JOINT=X        position, rad or m, of a joint that the motion does not have; several
-                        separated by commas
+  --rest JOINT=X        position, rad or m, of a joint that the motion does not have, or that a bag
+                        has in messages of its own; several separated by commas
 
 What is computed
   --gravity "X Y Z"     gravity in axes of a root link that rests, m/s^2 (default: 0 0 -9.81)
@@ -97,6 +102,8 @@ Example
   inverse_dynamics_offline --urdf arm.urdf --motion swing.csv --gravity "0 0 -9.81" \
     --reactions shoulder,ground --axes child --output swing_loads.csv
 )";
+
+constexpr char kBag[] = ".bag";
 
 // Cuts a text at each separator; blanks around the pieces are removed.
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -205,8 +212,11 @@ using Setter = std::function<void(const std::string& value, Arguments& arguments
 const std::map<std::string, Setter>& optionsWithValue() {
   static const std::map<std::string, Setter> options{
       {"--urdf", [](const auto& value, auto& arguments) { arguments.urdf = value; }},
-      {"--motion", [](const auto& value,
-                      auto& arguments) { arguments.motion = value == "-" ? "/dev/stdin" : value; }},
+      {"--motion",
+       [](const auto& value, auto& arguments) {
+         arguments.motion.files.push_back(value == "-" ? "/dev/stdin" : value);
+       }},
+      {"--topic", [](const auto& value, auto& arguments) { arguments.motion.topic = value; }},
       {"--scene", [](const auto& value, auto& arguments) { arguments.scene = value; }},
       {"--output", [](const auto& value, auto& arguments) { arguments.output = value; }},
       {"--gravity",
@@ -296,9 +306,11 @@ class Parser {
     const auto with_value = optionsWithValue().find(option);
     const auto without_value = switches().find(option);
     if (with_value == optionsWithValue().end() && without_value == switches().end()) {
+      if (isPart(word)) return arguments_.motion.files.push_back(word);
       if (word.compare(0, 1, "-") != 0) throw UsageError("unexpected argument " + inQuotes(word));
       throw UsageError("unknown option " + inQuotes(option) + optionHelp(option));
     }
+    latest_ = option;
     if (!seen_.insert(option).second) throw UsageError(option + " is given twice");
     if (without_value != switches().end()) {
       if (has_value) throw UsageError(option + " takes no value");
@@ -308,6 +320,13 @@ class Parser {
       if (value.empty()) throw UsageError(option + " needs a value");
       with_value->second(value, arguments_);
     }
+  }
+
+  // A shell makes `--motion run_0.bag run_1.bag` of `--motion run_*.bag`.
+  bool isPart(const std::string& word) const {
+    constexpr std::size_t kLength = sizeof kBag - 1;
+    return latest_ == "--motion" && word.size() > kLength && word[0] != '-' &&
+           word.compare(word.size() - kLength, kLength, kBag) == 0;
   }
 
   std::string nextValue(const std::string& option) {
@@ -321,6 +340,7 @@ class Parser {
   const std::vector<std::string>& words_;
   std::size_t next_ = 0;
   std::set<std::string> seen_;
+  std::string latest_;  // option
   Arguments arguments_;
 };
 
@@ -332,6 +352,9 @@ Arguments parseArguments(const std::vector<std::string>& words) {
   if (arguments.urdf.empty()) throw UsageError("--urdf FILE is missing");
   if (arguments.motion.empty() && !arguments.check && !arguments.explain) {
     throw UsageError("--motion FILE is missing (only --check and --explain need none)");
+  }
+  if (!arguments.motion.topic.empty() && arguments.motion.empty()) {
+    throw UsageError("--topic is of use with --motion BAG only");
   }
   if (arguments.deviation_warn && !arguments.deviations) {
     throw UsageError("--deviation-warn is of use with --deviations only");

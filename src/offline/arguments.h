@@ -31,7 +31,7 @@ constexpr double kLoopTolerance = 1e-6;
 /// empty.
 struct Arguments {
   std::string urdf;
-  std::string motion;
+  MotionSource motion;
   std::string scene;
   std::string output;                      ///< empty: standard output
   std::optional<Eigen::Vector3d> gravity;  ///< m/s^2, inertial axes; replaces the scene's

@@ -102,7 +102,9 @@ void refuseByLoops(const Arguments& arguments, bool loops) {
 
 void refuseToOverwriteInput(const Arguments& arguments) {
   if (arguments.output.empty()) return;
-  for (const std::string& input : {arguments.urdf, arguments.motion, arguments.scene}) {
+  std::vector<std::string> inputs = arguments.motion.files;
+  inputs.insert(inputs.end(), {arguments.urdf, arguments.scene});
+  for (const std::string& input : inputs) {
     if (input.empty()) continue;
     std::error_code missing;  // a missing file cannot be overwritten
     if (std::filesystem::equivalent(input, arguments.output, missing)) {
@@ -157,7 +159,7 @@ RecordedMotion readStart(const Arguments& arguments, const Mechanism& mechanism,
   try {
     scene = startedBy(mechanism, scene, recorded.start(mechanism));
   } catch (const GivenError& error) {
-    throw FileError(arguments.motion + ": " + error.problem());
+    throw FileError(arguments.motion.name() + ": " + error.problem());
   } catch (const AssemblyError& error) {
     if (!GivenJoints::givesAll(recorded.given)) {
       throw AssemblyError(prefixOf(arguments) + error.what());
@@ -235,6 +237,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   std::optional<LagrangeRows> lagrange;
   if (arguments.method == Method::kLagrange) lagrange.emplace(mechanism, dynamics);
   Columns columns = columnsOf(dynamics, written, arguments);
+  columns.stamps = !recorded.file.stamps_ns.empty();
   RecordingOptions recording = arguments.recording;
   recording.completion.covariances = arguments.deviations;
   CompletedMotion motion(std::move(recorded), mechanism, scene, dynamics, toleranceOf(arguments),
@@ -242,7 +245,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   const RowLoads loads(scene, motion.file());
   std::optional<DeviationRows> deviations;
   if (arguments.deviations) {
-    deviations.emplace(mechanism, scene, written, motion.file().table, arguments.motion);
+    deviations.emplace(mechanism, scene, written, motion.file().table, arguments.motion.name());
     const Names more = deviations->columns(columns);
     columns.more.insert(columns.more.end(), more.begin(), more.end());
   }
@@ -265,11 +268,13 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   }
   std::cerr << warning;
   if (certified) {
-    std::cerr << "note: " << arguments.motion
-              << ": certificates judge arithmetic, not input: " << certified->summary() << "\n";
+    std::cerr << "note: " << printable(arguments.motion.name())
+              << ": certificates judge arithmetic, not input: "
+              << certified->summary(motion.file().row_name) << "\n";
   }
   if (deviations && scene.root_moves) {
-    std::cerr << "note: " << arguments.motion << ": deviations take the root's motion as exact\n";
+    std::cerr << "note: " << printable(arguments.motion.name())
+              << ": deviations take the root's motion as exact\n";
   }
   if (deviations) std::cerr << deviations->notes(arguments.deviation_warn.value_or(kDeviationWarn));
   writer.finish();

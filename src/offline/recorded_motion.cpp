@@ -189,13 +189,15 @@ MotionStart RecordedMotion::start(const Mechanism& mechanism) const {
   return start;
 }
 
-RecordedMotion readRecordedMotion(const std::string& path, const Mechanism& mechanism,
+RecordedMotion readRecordedMotion(const MotionSource& source, const Mechanism& mechanism,
                                   const Scene& scene, const RecordingOptions& options) {
   checkRest(mechanism, options);
   RecordedMotion motion;
   Choice choice(mechanism, scene, options, motion);
+  MotionSource taken = source;
+  for (const auto& joint : options.rest) taken.left_out.push_back(joint.first);
   motion.file =
-      readMotion(path, mechanism, [&](const Names& header) { return choice.choose(header); });
+      readMotion(taken, mechanism, [&](const Names& header) { return choice.choose(header); });
   const NameSet given(motion.file.table.joints.begin(), motion.file.table.joints.end());
   for (const auto& joint : options.rest) {
     if (given.count(joint.first) == 0) motion.resting.push_back(joint);

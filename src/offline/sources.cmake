@@ -1,12 +1,15 @@
 set(offline_files)
 foreach(file
     arguments.cpp
+    bag_motion.cpp
+    bag_topic.cpp
     certified_rows.cpp
     check_report.cpp
     completed_motion.cpp
     computation.cpp
     deviation_rows.cpp
     lagrange_rows.cpp
+    joint_state_rows.cpp
     loop_report.cpp
     motion_file.cpp
     offline.cpp

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "offline/motion_file.h"
+#include "offline/motion_source.h"
+
+namespace virtual_work_dynamics {
+
+/// Reads a motion from the joint states of a bag: a row for each message that has all joints that
+/// `choose` takes, in the order of their stamps. Says on standard error which messages are not
+/// used, and what is wrong with the bag.
+/// @param unused receives the joints that were not chosen
+/// @throws FileError, one line, when the bag, its topic or its messages cannot be used. Exceptions
+///   of `choose` propagate.
+MotionFile readBagMotion(const MotionSource& source, const JointChoice& choose,
+                         std::vector<std::string>& unused);
+
+}  // namespace virtual_work_dynamics
