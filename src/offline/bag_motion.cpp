@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <iostream>
 
-#include "bag/bag_reader.h"
 #include "base/printable.h"
 #include "offline/bag_topic.h"
 #include "offline/joint_state_rows.h"
@@ -41,9 +40,7 @@ void readParts(const MotionSource& source, const std::string& topic, JointStateR
         rows.refuse(number, "its bytes are not those of a joint state");
       }
     }
-    if (reader.damage().empty()) continue;
-    std::cerr << "warning: " << printable(path)
-              << ": is damaged, what can be read is: " << printable(reader.damage()) << "\n";
+    warnOfDamage(reader);
   }
 }
 
@@ -73,6 +70,12 @@ void describe(const std::string& name, const std::string& topic, const JointStat
 }
 
 }  // namespace
+
+void warnOfDamage(const BagReader& reader) {
+  if (reader.damage().empty()) return;
+  std::cerr << "warning: " << printable(reader.path())
+            << ": is damaged, what can be read is: " << printable(reader.damage()) << "\n";
+}
 
 MotionFile readBagMotion(const MotionSource& source, const JointChoice& choose,
                          std::vector<std::string>& unused) {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "bag/bag_reader.h"
 #include "offline/motion_file.h"
 #include "offline/motion_source.h"
 
@@ -16,5 +17,8 @@ namespace virtual_work_dynamics {
 ///   of `choose` propagate.
 MotionFile readBagMotion(const MotionSource& source, const JointChoice& choose,
                          std::vector<std::string>& unused);
+
+/// Says in a line on standard error what is wrong with a bag that has been read, if anything is.
+void warnOfDamage(const BagReader& reader);
 
 }  // namespace virtual_work_dynamics

@@ -1,13 +1,13 @@
 #include "offline/offline.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <iterator>
 #include <optional>
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/output_file.h"
 #include "base/printable.h"
 #include "dynamics/given_joints.h"
 #include "dynamics/motion_start.h"
@@ -16,32 +16,21 @@
 #include "offline/completed_motion.h"
 #include "offline/computation.h"
 #include "offline/deviation_rows.h"
+#include "offline/inputs.h"
 #include "offline/lagrange_rows.h"
 #include "offline/loop_report.h"
-#include "offline/output_file.h"
 #include "offline/recorded_motion.h"
 #include "offline/result_writer.h"
 #include "offline/root_rows.h"
 #include "offline/row_loads.h"
 #include "offline/rows.h"
 #include "virtual_work_dynamics/dynamics.h"
-#include "virtual_work_dynamics/scene_reader.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {
 namespace {
 
 using Names = std::vector<std::string>;
-
-Scene loadScene(const Arguments& arguments) {
-  Scene scene = arguments.scene.empty() ? Scene() : readSceneFile(arguments.scene);
-  if (arguments.gravity) scene.gravity = *arguments.gravity;
-  if (arguments.reactions) {
-    scene.reactions = *arguments.reactions;
-    scene.reaction_names = arguments.reaction_names;
-  }
-  return scene;
-}
 
 // Puts before what is wrong with a scene where that stands.
 template <typename Make>
@@ -97,20 +86,6 @@ Columns columnsOf(const Dynamics& dynamics, const Request& written, const Argume
 void refuseByLoops(const Arguments& arguments, bool loops) {
   if (arguments.loop_tolerance && !loops) {
     throw UsageError("--loop-tolerance: the scene has no closures");
-  }
-}
-
-void refuseToOverwriteInput(const Arguments& arguments) {
-  if (arguments.output.empty()) return;
-  std::vector<std::string> inputs = arguments.motion.files;
-  inputs.insert(inputs.end(), {arguments.urdf, arguments.scene});
-  for (const std::string& input : inputs) {
-    if (input.empty()) continue;
-    std::error_code missing;  // a missing file cannot be overwritten
-    if (std::filesystem::equivalent(input, arguments.output, missing)) {
-      throw UsageError("--output: '" + arguments.output + "' would overwrite the input '" + input +
-                       "'");
-    }
   }
 }
 
@@ -195,7 +170,7 @@ void check(const Arguments& arguments, const Mechanism& mechanism) {
   printMechanism(std::cout, mechanism);
   printDoubts(std::cout, mechanism);
   std::cout << std::flush;
-  Scene scene = loadScene(arguments);
+  Scene scene = askedScene(arguments);
   refuseByLoops(arguments, needsClosedLoops(scene));
   std::optional<RecordedMotion> recorded;
   if (!arguments.motion.empty()) recorded = readStart(arguments, mechanism, scene);
@@ -213,7 +188,7 @@ void check(const Arguments& arguments, const Mechanism& mechanism) {
 }
 
 void explain(const Arguments& arguments, const Mechanism& mechanism) {
-  const Scene scene = loadScene(arguments);
+  const Scene scene = askedScene(arguments);
   refuseByLoops(arguments, needsClosedLoops(scene));
   const Request written = requestOf(mechanism, scene, arguments);
   printCost(std::cout, scene,
@@ -283,13 +258,17 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
 }  // namespace
 
 void runOffline(const Arguments& arguments) {
+  if (arguments.toBag()) {
+    throw UsageError(
+        "--output: bags are written by a build with ROS only, and this is one without");
+  }
   refuseToOverwriteInput(arguments);
   const Mechanism mechanism = readUrdfFile(arguments.urdf);
   if (arguments.check) check(arguments, mechanism);
   if (arguments.explain) explain(arguments, mechanism);
   if (arguments.check || arguments.explain) return;
   printDoubts(std::cerr, mechanism);
-  const Scene scene = loadScene(arguments);
+  const Scene scene = askedScene(arguments);
   refuseByLoops(arguments, needsClosedLoops(scene));
   compute(arguments, mechanism, scene);
 }

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/number_text.h"
+#include "base/output_file.h"
 #include "base/wrench_components.h"
-#include "offline/output_file.h"
 #include "virtual_work_dynamics/results.h"
 
 namespace virtual_work_dynamics {

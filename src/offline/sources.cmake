@@ -9,11 +9,12 @@ foreach(file
     computation.cpp
     deviation_rows.cpp
     lagrange_rows.cpp
+    help_text.cpp
+    inputs.cpp
     joint_state_rows.cpp
     loop_report.cpp
     motion_file.cpp
     offline.cpp
-    output_file.cpp
     recorded_motion.cpp
     result_writer.cpp
     root_rows.cpp
