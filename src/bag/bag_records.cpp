@@ -28,7 +28,11 @@ std::optional<std::uint64_t> BagHeader::longWord(std::string_view name) const {
 std::optional<std::int64_t> BagHeader::time(std::string_view name) const {
   const auto value = find(name);
   if (!value || value->size() != 8) return std::nullopt;
-  return ByteCursor(*value).time();
+  ByteCursor cursor(*value);
+  const std::uint64_t seconds = cursor.word(), nanoseconds = cursor.word();
+  constexpr std::uint64_t kSecond = 1000000000;
+  if (nanoseconds >= kSecond) return std::nullopt;
+  return static_cast<std::int64_t>(seconds * kSecond + nanoseconds);
 }
 
 std::optional<BagOp> BagHeader::op() const {

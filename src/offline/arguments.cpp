@@ -148,6 +148,7 @@ const std::map<std::string, Setter>& optionsWithValue() {
        [](const auto& value, auto& arguments) {
          arguments.motion.files.push_back(value == "-" ? "/dev/stdin" : value);
        }},
+      {"--rename", [](const auto& value, auto& arguments) { arguments.motion.rename.add(value); }},
       {"--topic", [](const auto& value, auto& arguments) { arguments.motion.topic = value; }},
       {"--scene", [](const auto& value, auto& arguments) { arguments.scene = value; }},
       {"--output", [](const auto& value, auto& arguments) { arguments.output = value; }},
@@ -198,13 +199,20 @@ const std::map<std::string, Setter>& optionsWithValue() {
   return options;
 }
 
-const std::map<std::string, bool Arguments::*>& switches() {
-  static const std::map<std::string, bool Arguments::*> options{
-      {"--certificates", &Arguments::certificates}, {"--check", &Arguments::check},
-      {"--copy-input", &Arguments::copy_input},     {"--deviations", &Arguments::deviations},
-      {"--explain", &Arguments::explain},           {"--help", &Arguments::help},
-      {"--no-efforts", &Arguments::no_efforts},     {"--positions", &Arguments::positions},
-      {"--version", &Arguments::version},
+using Switch = std::function<bool&(Arguments& arguments)>;
+
+const std::map<std::string, Switch>& switches() {
+  static const std::map<std::string, Switch> options{
+      {"--certificates", [](Arguments& all) -> bool& { return all.certificates; }},
+      {"--check", [](Arguments& all) -> bool& { return all.check; }},
+      {"--copy-input", [](Arguments& all) -> bool& { return all.copy_input; }},
+      {"--degrees", [](Arguments& all) -> bool& { return all.motion.degrees; }},
+      {"--deviations", [](Arguments& all) -> bool& { return all.deviations; }},
+      {"--explain", [](Arguments& all) -> bool& { return all.explain; }},
+      {"--help", [](Arguments& all) -> bool& { return all.help; }},
+      {"--no-efforts", [](Arguments& all) -> bool& { return all.no_efforts; }},
+      {"--positions", [](Arguments& all) -> bool& { return all.positions; }},
+      {"--version", [](Arguments& all) -> bool& { return all.version; }},
   };
   return options;
 }
@@ -241,10 +249,11 @@ class Parser {
       throw UsageError("unknown option " + inQuotes(option) + optionHelp(option));
     }
     latest_ = option;
-    if (!seen_.insert(option).second) throw UsageError(option + " is given twice");
+    if (!seen_.insert(option).second && option != "--rename")
+      throw UsageError(option + " is given twice");
     if (without_value != switches().end()) {
       if (has_value) throw UsageError(option + " takes no value");
-      arguments_.*(without_value->second) = true;
+      without_value->second(arguments_) = true;
     } else {
       const std::string value = has_value ? word.substr(equals + 1) : nextValue(option);
       if (value.empty()) throw UsageError(option + " needs a value");

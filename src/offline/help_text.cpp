@@ -14,7 +14,8 @@ Input
   --urdf FILE           robot description
   --motion FILE         motion as CSV: a header with the columns time, position.<joint>,
                         velocity.<joint>, acceleration.<joint> in any order (s, rad or m); lines
-                        that start with # are comments. Missing accelerations, or velocities, are
+                        that start with # are comments. The CSV of 'rostopic echo -p' of joint
+                        states and of PlotJuggler is read, too. Missing accelerations, or velocities, are
                         estimated by a smoother that finds the noise of the recording. Where the
                         scene closes loops, the columns are of all joints, or of as many as move the
                         others: the actuated ones, or any other choice, free axes of closures
@@ -24,6 +25,10 @@ Input
                         each sensor_msgs/JointState that has all joints. The result has their stamps
                         in a column stamp (s, all nanoseconds), and times from the first one on. A bag
                         that is damaged or was not closed gives what can be read of it.
+  --rename RULE         PATTERN=NAME: joints of the motion whose names the regular expression matches as a
+                        whole are called NAME, in which \1 is what its first group matches; several
+                        times for several rules, of which the first that matches counts
+  --degrees             angles of the motion, and their derivatives, are in degrees
   --topic NAME          topic of the joint states in the bag (default: the only one, or /joint_states)
   --scene FILE          scene file (YAML); the options below override it
 

@@ -53,23 +53,25 @@ std::string problemOf(const JointStateContent& message) {
 }  // namespace
 
 void JointStateRows::refuse(std::size_t number, const std::string& why) {
-  if (++refused_ == 1) refusal_ = "message " + std::to_string(number) + ": " + why;
+  if (++refused_ == 1) refusal_ = row_name_ + (" " + std::to_string(number)) + ": " + why;
 }
 
-std::optional<std::size_t> JointStateRows::layoutOf(const Names& names, std::size_t number) {
-  if (latest_ < layouts_.size() && layouts_[latest_].names == names) return latest_;
+std::optional<std::size_t> JointStateRows::layoutOf(const Names& given, std::size_t number) {
+  if (latest_ < layouts_.size() && layouts_[latest_].given == given) return latest_;
   const auto known = std::find_if(layouts_.begin(), layouts_.end(),
-                                  [&](const Layout& layout) { return layout.names == names; });
+                                  [&](const Layout& layout) { return layout.given == given; });
   if (known != layouts_.end()) return static_cast<std::size_t>(known - layouts_.begin());
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (placeOf(names[i], names) == i) continue;
-    refuse(number, "it names " + inQuotes(names[i]) + " twice");
+  Names names;
+  for (const std::string& name : given) {
+    names.push_back(rename_(name));
+    if (placeOf(names.back(), names) + 1 == names.size()) continue;
+    refuse(number, "it names " + inQuotes(names.back()) + " twice");
     return std::nullopt;
   }
   for (const std::string& name : names) {
     if (!has(joints_, name)) joints_.push_back(name);
   }
-  layouts_.push_back({names, {}, {}, {}});
+  layouts_.push_back({given, names, {}, {}, {}});
   return layouts_.size() - 1;
 }
 
@@ -140,7 +142,7 @@ JointStateRows::Table JointStateRows::make(const Names& joints) const {
   std::int64_t newest = places.front().row.stamp_ns;
   for (const Place& place : places) {
     if (place.row.stamp_ns < newest - kLatestBy) {
-      throw Error("message " + std::to_string(place.row.message) + ": its stamp is " +
+      throw Error(row_name_ + (" " + std::to_string(place.row.message)) + ": its stamp is " +
                   numberText(static_cast<double>(newest - place.row.stamp_ns) / 1e9) +
                   " s before one that came earlier, as if two recordings were in one");
     }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bag/joint_state_bytes.h"
+#include "offline/joint_renaming.h"
 #include "virtual_work_dynamics/motion_table.h"
 
 namespace virtual_work_dynamics {
@@ -15,6 +16,13 @@ namespace virtual_work_dynamics {
 /// joints are wanted.
 class JointStateRows {
  public:
+  /// @param row_name what is counted, for messages: "message", "line"
+  /// @param rename for the names of the joints; must outlive it
+  JointStateRows(const char* row_name, const JointRenaming& rename)
+      : row_name_(row_name), rename_(rename) {}
+
+  const char* rowName() const { return row_name_; }
+
   /// Takes a message, or notes why it cannot be used.
   /// @param number of the message in the recording, from 1
   void add(const JointStateContent& message, std::size_t number);
@@ -51,7 +59,8 @@ class JointStateRows {
   };
   /// Messages with one list of names.
   struct Layout {
-    std::vector<std::string> names;
+    std::vector<std::string> given;  // names in the messages
+    std::vector<std::string> names;  // as renamed
     std::vector<Row> rows;
     std::vector<double> positions, velocities;  // row after row; not finite: not given
   };
@@ -63,10 +72,12 @@ class JointStateRows {
     std::size_t index;                        // of the row in the layout
   };
 
-  std::optional<std::size_t> layoutOf(const std::vector<std::string>& names, std::size_t number);
+  std::optional<std::size_t> layoutOf(const std::vector<std::string>& given, std::size_t number);
   std::string missing(const std::vector<std::string>& joints) const;
   static void fill(const std::vector<Place>& places, Table& table);
 
+  const char* row_name_;
+  const JointRenaming& rename_;
   std::vector<Layout> layouts_;
   std::size_t latest_ = 0;
   std::vector<std::string> joints_;

@@ -14,8 +14,9 @@
 #include "base/printable.h"
 #include "motion/motion_text.h"
 #include "motion/stream_text.h"
-#include "offline/bag_motion.h"
 #include "offline/progress.h"
+#include "offline/state_csv.h"
+#include "offline/state_motion.h"
 #include "offline/watched_file.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -192,7 +193,13 @@ MotionFile readMotion(const MotionSource& source, const Mechanism& mechanism,
   }
   {
     WatchedFile file(motion.path);
-    motion.table = readMotionText(file, motion.path, choose, &unused, &motion.lines);
+    BegunText text(file);
+    if (StateCsv::isBegunBy(text.begin())) {
+      motion = readStateCsv(text, source, choose, unused);
+      noteUnused(motion.path, {unused, {}}, coordinates);
+      return motion;
+    }
+    motion.table = readMotionText(text, motion.path, source.rename, choose, &unused, &motion.lines);
   }
   noteUnused(motion.path, sorted(motion.path, unused, coordinates), coordinates);
   return motion;

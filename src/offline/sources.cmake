@@ -1,7 +1,6 @@
 set(offline_files)
 foreach(file
     arguments.cpp
-    bag_motion.cpp
     bag_topic.cpp
     certified_rows.cpp
     check_report.cpp
@@ -11,6 +10,7 @@ foreach(file
     lagrange_rows.cpp
     help_text.cpp
     inputs.cpp
+    joint_renaming.cpp
     joint_state_rows.cpp
     loop_report.cpp
     motion_file.cpp
@@ -20,6 +20,8 @@ foreach(file
     root_rows.cpp
     row_loads.cpp
     rows.cpp
+    state_csv.cpp
+    state_motion.cpp
     watched_file.cpp)
   list(APPEND offline_files ${CMAKE_CURRENT_LIST_DIR}/${file})
 endforeach()

@@ -16,11 +16,11 @@
 #include "base/output_file.h"
 #include "base/printable.h"
 #include "base/text_file.h"
-#include "offline/bag_motion.h"
 #include "offline/bag_topic.h"
 #include "offline/check_report.h"
 #include "offline/inputs.h"
 #include "offline/progress.h"
+#include "offline/state_motion.h"
 #include "replay/bag_topics.h"
 #include "replay/replayed_states.h"
 #include "ros/robot_task.h"
@@ -136,7 +136,7 @@ void runToBag(const Arguments& arguments) {
   BagTopics topics(task, audience, arguments.node, writer);
   if (arguments.copy_input) refuseTopics(files, topics.names());
   BagMessage message;
-  ReplayedStates states(task, parameters.loop_limits, audience,
+  ReplayedStates states(task, arguments.motion, parameters.loop_limits, audience,
                         [&](const ActivePlan& plan) { topics.write(plan, message.time_ns); });
   std::size_t number = 0;
   bool started = false;

@@ -21,10 +21,11 @@ std::string counted(std::size_t count, const char* what) {
 
 }  // namespace
 
-ReplayedStates::ReplayedStates(const RobotTask& task, const LoopLimits& limits,
-                               const Audience& audience,
+ReplayedStates::ReplayedStates(const RobotTask& task, const MotionSource& source,
+                               const LoopLimits& limits, const Audience& audience,
                                std::function<void(const ActivePlan&)> publish)
     : task_(task),
+      source_(source),
       publish_(std::move(publish)),
       loops_(task.everything, task.reactions.size(), limits),
       estimator_(task.mechanism, task.estimator),
@@ -43,10 +44,32 @@ ReplayedStates::ReplayedStates(const RobotTask& task, const LoopLimits& limits,
 void ReplayedStates::take(const JointStateContent& content, std::size_t number) {
   number_ = number;
   message_.header.stamp = timeOf(content.stamp_ns);
-  message_.name = content.names;
+  translate(content);
+  computation_.take(message_);
+}
+
+void ReplayedStates::translate(const JointStateContent& content) {
   message_.position = content.positions;
   message_.velocity = content.velocities;
-  computation_.take(message_);
+  if (source_.rename.empty() && !source_.degrees) {
+    message_.name = content.names;
+    return;
+  }
+  if (given_ != content.names) {
+    given_ = content.names;
+    message_.name.clear();
+    factors_.clear();
+    for (const std::string& given : given_) {
+      message_.name.push_back(source_.rename(given));
+      const int joint = task_.mechanism.jointIndex(message_.name.back());
+      const bool turns = joint >= 0 && unitOf(task_.mechanism.joint(joint)) == Unit::kRadian;
+      factors_.push_back(source_.degrees && turns ? kDegree : 1);
+    }
+  }
+  for (std::vector<double>* values : {&message_.position, &message_.velocity}) {
+    if (values->size() != factors_.size()) continue;  // a message that will be dropped
+    for (std::size_t i = 0; i < values->size(); ++i) (*values)[i] *= factors_[i];
+  }
 }
 
 void ReplayedStates::refuse(std::size_t number, const std::string& why) {

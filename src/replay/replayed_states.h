@@ -7,9 +7,11 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "bag/joint_state_bytes.h"
 #include "dynamics/live_wrenches.h"
+#include "offline/motion_source.h"
 #include "ros/active_plan.h"
 #include "ros/certificate_record.h"
 #include "ros/counters.h"
@@ -26,10 +28,11 @@ namespace virtual_work_dynamics {
 class ReplayedStates : private JointStateUser {
  public:
   /// @param task must outlive it
+  /// @param source says what joints and angles are renamed and turned into; must outlive it
   /// @param audience of the outputs that are computed
   /// @param publish is handed the plan whose messages hold a new result
-  ReplayedStates(const RobotTask& task, const LoopLimits& limits, const Audience& audience,
-                 std::function<void(const ActivePlan&)> publish);
+  ReplayedStates(const RobotTask& task, const MotionSource& source, const LoopLimits& limits,
+                 const Audience& audience, std::function<void(const ActivePlan&)> publish);
 
   /// Takes a joint state. @param number of the message, from 1
   void take(const JointStateContent& content, std::size_t number);
@@ -59,9 +62,11 @@ class ReplayedStates : private JointStateUser {
   void noteRestart(std::int64_t stamp_ns) override;
   void noteSeen(const int*, int) override {}
   void noteAllGiven() override { loops_.setPassiveGiven(true); }
+  void translate(const JointStateContent& content);
   void happen(Happening& happening, const std::string& text);
 
   const RobotTask& task_;
+  const MotionSource& source_;
   const std::function<void(const ActivePlan&)> publish_;
   Counters counters_;
   CertificateRecord certificates_;
@@ -73,7 +78,9 @@ class ReplayedStates : private JointStateUser {
   ActivePlan plan_;
   JointStateComputation computation_;
   sensor_msgs::JointState message_;
-  std::size_t number_ = 0;  // of the message
+  std::vector<std::string> given_;  // names of the latest message, before they became message_'s
+  std::vector<double> factors_;     // of its values
+  std::size_t number_ = 0;          // of the message
   std::size_t results_ = 0;
   std::map<DropReason, Happening> dropped_;
   std::map<std::string, Happening> doubts_;  // by text

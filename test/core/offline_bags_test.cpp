@@ -206,6 +206,90 @@ TEST_F(OfflineBags, NameJointsThatNoMessageHasWithTheOthers) {
   EXPECT_EQ(linesOf(resting.out).size(), kMessages + 1U);
 }
 
+TEST_F(OfflineBags, AreReadAsRostopicEchoesThem) {
+  const Run result = positions(bag("echo.csv"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expectRows(result.out, allMessages());
+  EXPECT_EQ(countLines(result.err, "40 messages not used, which have other joints only"), 1)
+      << result.err;
+  const std::string whole = readFile(bag("echo.csv"));
+  const std::size_t stamp = whole.find("1600000000123456789");
+  write("stamp.csv", whole.substr(0, stamp) + "now" + whole.substr(stamp + 19));
+  EXPECT_NE(positions("stamp.csv").err.find("stamp.csv: line 2: 'now' is not a stamp"),
+            std::string::npos);
+  const std::string two_names = whole.substr(0, whole.rfind('\n', whole.size() - 2));
+  write("cells.csv", two_names.substr(0, two_names.rfind(',')) + "\n");
+  EXPECT_NE(positions("cells.csv").err.find("cells.csv: line 80: 2 names, but 5 values"),
+            std::string::npos);
+}
+
+TEST_F(OfflineBags, AreReadAsPlotJugglerExportsThem) {
+  // Series of other topics have other times, and their own cells in rows of their own.
+  std::string csv =
+      "__time,/joint_states/arm/position,/joint_states/hinge/effort,"
+      "/joint_states/hinge/position,/joint_states/hinge/velocity,/tf/x\n";
+  for (int i = 0; i < kMessages; ++i) {
+    std::ostringstream row;
+    row.precision(17);
+    row << stampOf(i) << ",0.5,7," << positionOf(0, i) << "," << velocityOf(0, i) << ",\n"
+        << stampOf(i).substr(0, 14) << "9999,,,,,3.5\n";
+    csv += row.str();
+  }
+  write("juggled.csv", csv);
+  const Run result = positions("juggled.csv");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  expectRows(result.out, allMessages());
+  write("twice.csv", "__time,/a/hinge/position,/b/hinge/position\n1,2,3\n");
+  EXPECT_NE(positions("twice.csv")
+                .err.find("twice.csv: line 1: columns 2 and 3 are both the position of 'hinge'"),
+            std::string::npos);
+}
+
+TEST_F(OfflineBags, HaveTheirJointsRenamed) {
+  std::string urdf = kPendulum;
+  urdf.replace(urdf.find("\"hinge\""), 7, "\"panda_joint7\"");
+  write("r.urdf", urdf);
+  const std::string arguments =
+      "--urdf r.urdf --scene static.yaml --no-efforts --positions --motion ";
+  const Run result =
+      run(arguments + bag("none.bag") + " --rename 'x=y' --rename 'h(.)nge=" + "panda_jo\\1nt7'");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("position.panda_joint7"), std::string::npos) << result.out;
+  write("m.csv", "time,position.fer_joint7,velocity.fer_joint7\n0,0.25,1\n1,0.5,1\n");
+  const Run csv = run(arguments + "m.csv --rename 'fer_joint(.*)=panda_joint\\1'");
+  EXPECT_EQ(csv.exit_code, 0) << csv.err;
+  EXPECT_NE(csv.out.find("\n1,0.5,0,0\n"), std::string::npos) << csv.out;
+  const Run whole = run(arguments + "m.csv --rename 'fer_joint=panda_joint7'");
+  EXPECT_EQ(whole.exit_code, 1) << "a part of a name is not the name";
+  for (const char* rule : {"'a(=b'", "a", "=b", "a="}) {
+    const Run bad = run(arguments + "m.csv --rename " + rule);
+    EXPECT_EQ(bad.exit_code, 2) << rule;
+    EXPECT_EQ(countLines(bad.err, "error: --rename: "), 1) << bad.err;
+  }
+}
+
+TEST_F(OfflineBags, HaveAnglesInDegreesAndSlidesInMetres) {
+  write("crane.urdf", kCrane);
+  write("m.csv",
+        "time,position.shoulder,position.slide,velocity.shoulder,velocity.slide,"
+        "acceleration.shoulder,acceleration.slide\n0,90,0.5,180,0.25,-360,1\n");
+  const Run result =
+      run("--urdf crane.urdf --motion m.csv --degrees --no-efforts --reactions none"
+          " --positions");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const NumberTable table = parseTable(result.out);
+  ASSERT_EQ(table.rows.size(), 1U);
+  const double pi = std::acos(-1.0);
+  const std::pair<const char*, double> wanted[] = {
+      {"position.shoulder", pi / 2}, {"velocity.shoulder", pi}, {"acceleration.shoulder", -2 * pi},
+      {"position.slide", 0.5},       {"velocity.slide", 0.25},  {"acceleration.slide", 1}};
+  for (const auto& [name, value] : wanted) {
+    const int column = table.column(name);
+    ASSERT_GE(column, 0) << name;
+    EXPECT_NEAR(table.rows[0][static_cast<std::size_t>(column)], value, 1e-14) << name;
+  }
+}
+
 // A bag that ends anywhere gives the messages before that, or none in one line.
 TEST_F(OfflineBags, CutOffGiveWhatTheyHaveAndSaySo) {
   for (const char* name : {"none.bag", "bz2.bag", "lz4.bag"}) {

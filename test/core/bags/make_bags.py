@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Writes the bags beside this program by rosbag, for tests that run without ROS.
+"""Writes the bags beside this program by rosbag, and a CSV by rostopic, for tests without ROS.
 
 Their joint states, message i of COUNT (of the parts: every tenth of 10 COUNT): stamp START + 10 ms i, received 1 ms later; joints as named
 below, joint j at (j + 1) (i / 100)^2, its velocity the derivative, its effort 10 (j + 1).
 """
 import pathlib
+import subprocess
 
 import genpy
 import rosbag
@@ -57,6 +58,9 @@ def main():
         mixed.append(("/joint_states", i, joint_state(i, names, places)))
         mixed.append(("/joint_states", i, joint_state(i, ["finger"], [7])))
     write("mixed.bag", mixed)
+    echo = subprocess.run(["/usr/bin/rostopic", "echo", "-b", str(HERE / "mixed.bag"), "-p",
+                           "/joint_states"], check=True, stdout=subprocess.PIPE).stdout
+    (HERE / "echo.csv").write_bytes(echo)
     write("notes.bag", [("/note", 0, String(data="no motion"))])
 
 

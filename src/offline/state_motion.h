@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bag/bag_reader.h"
+#include "base/text_file.h"
 #include "offline/motion_file.h"
 #include "offline/motion_source.h"
 
@@ -17,6 +18,10 @@ namespace virtual_work_dynamics {
 ///   of `choose` propagate.
 MotionFile readBagMotion(const MotionSource& source, const JointChoice& choose,
                          std::vector<std::string>& unused);
+
+/// As readBagMotion(), from a text that StateCsv reads; it has no topics to choose from.
+MotionFile readStateCsv(TextSource& text, const MotionSource& source, const JointChoice& choose,
+                        std::vector<std::string>& unused);
 
 /// Says in a line on standard error what is wrong with a bag that has been read, if anything is.
 void warnOfDamage(const BagReader& reader);

@@ -1,4 +1,4 @@
-#include "offline/bag_motion.h"
+#include "offline/state_motion.h"
 
 #include <unistd.h>
 
@@ -9,12 +9,15 @@
 #include "offline/bag_topic.h"
 #include "offline/joint_state_rows.h"
 #include "offline/progress.h"
+#include "offline/state_csv.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
 namespace {
 
-bool contains(const std::vector<std::string>& names, const std::string& name) {
+using Names = std::vector<std::string>;
+
+bool contains(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
@@ -44,9 +47,9 @@ void readParts(const MotionSource& source, const std::string& topic, JointStateR
   }
 }
 
-void describe(const std::string& name, const std::string& topic, const JointStateRows& rows,
+void describe(const std::string& where, const JointStateRows& rows,
               const JointStateRows::Table& table) {
-  const std::string begin = printable(name) + ": " + printable(topic) + ": ";
+  const std::string begin = printable(where) + ": ";
   if (rows.refused() > 0) {
     std::cerr << "warning: " << begin << messagesText(rows.refused())
               << " not used, the first because of " << printable(rows.refusal()) << "\n";
@@ -69,6 +72,37 @@ void describe(const std::string& name, const std::string& topic, const JointStat
   }
 }
 
+// Makes a motion of the collected joint states.
+MotionFile motionOf(const JointStateRows& rows, const MotionSource& source,
+                    const std::string& where, const JointChoice& choose, Names& unused) {
+  if (rows.joints().empty()) {
+    throw FileError(where + ": no message can be used" +
+                    (rows.refused() == 0 ? "" : ", the first because of " + rows.refusal()));
+  }
+  Names offered;
+  for (const std::string& name : rows.joints()) {
+    if (!contains(source.left_out, name)) offered.push_back(name);
+  }
+  const Names joints = choose(offered);
+  for (const std::string& name : offered) {
+    if (!contains(joints, name)) unused.push_back(name);
+  }
+  MotionFile motion;
+  motion.path = source.name();
+  motion.row_name = rows.rowName();
+  JointStateRows::Table table;
+  try {
+    table = rows.make(joints);
+  } catch (const Error& error) {
+    throw FileError(where + ": " + error.what());
+  }
+  describe(where, rows, table);
+  motion.table = std::move(table.motion);
+  motion.lines = std::move(table.messages);
+  motion.stamps_ns = std::move(table.stamps_ns);
+  return motion;
+}
+
 }  // namespace
 
 void warnOfDamage(const BagReader& reader) {
@@ -77,38 +111,21 @@ void warnOfDamage(const BagReader& reader) {
             << ": is damaged, what can be read is: " << printable(reader.damage()) << "\n";
 }
 
-MotionFile readBagMotion(const MotionSource& source, const JointChoice& choose,
-                         std::vector<std::string>& unused) {
+MotionFile readBagMotion(const MotionSource& source, const JointChoice& choose, Names& unused) {
   const std::string topic = jointStateTopic(source);
-  JointStateRows rows;
+  JointStateRows rows("message", source.rename);
   readParts(source, topic, rows);
-  const std::string where = source.name() + ": " + topic;
-  if (rows.joints().empty()) {
-    throw FileError(where + ": no message can be used" +
-                    (rows.refused() == 0 ? "" : ", the first because of " + rows.refusal()));
-  }
-  std::vector<std::string> offered;
-  for (const std::string& name : rows.joints()) {
-    if (!contains(source.left_out, name)) offered.push_back(name);
-  }
-  const std::vector<std::string> joints = choose(offered);
-  for (const std::string& name : offered) {
-    if (!contains(joints, name)) unused.push_back(name);
-  }
-  MotionFile motion;
-  motion.path = source.name();
-  motion.row_name = "message";
-  JointStateRows::Table table;
-  try {
-    table = rows.make(joints);
-  } catch (const Error& error) {
-    throw FileError(where + ": " + error.what());
-  }
-  describe(motion.path, topic, rows, table);
-  motion.table = std::move(table.motion);
-  motion.lines = std::move(table.messages);
-  motion.stamps_ns = std::move(table.stamps_ns);
-  return motion;
+  return motionOf(rows, source, source.name() + ": " + topic, choose, unused);
+}
+
+MotionFile readStateCsv(TextSource& text, const MotionSource& source, const JointChoice& choose,
+                        Names& unused) {
+  const std::string name = source.name();
+  JointStateRows rows("line", source.rename);
+  StateCsv csv(text, name);
+  JointStateContent content;
+  while (csv.next(content)) rows.add(content, csv.line());
+  return motionOf(rows, source, name, choose, unused);
 }
 
 }  // namespace virtual_work_dynamics
