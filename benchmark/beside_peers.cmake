@@ -58,7 +58,6 @@ string(REPLACE ";" ", " peers "${peers}")
 message(STATUS "Libraries to compare with: ${peers}")
 
 add_executable(work_precision
-  ../src/offline/output_file.cpp
   command_line.cpp
   cores.cpp
   measurement.cpp
@@ -74,7 +73,6 @@ target_link_libraries(callgrind_sample PRIVATE benchmark_contenders ${PROJECT_NA
 
 # --- what leaving out saves --------------------------------------------------------------------------
 add_executable(leave_out
-  ../src/offline/output_file.cpp
   command_line.cpp
   cores.cpp
   leave_out.cpp

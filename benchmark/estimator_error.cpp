@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "base/output_file.h"
 #include "command_line.h"
 #include "estimator/report_parts.h"
 #include "estimator/report_streams.h"
-#include "offline/output_file.h"
 #include "offline/progress.h"
 
 using namespace virtual_work_dynamics;

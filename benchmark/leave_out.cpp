@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "base/output_file.h"
 #include "command_line.h"
 #include "contenders/robots.h"
 #include "cores.h"
-#include "offline/output_file.h"
 #include "omissions.h"
 #include "same_numbers.h"
 

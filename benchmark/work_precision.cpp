@@ -2,10 +2,10 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/output_file.h"
 #include "contenders/closed_scenes.h"
 #include "cores.h"
 #include "measurement.h"
-#include "offline/output_file.h"
 #include "result_table.h"
 #include "work_precision_options.h"
 

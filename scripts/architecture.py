@@ -24,11 +24,13 @@ MAY_INCLUDE = {
     "loops": {"base", "algebra", "robot", "motion", "scene", "results", "tree"},
     "witness": {"base", "robot", "motion", "scene", "results"},
     "dynamics": {"base", "robot", "motion", "scene", "results", "tree", "loops", "witness"},
-    "offline": {"base", "robot", "motion", "scene", "results", "witness", "dynamics"},
+    "bag": {"base"},
+    "offline": {"base", "robot", "motion", "scene", "results", "witness", "dynamics", "bag"},
     "ros": {"base", "robot", "motion", "scene", "results", "witness", "dynamics"},
-    "programs": {"base", "offline", "ros"},
+    "replay": {"base", "robot", "motion", "scene", "results", "dynamics", "bag", "offline", "ros"},
+    "programs": {"base", "offline", "ros", "replay"},
 }
-KNOWS_ROS = {"ros", "programs"}
+KNOWS_ROS = {"ros", "replay", "programs"}
 HEADERS_WITHOUT_SOURCE = {
     "error": "base",
     "given": "scene",

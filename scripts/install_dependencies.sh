@@ -5,7 +5,7 @@ set -euo pipefail
 
 build_packages=(
   build-essential catkin cmake
-  libconsole-bridge-dev libeigen3-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev
+  libbz2-dev libconsole-bridge-dev libeigen3-dev liblz4-dev libtinyxml2-dev liburdfdom-dev liburdfdom-headers-dev
   libyaml-cpp-dev
   libdiagnostic-msgs-dev libdiagnostic-updater-dev libgeometry-msgs-dev libnav-msgs-dev
   libroscpp-dev libsensor-msgs-dev libtf2-dev libtf2-msgs-dev libtrajectory-msgs-dev libvisualization-msgs-dev

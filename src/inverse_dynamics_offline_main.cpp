@@ -7,6 +7,9 @@
 #include "base/printable.h"
 #include "offline/arguments.h"
 #include "offline/offline.h"
+#ifdef VWD_WITH_ROS
+#include "replay/bag_run.h"
+#endif
 
 int main(int argc, char** argv) {
   using namespace virtual_work_dynamics;
@@ -18,6 +21,10 @@ int main(int argc, char** argv) {
       std::cout << helpText();
     } else if (arguments.version) {
       std::cout << program << " " << VWD_VERSION << "\n";
+#ifdef VWD_WITH_ROS
+    } else if (arguments.toBag()) {
+      runToBag(arguments);
+#endif
     } else {
       runOffline(arguments);
     }

@@ -1,6 +1,5 @@
 # Errors where scenes go to extremes, against 113 bits.
 add_executable(stability
-  ../src/offline/output_file.cpp
   command_line.cpp
   contenders/long_double_dynamics.cpp
   stability/kdl_efforts.cpp

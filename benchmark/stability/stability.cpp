@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "offline/output_file.h"
+#include "base/output_file.h"
 #include "stability/measure.h"
 #include "stability/stability_options.h"
 #include "virtual_work_dynamics/error.h"

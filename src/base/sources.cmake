@@ -2,6 +2,7 @@ vwd_core(
   instruction_set.cpp
   nearest_name.cpp
   number_text.cpp
+  output_file.cpp
   printable.cpp
   run_time_histogram.cpp
   text_file.cpp

@@ -33,6 +33,17 @@ std::size_t TextFile::read(char* to, std::size_t most) {
   return count;
 }
 
+BegunText::BegunText(TextSource& text) : text_(text), begin_(64, '\0') {
+  begin_.resize(text_.read(begin_.data(), begin_.size()));
+}
+
+std::size_t BegunText::read(char* to, std::size_t most) {
+  if (taken_ == begin_.size()) return text_.read(to, most);
+  const std::size_t count = begin_.copy(to, most, taken_);
+  taken_ += count;
+  return count;
+}
+
 std::string readTextFile(const std::string& path, std::size_t longest) {
   TextFile file(path);
   std::string text;

@@ -31,6 +31,21 @@ class TextFile : public TextSource {
   std::size_t offset_ = 0;
 };
 
+/// A text whose first bytes can be looked at before it is read.
+class BegunText : public TextSource {
+ public:
+  /// @param text must outlive it. @throws whatever reading it throws
+  explicit BegunText(TextSource& text);
+  /// Its first bytes; fewer where the text is short or comes slowly.
+  const std::string& begin() const { return begin_; }
+  std::size_t read(char* to, std::size_t most) override;
+
+ private:
+  TextSource& text_;
+  std::string begin_;
+  std::size_t taken_ = 0;  // of begin_
+};
+
 /// The whole content of a file, pipe or device. @param longest bytes, beyond any sensible content.
 /// @throws FileError naming path and reason when it cannot be read, or never seems to end.
 std::string readTextFile(const std::string& path, std::size_t longest);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <istream>
 #include <map>
 #include <string_view>
@@ -22,6 +23,7 @@ namespace virtual_work_dynamics {
 namespace {
 
 constexpr char kTime[] = "time";
+constexpr char kStamp[] = "stamp";  // of results of a bag
 constexpr std::array<const char*, 3> kKinds{"position", "velocity", "acceleration"};
 // Columns that recordings and results have besides, and that no motion is read from.
 constexpr std::array<const char*, 7> kIgnored{"effort",    "reaction", "determined", "deviation",
@@ -47,11 +49,6 @@ std::string columnHelp(std::string_view column) {
     return "; cells are separated by commas, not semicolons, and numbers have a decimal point";
   }
   if (column.find('\t') != std::string_view::npos) return "; cells are separated by commas";
-  if (column == "%time" || column.substr(0, 6) == "field." || column == "__time" ||
-      column.substr(0, 1) == "/") {
-    return "; columns of rostopic and PlotJuggler are not read: play the bag to "
-           "inverse_dynamics_node, or rename them";
-  }
   if (column.substr(0, 7) == "wrench.") return std::string(", ") + kWrenchColumns;
   if (column.substr(0, 5) == "root.") return std::string(", ") + kRootColumns;
   const std::size_t point = std::min(column.find('.'), column.size());
@@ -82,7 +79,9 @@ class StreamSource : public TextSource {
 // rows.
 class CsvReader {
  public:
-  CsvReader(TextSource& text, const std::string& name) : lines_(text, name), name_(name) {}
+  CsvReader(TextSource& text, const std::string& name,
+            std::function<std::string(const std::string&)> rename = {})
+      : lines_(text, name), name_(name), rename_(std::move(rename)) {}
 
   MotionTable read(const std::vector<std::string>& joints, std::vector<std::string>* unused,
                    std::vector<std::size_t>* line_numbers) {
@@ -134,24 +133,31 @@ class CsvReader {
         lines_.text().substr(0, lines_.text().size() - (ends_with_comma_ ? 1 : 0));
     forEachCell(line, [this](std::size_t column, std::string_view cell) {
       std::string column_name(cell);
-      // The numbers of rows that other programs write have no name.
-      if (column > 0 || !column_name.empty()) checkKind(column, column_name);
+      const bool known = isKnown(column, column_name);
+      if (known && rename_ && isOf(kKinds, column_name)) {
+        const std::size_t joint = column_name.find('.') + 1;
+        column_name.replace(joint, std::string::npos, rename_(column_name.substr(joint)));
+      }
       const auto inserted = column_of_name_.emplace(column_name, column);
-      if (!inserted.second) {
-        throw FileError(atCell(header_line_, column) + ": " + inQuotes(cell) +
+      if (known && !inserted.second) {
+        throw FileError(atCell(header_line_, column) + ": " + inQuotes(column_name) +
                         " already stands in column " + std::to_string(inserted.first->second + 1));
       }
       header_.push_back(std::move(column_name));
     });
   }
 
-  void checkKind(std::size_t column, const std::string& column_name) const {
-    if (column_name == kTime || isOf(kKinds, column_name) || isOf(kIgnored, column_name) ||
-        !wrenchOf(column_name).empty() || isRootColumn(column_name)) {
-      return;
+  // Whether a column may be of use. Others are ignored, unless something else seems to be meant.
+  bool isKnown(std::size_t column, const std::string& column_name) const {
+    if (column_name == kTime || column_name == kStamp || isOf(kKinds, column_name) ||
+        isOf(kIgnored, column_name) || !wrenchOf(column_name).empty() ||
+        isRootColumn(column_name)) {
+      return true;
     }
+    const std::string help = columnHelp(column_name);
+    if (help.empty()) return false;
     throw FileError(atCell(header_line_, column) + ": " + inQuotes(column_name) +
-                    " is not one of " + kKnownColumns + columnHelp(column_name));
+                    " is not one of " + kKnownColumns + help);
   }
 
   std::vector<std::string> jointsWithPositions() const {
@@ -307,6 +313,7 @@ class CsvReader {
 
   CsvLines lines_;
   const std::string& name_;
+  const std::function<std::string(const std::string&)> rename_;  // of joints; empty: they stay
   std::size_t header_line_ = 0;
   bool ends_with_comma_ = false;    // the header, and so its rows may
   std::vector<std::string> cells_;  // of a line with quotes
@@ -321,9 +328,11 @@ class CsvReader {
 
 }  // namespace
 
-MotionTable readMotionText(TextSource& text, const std::string& name, const JointChoice& choose,
-                           std::vector<std::string>* unused, std::vector<std::size_t>* lines) {
-  return CsvReader(text, name).read(choose, unused, lines);
+MotionTable readMotionText(TextSource& text, const std::string& name,
+                           const std::function<std::string(const std::string&)>& rename,
+                           const JointChoice& choose, std::vector<std::string>* unused,
+                           std::vector<std::size_t>* lines) {
+  return CsvReader(text, name, rename).read(choose, unused, lines);
 }
 
 MotionTable readMotionCsv(const std::string& path, const std::vector<std::string>& joints,
@@ -335,7 +344,7 @@ MotionTable readMotionCsv(const std::string& path, const std::vector<std::string
 MotionTable readMotionCsv(const std::string& path, const JointChoice& choose,
                           std::vector<std::string>* unused, std::vector<std::size_t>* lines) {
   TextFile file(path);
-  return readMotionText(file, path, choose, unused, lines);
+  return readMotionText(file, path, {}, choose, unused, lines);
 }
 
 MotionTable readMotionCsv(std::istream& stream, const std::string& name,

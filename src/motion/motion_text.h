@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,10 @@ namespace virtual_work_dynamics {
 
 /// Reads a motion as readMotionCsv() does, line by line as the text comes. A line that seems to
 /// have no end is refused. @param name stands for the text in messages.
-MotionTable readMotionText(TextSource& text, const std::string& name, const JointChoice& choose,
-                           std::vector<std::string>* unused, std::vector<std::size_t>* lines);
+/// @param rename for the joints in the names of columns; empty: they stay
+MotionTable readMotionText(TextSource& text, const std::string& name,
+                           const std::function<std::string(const std::string&)>& rename,
+                           const JointChoice& choose, std::vector<std::string>* unused,
+                           std::vector<std::size_t>* lines);
 
 }  // namespace virtual_work_dynamics

@@ -1,6 +1,7 @@
 #include "offline/arguments.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -14,89 +15,11 @@
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr char kHelp[] =
-    R"(inverse_dynamics_offline: active efforts and joint reactions of a recorded motion
+constexpr char kBag[] = ".bag";
 
-  inverse_dynamics_offline --urdf ROBOT.urdf --motion MOTION.csv [options]
-  inverse_dynamics_offline --urdf ROBOT.urdf --check [options]
-  inverse_dynamics_offline --urdf ROBOT.urdf --explain [options]
-
-Input
-  --urdf FILE           robot description
-  --motion FILE         motion as CSV: a header with the columns time, position.<joint>,
-                        velocity.<joint>, acceleration.<joint> in any order (s, rad or m); lines
-                        that start with # are comments. Missing accelerations, or velocities, are
-                        estimated by a smoother that finds the noise of the recording. Where the
-                        scene closes loops, the columns are of all joints, or of as many as move the
-                        others: the actuated ones, or any other choice, free axes of closures
-                        (position.<closure>) and poses of links (position.pose.<link>.x, y, z, qx,
-                        qy, qz, qw, in axes of the root link) included. - reads standard input.
-  --scene FILE          scene file (YAML); the options below override it
-
-How missing derivatives are estimated
-  --position-noise X    standard deviation of the positions, rad or m (default: found)
-  --velocity-noise X    standard deviation of the velocities, rad/s or m/s (default: found)
-  --stamp-noise X       standard deviation of the times, s (default: found)
-  --bandwidth HZ        what swings so fast keeps half of its amplitude (default: found)
-  --lag S               estimates each row from the rows up to S seconds after it, as
-                        inverse_dynamics_node does (default: from all rows)
-  --max-gap S           nothing is assumed of the motion across longer gaps (default: 0.25)
-  --rest JOINT=X        position, rad or m, of a joint that the motion does not have; several
-                        separated by commas
-
-What is computed
-  --gravity "X Y Z"     gravity in axes of a root link that rests, m/s^2 (default: 0 0 -9.81)
-  --axes root|child     axes of the reactions: of the root link (default) or of the child link
-  --reactions LIST      all (every movable joint; the default), none, or joints separated by
-                        commas; fixed joints and "ground" by name only
-  --no-efforts          reactions only
-  --method NAME         virtual_work (the default), or lagrange: Lagrange's equations with a
-                        fictitious mobility at each joint, in long double; it is slow, shares no
-                        formula with virtual_work and serves to check it
-  --certificates        adds the columns certificate.{power,ground_force,ground_moment}: how far
-                        each row violates the balance of power, and the wrench of ground the rates
-                        of change of momentum, relative to the sum of all terms' magnitudes; they
-                        judge the arithmetic, not the motion or the description that it starts from
-  --deviations          adds the columns deviation.effort.<joint>, deviation.<name>.{fx,...,tz}:
-                        standard deviations of the results by the error of the estimated motion; and,
-                        where the scene has tolerances, tolerance.effort.<joint>,
-                        tolerance.<name>.{fx,...,tz}: by the errors of masses and inertias
-  --positions           adds the columns position.<joint>, velocity.<joint> and acceleration.<joint>
-                        of all joints: the motion that the results belong to, which can be read as a
-                        motion again
-  --deviation-warn X    notes efforts whose deviation is more than X times the effort, both as rms of
-                        all rows, and the cause (default: 0.1)
-  --loop-tolerance X    how far the motion may violate closed loops, relative to the loops' size
-                        and to the largest rate and acceleration (default: 1e-6)
-  --threads N           divides the rows among N threads (default: 1)
-
-Output
-  --output FILE         result as CSV (default: standard output); FILE is written as a whole or not
-                        at all
-  --check               only describes the robot and says what is doubtful about it; for closed
-                        loops with --motion, also how close it comes to singular positions
-  --explain             only says what a sample costs and what its computation leaves out because
-                        no result that is asked for needs it
-  --help                this text
-  --version             the version of the package
-
-The result has the columns time, effort.<joint> (N m or N) and, for each reaction,
-reaction.<name>.{fx,fy,fz,tx,ty,tz}: force (N) and moment about the joint's origin (N m) that the
-parent link exerts on the child link. An empty cell is a value that overflowed or
-does not exist.
-
-Where the scene closes loops, closures have effort and reaction columns like joints. Further columns
-are determined.effort.<joint>, determined.<name>.{fx,fy,fz,tx,ty,tz}: 1 where rigid-body mechanics
-determines the value, 0 where the scene's policy does. In singular positions cells of results without
-a value are empty. The columns residual.{position,velocity,acceleration}.<closure> say by how much the motion
-violates the closure, in m or rad, m/s or rad/s, m/s^2 or rad/s^2.
-
-Exit status: 0 done, 1 something is wrong with the input or output, 2 wrong usage.
-
-Example
-  inverse_dynamics_offline --urdf arm.urdf --motion swing.csv --gravity "0 0 -9.81" \
-    --reactions shoulder,ground --axes child --output swing_loads.csv
-)";
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
 
 // Cuts a text at each separator; blanks around the pieces are removed.
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -168,6 +91,22 @@ int parseThreads(const std::string& text) {
   return static_cast<int>(value);
 }
 
+// The name of a node, as it stands before its topics.
+std::string parseNode(const std::string& text) {
+  const auto allowed = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+  };
+  const std::string name = text[0] == '/' ? text.substr(1) : text;
+  bool good = !name.empty() && name.back() != '/';
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const bool first = i == 0 || name[i - 1] == '/';
+    good = good && (first ? std::isalpha(static_cast<unsigned char>(name[i])) != 0
+                          : allowed(name[i]) || name[i] == '/');
+  }
+  if (!good) throw UsageError("--node: " + inQuotes(text) + " is not the name of a node");
+  return "/" + name;
+}
+
 double parsePositive(const std::string& option, const std::string& text) {
   double value = 0;
   if (!parseNumber(text, value) || value <= 0) {
@@ -205,8 +144,12 @@ using Setter = std::function<void(const std::string& value, Arguments& arguments
 const std::map<std::string, Setter>& optionsWithValue() {
   static const std::map<std::string, Setter> options{
       {"--urdf", [](const auto& value, auto& arguments) { arguments.urdf = value; }},
-      {"--motion", [](const auto& value,
-                      auto& arguments) { arguments.motion = value == "-" ? "/dev/stdin" : value; }},
+      {"--motion",
+       [](const auto& value, auto& arguments) {
+         arguments.motion.files.push_back(value == "-" ? "/dev/stdin" : value);
+       }},
+      {"--rename", [](const auto& value, auto& arguments) { arguments.motion.rename.add(value); }},
+      {"--topic", [](const auto& value, auto& arguments) { arguments.motion.topic = value; }},
       {"--scene", [](const auto& value, auto& arguments) { arguments.scene = value; }},
       {"--output", [](const auto& value, auto& arguments) { arguments.output = value; }},
       {"--gravity",
@@ -249,22 +192,27 @@ const std::map<std::string, Setter>& optionsWithValue() {
        [](const auto& value, auto& arguments) {
          arguments.deviation_warn = parsePositive("--deviation-warn", value);
        }},
+      {"--node", [](const auto& value, auto& arguments) { arguments.node = parseNode(value); }},
       {"--threads",
        [](const auto& value, auto& arguments) { arguments.threads = parseThreads(value); }},
   };
   return options;
 }
 
-const std::map<std::string, bool Arguments::*>& switches() {
-  static const std::map<std::string, bool Arguments::*> options{
-      {"--certificates", &Arguments::certificates},
-      {"--check", &Arguments::check},
-      {"--deviations", &Arguments::deviations},
-      {"--explain", &Arguments::explain},
-      {"--help", &Arguments::help},
-      {"--no-efforts", &Arguments::no_efforts},
-      {"--positions", &Arguments::positions},
-      {"--version", &Arguments::version},
+using Switch = std::function<bool&(Arguments& arguments)>;
+
+const std::map<std::string, Switch>& switches() {
+  static const std::map<std::string, Switch> options{
+      {"--certificates", [](Arguments& all) -> bool& { return all.certificates; }},
+      {"--check", [](Arguments& all) -> bool& { return all.check; }},
+      {"--copy-input", [](Arguments& all) -> bool& { return all.copy_input; }},
+      {"--degrees", [](Arguments& all) -> bool& { return all.motion.degrees; }},
+      {"--deviations", [](Arguments& all) -> bool& { return all.deviations; }},
+      {"--explain", [](Arguments& all) -> bool& { return all.explain; }},
+      {"--help", [](Arguments& all) -> bool& { return all.help; }},
+      {"--no-efforts", [](Arguments& all) -> bool& { return all.no_efforts; }},
+      {"--positions", [](Arguments& all) -> bool& { return all.positions; }},
+      {"--version", [](Arguments& all) -> bool& { return all.version; }},
   };
   return options;
 }
@@ -296,18 +244,26 @@ class Parser {
     const auto with_value = optionsWithValue().find(option);
     const auto without_value = switches().find(option);
     if (with_value == optionsWithValue().end() && without_value == switches().end()) {
+      if (isPart(word)) return arguments_.motion.files.push_back(word);
       if (word.compare(0, 1, "-") != 0) throw UsageError("unexpected argument " + inQuotes(word));
       throw UsageError("unknown option " + inQuotes(option) + optionHelp(option));
     }
-    if (!seen_.insert(option).second) throw UsageError(option + " is given twice");
+    latest_ = option;
+    if (!seen_.insert(option).second && option != "--rename")
+      throw UsageError(option + " is given twice");
     if (without_value != switches().end()) {
       if (has_value) throw UsageError(option + " takes no value");
-      arguments_.*(without_value->second) = true;
+      without_value->second(arguments_) = true;
     } else {
       const std::string value = has_value ? word.substr(equals + 1) : nextValue(option);
       if (value.empty()) throw UsageError(option + " needs a value");
       with_value->second(value, arguments_);
     }
+  }
+
+  // A shell makes `--motion run_0.bag run_1.bag` of `--motion run_*.bag`.
+  bool isPart(const std::string& word) const {
+    return latest_ == "--motion" && word[0] != '-' && endsWith(word, kBag);
   }
 
   std::string nextValue(const std::string& option) {
@@ -321,10 +277,34 @@ class Parser {
   const std::vector<std::string>& words_;
   std::size_t next_ = 0;
   std::set<std::string> seen_;
+  std::string latest_;  // option
   Arguments arguments_;
 };
 
 }  // namespace
+
+namespace {
+
+// What a bag cannot have, or always has.
+void checkForBag(const Arguments& arguments) {
+  const bool lagrange = arguments.method == Method::kLagrange;
+  const std::pair<bool, const char*> kRefused[] = {
+      {arguments.child_axes, "--axes: a bag has reactions in both axes"},
+      {arguments.no_efforts, "--no-efforts: a bag has the topics of the node"},
+      {lagrange, "--method lagrange: its results are written as CSV only"},
+      {arguments.certificates, "--certificates: they are written as CSV only"},
+      {arguments.positions, "--positions: the topic motion of a bag has them"},
+      {arguments.threads != 1, "--threads: a bag is computed as the node does it, in one thread"}};
+  for (const auto& [given, text] : kRefused) {
+    if (given) throw UsageError(text);
+  }
+}
+
+}  // namespace
+
+bool Arguments::toBag() const {
+  return endsWith(output, kBag) && !check && !explain;
+}
 
 Arguments parseArguments(const std::vector<std::string>& words) {
   const Arguments arguments = Parser(words).parse();
@@ -332,6 +312,14 @@ Arguments parseArguments(const std::vector<std::string>& words) {
   if (arguments.urdf.empty()) throw UsageError("--urdf FILE is missing");
   if (arguments.motion.empty() && !arguments.check && !arguments.explain) {
     throw UsageError("--motion FILE is missing (only --check and --explain need none)");
+  }
+  if (!arguments.motion.topic.empty() && arguments.motion.empty()) {
+    throw UsageError("--topic is of use with --motion BAG only");
+  }
+  if (arguments.toBag()) {
+    checkForBag(arguments);
+  } else if (arguments.copy_input) {
+    throw UsageError("--copy-input is of use with --output BAG only");
   }
   if (arguments.deviation_warn && !arguments.deviations) {
     throw UsageError("--deviation-warn is of use with --deviations only");
@@ -344,10 +332,6 @@ Arguments parseArguments(const std::vector<std::string>& words) {
     if (arguments.explain) throw UsageError("--explain cannot be used with --method lagrange");
   }
   return arguments;
-}
-
-std::string helpText() {
-  return kHelp;
 }
 
 }  // namespace virtual_work_dynamics

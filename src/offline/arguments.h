@@ -31,7 +31,7 @@ constexpr double kLoopTolerance = 1e-6;
 /// empty.
 struct Arguments {
   std::string urdf;
-  std::string motion;
+  MotionSource motion;
   std::string scene;
   std::string output;                      ///< empty: standard output
   std::optional<Eigen::Vector3d> gravity;  ///< m/s^2, inertial axes; replaces the scene's
@@ -39,6 +39,8 @@ struct Arguments {
   std::optional<ReactionSelection> reactions;  ///< replaces the scene's choice
   std::vector<std::string> reaction_names;     ///< names for ReactionSelection::kNamed
   bool no_efforts = false;
+  bool copy_input = false;                 ///< to a bag that is written
+  std::string node = "/inverse_dynamics";  ///< whose topics a bag that is written has
   Method method = Method::kVirtualWork;
   bool certificates = false;
   bool deviations = false;
@@ -51,6 +53,9 @@ struct Arguments {
   bool explain = false;
   bool help = false;  ///< words after --help or --version are ignored
   bool version = false;
+
+  /// Whether the output is a bag, by its name.
+  bool toBag() const;
 };
 
 /// Reads a command line without the program's name, with `--option value` or `--option=value`.

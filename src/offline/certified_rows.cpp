@@ -37,10 +37,12 @@ void CertifiedRows::note(const Certificates& found, std::size_t line) {
   }
 }
 
-std::string CertifiedRows::summary() const {
+std::string CertifiedRows::summary(const char* row_name) const {
   std::ostringstream text;
   text.precision(2);
-  if (worst_ >= 0) text << worst_column_ << " is " << worst_ << " at worst, line " << worst_line_;
+  if (worst_ >= 0) {
+    text << worst_column_ << " is " << worst_ << " at worst, " << row_name << " " << worst_line_;
+  }
   const auto addRows = [&](std::size_t rows, const char* why) {
     if (rows == 0) return;
     text << (text.str().empty() ? "" : "; ") << rows << (rows == 1 ? " row" : " rows")

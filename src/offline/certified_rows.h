@@ -20,13 +20,14 @@ class CertifiedRows {
 
   /// Certifies a row, unless its position is singular and so need not bear the load.
   /// @param load with which `results` were computed
-  /// @param line of the row in its file
+  /// @param line of the row, see MotionFile
   /// @param cells receives one for each of kCertificateColumns
   void check(const Motion& motion, const Load& load, const Results& results, std::size_t line,
              std::vector<double>& cells);
 
   /// One line on the worst of all rows.
-  std::string summary() const;
+  /// @param row_name what lines count, see MotionFile
+  std::string summary(const char* row_name) const;
 
  private:
   void note(const Certificates& found, std::size_t line);

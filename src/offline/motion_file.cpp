@@ -9,11 +9,14 @@
 #include <unordered_set>
 #include <utility>
 
+#include "bag/bag_reader.h"
 #include "base/number_text.h"
 #include "base/printable.h"
 #include "motion/motion_text.h"
 #include "motion/stream_text.h"
 #include "offline/progress.h"
+#include "offline/state_csv.h"
+#include "offline/state_motion.h"
 #include "offline/watched_file.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -170,21 +173,35 @@ void describeEstimate(const Mechanism& mechanism, const MotionFile& motion, cons
   std::cerr << "\n";
 }
 
-MotionFile readMotion(const std::string& path, const Mechanism& mechanism) {
-  return readMotion(path, mechanism, [&](const auto&) { return mechanism.coordinateNames(); });
+MotionFile readMotion(const MotionSource& source, const Mechanism& mechanism) {
+  return readMotion(source, mechanism, [&](const auto&) { return mechanism.coordinateNames(); });
 }
 
-MotionFile readMotion(const std::string& path, const Mechanism& mechanism,
+MotionFile readMotion(const MotionSource& source, const Mechanism& mechanism,
                       const JointChoice& choose) {
-  MotionFile motion;
-  motion.path = path;
-  std::vector<std::string> unused;
-  {
-    WatchedFile file(path);
-    motion.table = readMotionText(file, path, choose, &unused, &motion.lines);
-  }
   const Names& coordinates = mechanism.coordinateNames();
-  noteUnused(path, sorted(path, unused, coordinates), coordinates);
+  Names unused;
+  if (source.files.size() > 1 || looksLikeBag(source.files.front())) {
+    MotionFile motion = readBagMotion(source, choose, unused);
+    noteUnused(motion.path, {unused, {}}, coordinates);
+    return motion;
+  }
+  MotionFile motion;
+  motion.path = source.files.front();
+  if (!source.topic.empty()) {
+    throw FileError(motion.path + ": is not a bag, and --topic is the topic of one");
+  }
+  {
+    WatchedFile file(motion.path);
+    BegunText text(file);
+    if (StateCsv::isBegunBy(text.begin())) {
+      motion = readStateCsv(text, source, choose, unused);
+      noteUnused(motion.path, {unused, {}}, coordinates);
+      return motion;
+    }
+    motion.table = readMotionText(text, motion.path, source.rename, choose, &unused, &motion.lines);
+  }
+  noteUnused(motion.path, sorted(motion.path, unused, coordinates), coordinates);
   return motion;
 }
 

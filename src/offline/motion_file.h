@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "offline/motion_source.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion_completion.h"
 #include "virtual_work_dynamics/motion_csv.h"
@@ -13,14 +15,20 @@
 
 namespace virtual_work_dynamics {
 
-/// A recorded motion with the line of each of its rows.
+/// A recorded motion with the place of each of its rows in the file.
 struct MotionFile {
   std::string path;
   MotionTable table;
-  std::vector<std::size_t> lines;
+  const char* row_name = "line";        ///< what `lines` count: lines, or messages of a bag
+  std::vector<std::size_t> lines;       ///< by row
+  std::vector<std::int64_t> stamps_ns;  ///< by row, as recorded; empty: the file has none
 
-  /// Names the line of a row in messages: "path: line n".
-  std::string at(std::size_t row) const { return path + ": line " + std::to_string(lines[row]); }
+  /// Names the place of a row: "line n".
+  std::string place(std::size_t row) const {
+    return std::string(row_name) + " " + std::to_string(lines[row]);
+  }
+  /// Names the place of a row in messages: "path: line n".
+  std::string at(std::size_t row) const { return path + ": " + place(row); }
 };
 
 /// How the derivatives that a recording lacks are estimated, and joints that it lacks.
@@ -30,13 +38,13 @@ struct RecordingOptions {
 };
 
 /// Reads a motion of all coordinates, and notes on standard error which joints of it are ignored.
-/// @throws FileError as readMotionCsv(), or for a coordinate without positions.
-MotionFile readMotion(const std::string& path, const Mechanism& mechanism);
+/// @throws FileError as readMotionCsv() or readBagMotion(), or for a coordinate without positions.
+MotionFile readMotion(const MotionSource& source, const Mechanism& mechanism);
 
 /// Reads a motion of the coordinates that `choose` takes from the joints that have a position, and
 /// notes on standard error which joints of it are ignored.
-/// @throws FileError as readMotionCsv(), or for a coordinate without positions.
-MotionFile readMotion(const std::string& path, const Mechanism& mechanism,
+/// @throws FileError as readMotionCsv() or readBagMotion(), or for a coordinate without positions.
+MotionFile readMotion(const MotionSource& source, const Mechanism& mechanism,
                       const JointChoice& choose);
 
 /// Fills in the derivatives that the motion lacks: zero in static scenes, otherwise estimated, with

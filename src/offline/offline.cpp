@@ -1,13 +1,13 @@
 #include "offline/offline.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <iterator>
 #include <optional>
 #include <utility>
 
 #include "base/number_text.h"
+#include "base/output_file.h"
 #include "base/printable.h"
 #include "dynamics/given_joints.h"
 #include "dynamics/motion_start.h"
@@ -16,32 +16,21 @@
 #include "offline/completed_motion.h"
 #include "offline/computation.h"
 #include "offline/deviation_rows.h"
+#include "offline/inputs.h"
 #include "offline/lagrange_rows.h"
 #include "offline/loop_report.h"
-#include "offline/output_file.h"
 #include "offline/recorded_motion.h"
 #include "offline/result_writer.h"
 #include "offline/root_rows.h"
 #include "offline/row_loads.h"
 #include "offline/rows.h"
 #include "virtual_work_dynamics/dynamics.h"
-#include "virtual_work_dynamics/scene_reader.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {
 namespace {
 
 using Names = std::vector<std::string>;
-
-Scene loadScene(const Arguments& arguments) {
-  Scene scene = arguments.scene.empty() ? Scene() : readSceneFile(arguments.scene);
-  if (arguments.gravity) scene.gravity = *arguments.gravity;
-  if (arguments.reactions) {
-    scene.reactions = *arguments.reactions;
-    scene.reaction_names = arguments.reaction_names;
-  }
-  return scene;
-}
 
 // Puts before what is wrong with a scene where that stands.
 template <typename Make>
@@ -100,18 +89,6 @@ void refuseByLoops(const Arguments& arguments, bool loops) {
   }
 }
 
-void refuseToOverwriteInput(const Arguments& arguments) {
-  if (arguments.output.empty()) return;
-  for (const std::string& input : {arguments.urdf, arguments.motion, arguments.scene}) {
-    if (input.empty()) continue;
-    std::error_code missing;  // a missing file cannot be overwritten
-    if (std::filesystem::equivalent(input, arguments.output, missing)) {
-      throw UsageError("--output: '" + arguments.output + "' would overwrite the input '" + input +
-                       "'");
-    }
-  }
-}
-
 void printReactions(const Request& request) {
   const bool child = !request.child_axes.empty();
   const auto& names = child ? request.child_axes : request.root_axes;
@@ -157,7 +134,7 @@ RecordedMotion readStart(const Arguments& arguments, const Mechanism& mechanism,
   try {
     scene = startedBy(mechanism, scene, recorded.start(mechanism));
   } catch (const GivenError& error) {
-    throw FileError(arguments.motion + ": " + error.problem());
+    throw FileError(arguments.motion.name() + ": " + error.problem());
   } catch (const AssemblyError& error) {
     if (!GivenJoints::givesAll(recorded.given)) {
       throw AssemblyError(prefixOf(arguments) + error.what());
@@ -193,7 +170,7 @@ void check(const Arguments& arguments, const Mechanism& mechanism) {
   printMechanism(std::cout, mechanism);
   printDoubts(std::cout, mechanism);
   std::cout << std::flush;
-  Scene scene = loadScene(arguments);
+  Scene scene = askedScene(arguments);
   refuseByLoops(arguments, needsClosedLoops(scene));
   std::optional<RecordedMotion> recorded;
   if (!arguments.motion.empty()) recorded = readStart(arguments, mechanism, scene);
@@ -211,7 +188,7 @@ void check(const Arguments& arguments, const Mechanism& mechanism) {
 }
 
 void explain(const Arguments& arguments, const Mechanism& mechanism) {
-  const Scene scene = loadScene(arguments);
+  const Scene scene = askedScene(arguments);
   refuseByLoops(arguments, needsClosedLoops(scene));
   const Request written = requestOf(mechanism, scene, arguments);
   printCost(std::cout, scene,
@@ -235,6 +212,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   std::optional<LagrangeRows> lagrange;
   if (arguments.method == Method::kLagrange) lagrange.emplace(mechanism, dynamics);
   Columns columns = columnsOf(dynamics, written, arguments);
+  columns.stamps = !recorded.file.stamps_ns.empty();
   RecordingOptions recording = arguments.recording;
   recording.completion.covariances = arguments.deviations;
   CompletedMotion motion(std::move(recorded), mechanism, scene, dynamics, toleranceOf(arguments),
@@ -242,7 +220,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   const RowLoads loads(scene, motion.file());
   std::optional<DeviationRows> deviations;
   if (arguments.deviations) {
-    deviations.emplace(mechanism, scene, written, motion.file().table, arguments.motion);
+    deviations.emplace(mechanism, scene, written, motion.file().table, arguments.motion.name());
     const Names more = deviations->columns(columns);
     columns.more.insert(columns.more.end(), more.begin(), more.end());
   }
@@ -265,11 +243,13 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   }
   std::cerr << warning;
   if (certified) {
-    std::cerr << "note: " << arguments.motion
-              << ": certificates judge arithmetic, not input: " << certified->summary() << "\n";
+    std::cerr << "note: " << printable(arguments.motion.name())
+              << ": certificates judge arithmetic, not input: "
+              << certified->summary(motion.file().row_name) << "\n";
   }
   if (deviations && scene.root_moves) {
-    std::cerr << "note: " << arguments.motion << ": deviations take the root's motion as exact\n";
+    std::cerr << "note: " << printable(arguments.motion.name())
+              << ": deviations take the root's motion as exact\n";
   }
   if (deviations) std::cerr << deviations->notes(arguments.deviation_warn.value_or(kDeviationWarn));
   writer.finish();
@@ -278,13 +258,17 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
 }  // namespace
 
 void runOffline(const Arguments& arguments) {
+  if (arguments.toBag()) {
+    throw UsageError(
+        "--output: bags are written by a build with ROS only, and this is one without");
+  }
   refuseToOverwriteInput(arguments);
   const Mechanism mechanism = readUrdfFile(arguments.urdf);
   if (arguments.check) check(arguments, mechanism);
   if (arguments.explain) explain(arguments, mechanism);
   if (arguments.check || arguments.explain) return;
   printDoubts(std::cerr, mechanism);
-  const Scene scene = loadScene(arguments);
+  const Scene scene = askedScene(arguments);
   refuseByLoops(arguments, needsClosedLoops(scene));
   compute(arguments, mechanism, scene);
 }

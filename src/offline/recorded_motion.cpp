@@ -109,6 +109,25 @@ class Choice {
   NameSet columns_;
 };
 
+// Turns angles in degrees into radians, with their derivatives.
+void makeRadians(const Mechanism& mechanism, const Scene& scene, RecordedMotion& motion) {
+  MotionTable& table = motion.file.table;
+  const std::size_t joints = table.joints.size() - motion.drivenNumbers();
+  const auto turn = [&](std::size_t column) {
+    for (Eigen::MatrixXd* values : {&table.positions, &table.velocities, &table.accelerations}) {
+      if (values->size() > 0) values->col(static_cast<Eigen::Index>(column)) *= kDegree;
+    }
+  };
+  for (std::size_t i = 0; i < joints; ++i) {
+    const int coordinate = mechanism.coordinateIndex(table.joints[i]);
+    if (mechanism.unitOf(coordinate) == Unit::kRadian) turn(i);
+  }
+  for (std::size_t i = 0; i < motion.given.closures.size(); ++i) {
+    const Closure& closure = scene.closures[motion.given.closures[i]];
+    if (traitsOf(closure.type).free_axis == Unit::kRadian) turn(joints + i);
+  }
+}
+
 // Adds the whole turns that a driver left out of the angle of a pin.
 bool unwrapPin(const std::vector<double>& times, Eigen::Ref<Eigen::VectorXd> angles) {
   constexpr double kTurn = 6.283185307179586476925286766559;
@@ -189,17 +208,20 @@ MotionStart RecordedMotion::start(const Mechanism& mechanism) const {
   return start;
 }
 
-RecordedMotion readRecordedMotion(const std::string& path, const Mechanism& mechanism,
+RecordedMotion readRecordedMotion(const MotionSource& source, const Mechanism& mechanism,
                                   const Scene& scene, const RecordingOptions& options) {
   checkRest(mechanism, options);
   RecordedMotion motion;
   Choice choice(mechanism, scene, options, motion);
+  MotionSource taken = source;
+  for (const auto& joint : options.rest) taken.left_out.push_back(joint.first);
   motion.file =
-      readMotion(path, mechanism, [&](const Names& header) { return choice.choose(header); });
+      readMotion(taken, mechanism, [&](const Names& header) { return choice.choose(header); });
   const NameSet given(motion.file.table.joints.begin(), motion.file.table.joints.end());
   for (const auto& joint : options.rest) {
     if (given.count(joint.first) == 0) motion.resting.push_back(joint);
   }
+  if (source.degrees) makeRadians(mechanism, scene, motion);
   straighten(mechanism, scene, motion);
   return motion;
 }

@@ -28,9 +28,9 @@ struct RecordedMotion {
 /// an open chain these are all joints. With closures they are those that have a column
 /// `position.<name>`, where a name is that of a joint, of a closure with one free axis, or
 /// `pose.<link>.x`, `y`, `z`, `qx`, `qy`, `qz`, `qw`.
-/// @throws FileError as readMotionCsv(), or for a coordinate without positions; UsageError for a
+/// @throws FileError as readMotion(), or for a coordinate without positions; UsageError for a
 ///   joint of --rest that the robot does not have.
-RecordedMotion readRecordedMotion(const std::string& path, const Mechanism& mechanism,
+RecordedMotion readRecordedMotion(const MotionSource& source, const Mechanism& mechanism,
                                   const Scene& scene, const RecordingOptions& options);
 
 }  // namespace virtual_work_dynamics

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "base/number_text.h"
 #include "base/printable.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -22,7 +21,7 @@ const std::string& checkedName(const char* what, const std::string& name) {
 }  // namespace
 
 std::string resultHeader(const Columns& columns) {
-  std::string header = "time";
+  std::string header = columns.stamps ? "time,stamp" : "time";
   for (std::size_t i = 0; i < columns.efforts.size(); ++i) {
     checkedName("joint", columns.efforts[i]);
     header += "," + columns.effortColumn(i);
@@ -41,9 +40,15 @@ void ResultWriter::appendCell(double value) {
   if (std::isfinite(value)) appendNumber(text_, value);
 }
 
-void ResultWriter::writeRow(double time, const Eigen::VectorXd& effort,
-                            const std::vector<Wrench>& reactions, const std::vector<double>& more) {
-  appendNumber(text_, time);
+void ResultWriter::writeStamp(std::int64_t stamp_ns) {
+  constexpr std::int64_t kSecond = 1000000000;
+  // The leading one keeps the zeros of the nanoseconds.
+  const std::string nanoseconds = std::to_string(kSecond + stamp_ns % kSecond);
+  text_ += ',' + std::to_string(stamp_ns / kSecond) + '.' + nanoseconds.substr(1);
+}
+
+void ResultWriter::writeResults(const Eigen::VectorXd& effort, const std::vector<Wrench>& reactions,
+                                const std::vector<double>& more) {
   for (Eigen::Index i = 0; i < effort.size(); ++i) appendCell(effort[i]);
   for (const Wrench& wrench : reactions) {
     for (int i = 0; i < 3; ++i) appendCell(wrench.force[i]);

@@ -2,17 +2,20 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "base/number_text.h"
+#include "base/output_file.h"
 #include "base/wrench_components.h"
-#include "offline/output_file.h"
 #include "virtual_work_dynamics/results.h"
 
 namespace virtual_work_dynamics {
 
 /// What the columns of a result hold, in this order after the time.
 struct Columns {
+  bool stamps = false;                 ///< whether there is a column of recorded stamps
   std::vector<std::string> efforts;    ///< as Dynamics::effortNames()
   std::vector<bool> residuals;         ///< as Dynamics::residuals()
   std::vector<std::string> reactions;  ///< names of joints, six columns each
@@ -35,9 +38,14 @@ class ResultWriter {
  public:
   ResultWriter(OutputFile& file, const std::string& header) : file_(file), text_(header) {}
 
-  /// Writes a row: efforts and reactions in the order of the columns, then the cells of `more`.
-  void writeRow(double time, const Eigen::VectorXd& effort, const std::vector<Wrench>& reactions,
-                const std::vector<double>& more);
+  /// Writes the time that a row begins with.
+  void beginRow(double time) { appendNumber(text_, time); }
+  /// Writes the recorded stamp of a row, in seconds with all nanoseconds.
+  void writeStamp(std::int64_t stamp_ns);
+  /// Writes efforts and reactions in the order of the columns, then the cells of `more`, and ends
+  /// the row.
+  void writeResults(const Eigen::VectorXd& effort, const std::vector<Wrench>& reactions,
+                    const std::vector<double>& more);
   /// Hands the rest over to the file and commits it.
   void finish();
 

@@ -49,7 +49,7 @@ std::string Conditions::worst(const MotionFile& file) const {
   if (largest_ == 0) return "singular positions only";
   std::ostringstream text;
   text.precision(3);
-  text << "condition " << largest_ << " at worst, line " << file.lines[row_] << ", at "
+  text << "condition " << largest_ << " at worst, " << file.place(row_) << ", at "
        << numberText(file.table.times[row_]) << " s";
   return text.str();
 }
@@ -72,8 +72,8 @@ void Rows::write(std::size_t row, const Motion& motion, const Load& load, const 
   take(row, results);
   more_.clear();
   if (loops_) {
-    if (results.singular() && ++singular_ == 1) first_singular_line_ = file_.lines[row];
-    if (results.undirected() && ++undirected_ == 1) first_undirected_line_ = file_.lines[row];
+    if (results.singular() && ++singular_ == 1) first_singular_row_ = row;
+    if (results.undirected() && ++undirected_ == 1) first_undirected_row_ = row;
     if (results.singular() || results.undirected()) leaveOut(results);
     conditions_.note(row, results);
     addLoopCells(results);
@@ -85,7 +85,9 @@ void Rows::write(std::size_t row, const Motion& motion, const Load& load, const 
       more_.insert(more_.end(), values->data(), values->data() + values->size());
     }
   }
-  writer_.writeRow(file_.table.times[row], effort_, reactions_, more_);
+  writer_.beginRow(file_.table.times[row]);
+  if (columns_.stamps) writer_.writeStamp(file_.stamps_ns[row]);
+  writer_.writeResults(effort_, reactions_, more_);
   progress_.update(row + 1, file_.table.times.size());
 }
 
@@ -97,7 +99,7 @@ void Rows::take(std::size_t row, const Results& results) {
                       std::all_of(reactions_.begin(), reactions_.end(), [](const Wrench& wrench) {
                         return wrench.force.allFinite() && wrench.torque.allFinite();
                       });
-  if (!finite && ++overflowed_ == 1) first_line_ = file_.lines[row];
+  if (!finite && ++overflowed_ == 1) first_row_ = row;
 }
 
 // Turns results without a value into NaN, which is written as an empty cell.
@@ -138,17 +140,17 @@ std::string Rows::warning() const {
   const std::string begin = "warning: " + printable(file_.path) + ": ";
   std::string text;
   if (overflowed_ > 0) {
-    text = begin + "results of " + rows(overflowed_) + " overflow, first in line " +
-           std::to_string(first_line_) + "; their cells are empty\n";
+    text = begin + "results of " + rows(overflowed_) + " overflow, first in " +
+           file_.place(first_row_) + "; their cells are empty\n";
   }
   if (singular_ > 0) {
-    text += begin + rows(singular_) + " in singular positions, first in line " +
-            std::to_string(first_singular_line_) +
+    text += begin + rows(singular_) + " in singular positions, first in " +
+            file_.place(first_singular_row_) +
             "; cells of results without a value there are empty\n";
   }
   if (undirected_ > 0) {
-    text += begin + "the ends of a spring meet in " + rows(undirected_) + ", first in line " +
-            std::to_string(first_undirected_line_) +
+    text += begin + "the ends of a spring meet in " + rows(undirected_) + ", first in " +
+            file_.place(first_undirected_row_) +
             ", so that its force has no direction; cells of results that it reaches are empty\n";
   }
   if (conditions_.close() > 0) {

@@ -75,11 +75,11 @@ class Rows {
   std::vector<double> more_;
   Progress progress_{std::cerr, ProgressLine::whereIs(STDERR_FILENO), "computing"};
   std::size_t overflowed_ = 0;
-  std::size_t first_line_ = 0;
+  std::size_t first_row_ = 0;
   std::size_t singular_ = 0;
-  std::size_t first_singular_line_ = 0;
+  std::size_t first_singular_row_ = 0;
   std::size_t undirected_ = 0;
-  std::size_t first_undirected_line_ = 0;
+  std::size_t first_undirected_row_ = 0;
   Conditions conditions_;
 };
 

@@ -1,21 +1,27 @@
 set(offline_files)
 foreach(file
     arguments.cpp
+    bag_topic.cpp
     certified_rows.cpp
     check_report.cpp
     completed_motion.cpp
     computation.cpp
     deviation_rows.cpp
     lagrange_rows.cpp
+    help_text.cpp
+    inputs.cpp
+    joint_renaming.cpp
+    joint_state_rows.cpp
     loop_report.cpp
     motion_file.cpp
     offline.cpp
-    output_file.cpp
     recorded_motion.cpp
     result_writer.cpp
     root_rows.cpp
     row_loads.cpp
     rows.cpp
+    state_csv.cpp
+    state_motion.cpp
     watched_file.cpp)
   list(APPEND offline_files ${CMAKE_CURRENT_LIST_DIR}/${file})
 endforeach()

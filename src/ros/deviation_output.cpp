@@ -85,6 +85,7 @@ class JointDeviationOutput : public Output {
     return ros::AdvertiseOptions::create<sensor_msgs::JointState>(topic, queue, {}, {},
                                                                   ros::VoidConstPtr(), nullptr);
   }
+  bool ofDeviations() const override { return true; }
   bool usesCovariance() const override { return record_ != nullptr; }
   void addTo(Request& request) const override { request.efforts = true; }
   std::unique_ptr<OutputMessage> makeMessage(const Dynamics&, const Scene& scene) const override {

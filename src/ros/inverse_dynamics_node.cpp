@@ -33,7 +33,6 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       at_once_(parameters.trajectory_rate == 0),
       late_threshold_(parameters.late_threshold),
       checks_{parameters.self_check.cross_check_rate > 0, parameters.self_check.certificates},
-      joint_states_(task_.mechanism),
       trajectories_(task_.mechanism, task_.scene.static_motion, task_.following(),
                     parameters.trajectory_sampling),
       estimator_(task_.mechanism, task_.estimator),
@@ -44,6 +43,8 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
                    task_.estimator, counters_, [this](const auto&... what) { drop(what...); }),
       samples_(task_.everything.coordinates(), task_.scene, completer_, wrenches_,
                {counters_, certificates_, loops_}, root_inputs_.course()),
+      joint_states_(task_.mechanism, task_.estimator.estimate, estimator_, completer_, samples_,
+                    counters_, *this),
       played_(parameters.trajectory_rate),
       streams_(task_.mechanism.coordinates().size()),
       gap_throttles_(task_.mechanism.coordinates().size(), Throttle(kGapPeriod)),
@@ -68,7 +69,6 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
   task_.log(parameters);
   ros::NodeHandle node;
   if (task_.everything.closed()) estimator_.waitFor(completer_.needed());
-  covariance_.coordinates.resize(task_.mechanism.coordinates().size());
   for (const auto& [coordinate, position] : task_.rest) estimator_.setRest(coordinate, position);
   loops_.setPassiveGiven(completer_.allGiven());
   if (!task_.closure_frames.transforms.empty()) {
@@ -112,77 +112,39 @@ void InverseDynamicsNode::guard(const ros::Subscriber& source, Work work) {
 void InverseDynamicsNode::receiveJointState(
     const ros::MessageEvent<const sensor_msgs::JointState>& event) {
   counters_.joint_states.add();
-  guard(joint_state_subscriber_, [&] { take(*event.getConstMessage(), event.getReceiptTime()); });
+  receipt_ = event.getReceiptTime();
+  guard(joint_state_subscriber_, [&] {
+    if (joint_states_.take(*event.getConstMessage())) streams_.update(estimator_);
+  });
 }
 
-void InverseDynamicsNode::take(const sensor_msgs::JointState& message, ros::Time receipt) {
-  JointSample sample;
-  if (const auto rejection = joint_states_.convert(message, sample)) {
-    if (rejection->reason == DropReason::kNoKnownJoint) {
-      reportForeign(rejection->text);
-    } else {
-      drop(joint_state_subscriber_.getTopic(), rejection->reason, rejection->text);
-    }
-    return;
-  }
-  if (!sample.mimic_disagreement.empty()) {
-    ROS_WARN("%s: %s; positions of mimic joints are ignored",
-             joint_state_subscriber_.getTopic().c_str(), sample.mimic_disagreement.c_str());
-  }
-  if (sample.velocity_not_finite) counters_.velocity_not_finite.add();
-  if (!sample.velocity_problem.empty()) {
-    ROS_WARN("%s: %s; velocities that are not finite are not used",
-             joint_state_subscriber_.getTopic().c_str(), sample.velocity_problem.c_str());
-  }
-  if (!push(sample)) return;
-  while (estimator_.ready()) evaluate(receipt);
-  streams_.update(estimator_);
+void InverseDynamicsNode::publish(const ActivePlan& plan) {
+  publishSample(plan);
+  if (!sim_time_ && ros::Time::now() - receipt_ > late_threshold_) counters_.late.add();
+}
+
+void InverseDynamicsNode::dropJointState(DropReason reason, const std::string& text) {
+  drop(joint_state_subscriber_.getTopic(), reason, text);
 }
 
 // Joint states of other robots on the topic are nothing to warn of again and again.
-void InverseDynamicsNode::reportForeign(const std::string& text) {
-  counters_.foreign.add();
+void InverseDynamicsNode::leaveForeign(const std::string& text) {
   if (foreign_reported_) return;
   foreign_reported_ = true;
   ROS_INFO("%s: a message is not used, as %s; others like it are not mentioned",
            joint_state_subscriber_.getTopic().c_str(), text.c_str());
 }
 
-bool InverseDynamicsNode::push(const JointSample& sample) {
-  using Verdict = MotionEstimator::Verdict;
-  const Verdict verdict =
-      estimator_.push(sample.stamp_ns, sample.coordinates, sample.q, sample.qd, sample.count);
-  if (verdict == Verdict::kEqualStamp) {
-    drop(joint_state_subscriber_.getTopic(), DropReason::kEqualStamp,
-         "its stamp " + stampText(sample.stamp_ns) + " was received before");
-    return false;
-  }
-  if (verdict == Verdict::kTooLate) {
-    drop(joint_state_subscriber_.getTopic(), DropReason::kTooLate,
-         "its stamp " + stampText(sample.stamp_ns) + " is too far behind those received before");
-    return false;
-  }
-  if (verdict == Verdict::kReordered) counters_.reordered.add();
-  if (verdict == Verdict::kAfterGap) reportGap();
-  if (verdict == Verdict::kRestartedBack) {
-    counters_.restarts.add();
-    if (restart_throttle_.open()) {
-      ROS_INFO("%s: time went back to stamp %s: the estimator restarts",
-               joint_state_subscriber_.getTopic().c_str(), stampText(sample.stamp_ns).c_str());
-    }
-  }
-  counters_.accepted_joint_states.add();
-  joint_watch_.saw(sample.coordinates, sample.count);
-  if (completer_.saw(sample.coordinates, sample.count)) {
-    estimator_.waitFor(completer_.needed());
-    joint_watch_.needAll();
-    loops_.setPassiveGiven(true);
-  }
-  return true;
+void InverseDynamicsNode::dropSample(Outcome outcome, ActivePlan& plan, std::int64_t stamp_ns) {
+  dropResult(joint_state_subscriber_, outcome, openLoop(outcome, plan),
+             "stamp " + stampText(stamp_ns));
 }
 
-void InverseDynamicsNode::reportGap() {
-  counters_.gaps.add();
+void InverseDynamicsNode::warn(const std::string& text) {
+  ROS_WARN("%s: %s", joint_state_subscriber_.getTopic().c_str(), text.c_str());
+}
+
+void InverseDynamicsNode::noteGap() {
   const auto joint = static_cast<std::size_t>(estimator_.latestGapCoordinate());
   if (!gap_throttles_[joint].open()) return;
   ROS_INFO("%s: %s had a gap of %s s, longer than %s = %s s: it is estimated anew",
@@ -192,28 +154,19 @@ void InverseDynamicsNode::reportGap() {
            privateName("estimator/max_gap").c_str(), numberText(task_.estimator.max_gap).c_str());
 }
 
-void InverseDynamicsNode::evaluate(ros::Time receipt) {
-  ActivePlan& plan = plans_.current();
-  if (!plan.wantsSamples()) {
-    estimator_.skip();
-    counters_.skipped.add();
-    return;
-  }
-  MotionCovariance* covariance =
-      plan.wantsCovariance() && task_.estimator.estimate ? &covariance_ : nullptr;
-  const std::int64_t stamp_ns = estimator_.evaluate(samples_.motion(), covariance);
-  if (estimator_.anyHeld()) counters_.held.add();
-  const Outcome outcome = samples_.compute(plan, stamp_ns, covariance);
-  if (outcome != Outcome::kDone) {
-    dropResult(joint_state_subscriber_, outcome, openLoop(outcome, plan),
-               "stamp " + stampText(stamp_ns));
-    return;
-  }
-  if (const auto open = completer_.openStates()) {
-    ROS_WARN("%s: %s", joint_state_subscriber_.getTopic().c_str(), open->c_str());
-  }
-  publishSample(plan);
-  if (!sim_time_ && ros::Time::now() - receipt > late_threshold_) counters_.late.add();
+void InverseDynamicsNode::noteRestart(std::int64_t stamp_ns) {
+  if (!restart_throttle_.open()) return;
+  ROS_INFO("%s: time went back to stamp %s: the estimator restarts",
+           joint_state_subscriber_.getTopic().c_str(), stampText(stamp_ns).c_str());
+}
+
+void InverseDynamicsNode::noteSeen(const int* coordinates, int count) {
+  joint_watch_.saw(coordinates, count);
+}
+
+void InverseDynamicsNode::noteAllGiven() {
+  joint_watch_.needAll();
+  loops_.setPassiveGiven(true);
 }
 
 void InverseDynamicsNode::publishSample(const ActivePlan& plan) {

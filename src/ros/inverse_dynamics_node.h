@@ -23,7 +23,7 @@
 #include "ros/cross_check.h"
 #include "ros/diagnostics.h"
 #include "ros/inverse_dynamics_parameters.h"
-#include "ros/joint_state_conversion.h"
+#include "ros/joint_state_computation.h"
 #include "ros/joint_watch.h"
 #include "ros/loop_record.h"
 #include "ros/motion_completer.h"
@@ -49,12 +49,12 @@ namespace virtual_work_dynamics {
 /// thread that spins the global callback queue receives messages, computes and publishes. The other
 /// one is the node's own: it watches who subscribes and what changes of the scene, compiles the
 /// plan for them, hands it over by PlanSwitch, and reports diagnostics.
-class InverseDynamicsNode {
+class InverseDynamicsNode : private JointStateUser {
  public:
   /// Checks everything, then advertises and subscribes; if it throws, it has done neither.
   /// @throws Error, one line naming what is wrong with the robot, the scene or a parameter.
   explicit InverseDynamicsNode(const InverseDynamicsParameters& parameters);
-  ~InverseDynamicsNode();
+  ~InverseDynamicsNode() override;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -64,11 +64,17 @@ class InverseDynamicsNode {
   void receiveTrajectory(const ros::MessageEvent<const trajectory_msgs::JointTrajectory>& event);
   template <typename Work>
   void guard(const ros::Subscriber& source, Work work);
-  void take(const sensor_msgs::JointState& message, ros::Time receipt);
-  bool push(const JointSample& sample);
-  void reportGap();
-  void reportForeign(const std::string& text);
-  void evaluate(ros::Time receipt);
+  ActivePlan& plan() override { return plans_.current(); }
+  void publish(const ActivePlan& plan) override;
+  void dropJointState(DropReason reason, const std::string& text) override;
+  void leaveForeign(const std::string& text) override;
+  void dropSample(SampleComputation::Outcome outcome, ActivePlan& plan,
+                  std::int64_t stamp_ns) override;
+  void warn(const std::string& text) override;
+  void noteGap() override;
+  void noteRestart(std::int64_t stamp_ns) override;
+  void noteSeen(const int* coordinates, int count) override;
+  void noteAllGiven() override;
   void take(const trajectory_msgs::JointTrajectory& message, ros::Time receipt);
   void respond(ActivePlan& plan, const trajectory_msgs::JointTrajectory& message);
   void playDue();
@@ -93,7 +99,6 @@ class InverseDynamicsNode {
   const ros::Duration late_threshold_;
   const PlanChecks checks_;
 
-  JointStateConversion joint_states_;
   TrajectoryConversion trajectories_;
   MotionEstimator estimator_;
   Counters counters_;
@@ -103,9 +108,10 @@ class InverseDynamicsNode {
   LiveWrenches wrenches_;
   RootInputs root_inputs_;
   SampleComputation samples_;
+  JointStateComputation joint_states_;
+  ros::Time receipt_;  // of the latest joint state
   TrajectoryMotion trajectory_;
   TrajectoryQueue played_;
-  MotionCovariance covariance_;
   StreamRecord streams_;
   bool foreign_reported_ = false;
   // By reason, so that a flood of one kind does not hide the others.

@@ -181,6 +181,7 @@ class MarkerOutput : public Output {
     return ros::AdvertiseOptions::create<visualization_msgs::MarkerArray>(
         topic, queue, {}, {}, ros::VoidConstPtr(), nullptr);
   }
+  bool isForLooking() const override { return true; }
   void addTo(Request& request) const override {
     for (const std::string& name : settings_.reactions) {
       std::vector<std::string>& names = request.child_axes;

@@ -275,6 +275,9 @@ class DeterminacyOutputMessage : public OutputMessage {
   void publish(const ros::Publisher& topic) const override {
     if (changed_) topic.publish(message_->message());
   }
+  void record(MessageRecorder& recorder) const override {
+    if (changed_) recorder.record(message_->message());
+  }
 
  private:
   const std::vector<std::size_t> root_places_, child_places_;
@@ -297,6 +300,9 @@ class DeterminacyOutput : public Output {
     return options;
   }
   void start(const ros::Publisher& topic) const override { topic.publish(message_->message()); }
+  void recordStart(MessageRecorder& recorder) const override {
+    recorder.record(message_->message());
+  }
   void addTo(Request& request) const override {
     request.efforts = request.determinacy = true;
     addOnce(reactions_, request.child_axes);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "ros/deviation_record.h"
+#include "ros/message_recorder.h"
 #include "ros/trajectory_conversion.h"
 #include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/motion_covariance.h"
@@ -38,6 +39,8 @@ class OutputMessage {
   virtual void fill(const OutputSample& sample) = 0;
   /// Publishes what was written, unless there is nothing to publish.
   virtual void publish(const ros::Publisher& topic) const = 0;
+  /// Records what publish() would publish.
+  virtual void record(MessageRecorder& recorder) const = 0;
 };
 
 /// A message of one type, published when what was written has a value.
@@ -49,6 +52,9 @@ class MessageOf : public OutputMessage {
   bool exists() const { return exists_; }
   void publish(const ros::Publisher& topic) const override {
     if (exists_) topic.publish(message_);
+  }
+  void record(MessageRecorder& recorder) const override {
+    if (exists_) recorder.record(message_);
   }
 
  protected:
@@ -69,9 +75,16 @@ class Output {
   virtual ros::AdvertiseOptions options(const std::string& topic, std::uint32_t queue) const = 0;
   /// Publishes what a latched topic says before the first sample.
   virtual void start(const ros::Publisher&) const {}
+  /// Records what start() would publish.
+  virtual void recordStart(MessageRecorder&) const {}
 
   /// Whether it has one message for each trajectory, rather than for each sample.
   virtual bool ofTrajectories() const { return false; }
+  /// Whether it is to be looked at while it comes, at a rate by the clock on the wall, and so is
+  /// not recorded.
+  virtual bool isForLooking() const { return false; }
+  /// Whether it says how far results may be off, which recordings have when asked for.
+  virtual bool ofDeviations() const { return false; }
   /// Whether its message uses OutputSample::covariance.
   virtual bool usesCovariance() const { return false; }
   /// Adds what its subscribers need.

@@ -13,6 +13,7 @@ foreach(file
     imu_conversion.cpp
     inverse_dynamics_node.cpp
     inverse_dynamics_parameters.cpp
+    joint_state_computation.cpp
     joint_state_conversion.cpp
     joint_watch.cpp
     loop_record.cpp

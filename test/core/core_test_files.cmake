@@ -63,6 +63,7 @@ set(core_test_files
   test/core/multifrontal_qr_test.cpp
   test/core/nearest_name_test.cpp
   test/core/non_holonomic_conditions_test.cpp
+  test/core/offline_bags_test.cpp
   test/core/offline_certificates_test.cpp
   test/core/offline_deviations_test.cpp
   test/core/offline_errors_test.cpp

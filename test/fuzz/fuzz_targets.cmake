@@ -28,6 +28,8 @@ endfunction()
 vwd_add_fuzz_target(description)
 vwd_add_fuzz_target(scene)
 vwd_add_fuzz_target(motion)
+vwd_add_fuzz_target(bag ${bag_files} src/offline/joint_renaming.cpp src/offline/joint_state_rows.cpp)
+target_link_libraries(bag_fuzz PRIVATE ${PROJECT_NAME}_compression)
 vwd_add_fuzz_target(tool ${offline_files})
 vwd_link_core(${fuzzed_library} tool_fuzz)
 

@@ -1,16 +1,14 @@
 // The offline tool on a folder with a description, a scene and a motion. An input has the words of
 // the command line in its first line, then the three files, divided by lines "==== scene" and
 // "==== motion".
-#include <unistd.h>
-
 #include <array>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "fuzz_folder.h"
 #include "fuzz_target.h"
 #include "offline/arguments.h"
 #include "offline/offline.h"
@@ -18,24 +16,6 @@
 using namespace virtual_work_dynamics;
 
 namespace {
-
-// A folder that is removed when the process ends well.
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "vwd_fuzz_XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) failFuzz("no folder can be made");
-    path_ = pattern;
-  }
-  ~Folder() {
-    std::error_code no_matter;
-    std::filesystem::remove_all(path_, no_matter);
-  }
-  std::string file(const char* name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
 
 // Takes a text off `rest`, up to a divider, which is dropped.
 std::string takeUpTo(const std::string& divider, std::string& rest) {
@@ -78,7 +58,7 @@ class Silence {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Folder folder;
+  static const FuzzFolder folder;
   std::string rest = textOf(data, size);
   std::vector<std::string> words = allowedWords(takeUpTo("\n", rest));
   const std::string urdf = takeUpTo("==== scene\n", rest);

@@ -1,4 +1,4 @@
-#include "offline/output_file.h"
+#include "base/output_file.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -142,6 +142,12 @@ void OutputFile::throwCannotWrite(int error) const {
 
 void OutputFile::write(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stream_) != text.size()) throwCannotWrite(errno);
+}
+
+void OutputFile::rewrite(std::size_t position, const std::string& bytes) {
+  if (fseeko(stream_, static_cast<off_t>(position), SEEK_SET) != 0) throwCannotWrite(errno);
+  write(bytes);
+  if (fseeko(stream_, 0, SEEK_END) != 0) throwCannotWrite(errno);
 }
 
 void OutputFile::commit() {

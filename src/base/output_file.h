@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdio>
 #include <string>
 
@@ -22,6 +23,11 @@ class OutputFile {
 
   /// Writes a text. @throws FileError as soon as a failure shows, at the latest in commit().
   void write(const std::string& text);
+  /// Writes bytes in place of those at a position, and goes back to the end. Only where the file is
+  /// one that commit() renames. @throws FileError as write().
+  void rewrite(std::size_t position, const std::string& bytes);
+  /// Whether rewrite() is possible: not of standard output, devices and pipes.
+  bool canRewrite() const { return !part_.empty(); }
   /// Completes the file; to be called once, at the end. @throws FileError naming path and reason.
   void commit();
 

@@ -1,0 +1,18 @@
+# virtual_work_dynamics_compression: what chunks of bags are decompressed by, as far as it is there. A
+# bag that needs what is missing is refused by name.
+add_library(${PROJECT_NAME}_compression INTERFACE)
+find_package(BZip2)
+if(BZIP2_FOUND)
+  target_compile_definitions(${PROJECT_NAME}_compression INTERFACE VWD_HAS_BZ2)
+  target_include_directories(${PROJECT_NAME}_compression SYSTEM INTERFACE ${BZIP2_INCLUDE_DIR})
+  target_link_libraries(${PROJECT_NAME}_compression INTERFACE ${BZIP2_LIBRARIES})
+endif()
+find_path(LZ4_INCLUDE_DIR lz4frame.h)
+find_library(LZ4_LIBRARY lz4)
+if(LZ4_INCLUDE_DIR AND LZ4_LIBRARY)
+  target_compile_definitions(${PROJECT_NAME}_compression INTERFACE VWD_HAS_LZ4)
+  target_include_directories(${PROJECT_NAME}_compression SYSTEM INTERFACE ${LZ4_INCLUDE_DIR})
+  target_link_libraries(${PROJECT_NAME}_compression INTERFACE ${LZ4_LIBRARY})
+else()
+  message(STATUS "lz4 is missing (Debian, Ubuntu: liblz4-dev): bags that it compressed will not be read")
+endif()

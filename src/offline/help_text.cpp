@@ -1,0 +1,112 @@
+#include "offline/arguments.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+constexpr char kHelp[] =
+    R"(inverse_dynamics_offline: active efforts and joint reactions of a recorded motion
+
+  inverse_dynamics_offline --urdf ROBOT.urdf --motion MOTION.csv|BAG... [options]
+  inverse_dynamics_offline --urdf ROBOT.urdf --check [options]
+  inverse_dynamics_offline --urdf ROBOT.urdf --explain [options]
+
+Input
+  --urdf FILE           robot description
+  --motion FILE         motion as CSV: a header with the columns time, position.<joint>,
+                        velocity.<joint>, acceleration.<joint> in any order (s, rad or m); lines
+                        that start with # are comments. The CSV of 'rostopic echo -p' of joint
+                        states and of PlotJuggler is read, too. Missing accelerations, or velocities, are
+                        estimated by a smoother that finds the noise of the recording. Where the
+                        scene closes loops, the columns are of all joints, or of as many as move the
+                        others: the actuated ones, or any other choice, free axes of closures
+                        (position.<closure>) and poses of links (position.pose.<link>.x, y, z, qx,
+                        qy, qz, qw, in axes of the root link) included. - reads standard input.
+  --motion BAG...       motion as a bag of ROS 1, or the parts that rosbag split it into: a row for
+                        each sensor_msgs/JointState that has all joints. The result has their stamps
+                        in a column stamp (s, all nanoseconds), and times from the first one on. A bag
+                        that is damaged or was not closed gives what can be read of it.
+  --rename RULE         PATTERN=NAME: joints of the motion whose names the regular expression matches as a
+                        whole are called NAME, in which \1 is what its first group matches; several
+                        times for several rules, of which the first that matches counts
+  --degrees             angles of the motion, and their derivatives, are in degrees
+  --topic NAME          topic of the joint states in the bag (default: the only one, or /joint_states)
+  --scene FILE          scene file (YAML); the options below override it
+
+How missing derivatives are estimated
+  --position-noise X    standard deviation of the positions, rad or m (default: found)
+  --velocity-noise X    standard deviation of the velocities, rad/s or m/s (default: found)
+  --stamp-noise X       standard deviation of the times, s (default: found)
+  --bandwidth HZ        what swings so fast keeps half of its amplitude (default: found)
+  --lag S               estimates each row from the rows up to S seconds after it, as
+                        inverse_dynamics_node does (default: from all rows)
+  --max-gap S           nothing is assumed of the motion across longer gaps (default: 0.25)
+  --rest JOINT=X        position, rad or m, of a joint that the motion does not have, or that a bag
+                        has in messages of its own; several separated by commas
+
+What is computed
+  --gravity "X Y Z"     gravity in axes of a root link that rests, m/s^2 (default: 0 0 -9.81)
+  --axes root|child     axes of the reactions: of the root link (default) or of the child link
+  --reactions LIST      all (every movable joint; the default), none, or joints separated by
+                        commas; fixed joints and "ground" by name only
+  --no-efforts          reactions only
+  --method NAME         virtual_work (the default), or lagrange: Lagrange's equations with a
+                        fictitious mobility at each joint, in long double; it is slow, shares no
+                        formula with virtual_work and serves to check it
+  --certificates        adds the columns certificate.{power,ground_force,ground_moment}: how far
+                        each row violates the balance of power, and the wrench of ground the rates
+                        of change of momentum, relative to the sum of all terms' magnitudes; they
+                        judge the arithmetic, not the motion or the description that it starts from
+  --deviations          adds the columns deviation.effort.<joint>, deviation.<name>.{fx,...,tz}:
+                        standard deviations of the results by the error of the estimated motion; and,
+                        where the scene has tolerances, tolerance.effort.<joint>,
+                        tolerance.<name>.{fx,...,tz}: by the errors of masses and inertias
+  --positions           adds the columns position.<joint>, velocity.<joint> and acceleration.<joint>
+                        of all joints: the motion that the results belong to, which can be read as a
+                        motion again
+  --deviation-warn X    notes efforts whose deviation is more than X times the effort, both as rms of
+                        all rows, and the cause (default: 0.1)
+  --loop-tolerance X    how far the motion may violate closed loops, relative to the loops' size
+                        and to the largest rate and acceleration (default: 1e-6)
+  --threads N           divides the rows among N threads (default: 1)
+
+Output
+  --output FILE         result as CSV (default: standard output); FILE is written as a whole or not
+                        at all
+  --output BAG          a name that ends in .bag: of a motion from a bag, the topics that
+                        inverse_dynamics_node would publish, with its results: estimated as it does
+                        it, --lag S (default: 0.05) behind; those of deviations with --deviations.
+                        Memory does not grow with the bag.
+  --copy-input          all messages of the bag that is read go to the one that is written, too
+  --node NAME           node whose topics are written (default: /inverse_dynamics)
+  --check               only describes the robot and says what is doubtful about it; for closed
+                        loops with --motion, also how close it comes to singular positions
+  --explain             only says what a sample costs and what its computation leaves out because
+                        no result that is asked for needs it
+  --help                this text
+  --version             the version of the package
+
+The result has the columns time, effort.<joint> (N m or N) and, for each reaction,
+reaction.<name>.{fx,fy,fz,tx,ty,tz}: force (N) and moment about the joint's origin (N m) that the
+parent link exerts on the child link. An empty cell is a value that overflowed or
+does not exist.
+
+Where the scene closes loops, closures have effort and reaction columns like joints. Further columns
+are determined.effort.<joint>, determined.<name>.{fx,fy,fz,tx,ty,tz}: 1 where rigid-body mechanics
+determines the value, 0 where the scene's policy does. In singular positions cells of results without
+a value are empty. The columns residual.{position,velocity,acceleration}.<closure> say by how much the motion
+violates the closure, in m or rad, m/s or rad/s, m/s^2 or rad/s^2.
+
+Exit status: 0 done, 1 something is wrong with the input or output, 2 wrong usage.
+
+Example
+  inverse_dynamics_offline --urdf arm.urdf --motion swing.csv --gravity "0 0 -9.81" \
+    --reactions shoulder,ground --axes child --output swing_loads.csv
+)";
+
+}  // namespace
+
+std::string helpText() {
+  return kHelp;
+}
+
+}  // namespace virtual_work_dynamics

@@ -1,0 +1,7 @@
+set(replay_files)
+foreach(file
+    bag_run.cpp
+    bag_topics.cpp
+    replayed_states.cpp)
+  list(APPEND replay_files ${CMAKE_CURRENT_LIST_DIR}/${file})
+endforeach()

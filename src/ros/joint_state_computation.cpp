@@ -1,0 +1,97 @@
+#include "ros/joint_state_computation.h"
+
+#include "ros/message_text.h"
+
+namespace virtual_work_dynamics {
+
+using Outcome = SampleComputation::Outcome;
+
+JointStateComputation::JointStateComputation(const Mechanism& mechanism, bool covariances,
+                                             MotionEstimator& estimator, MotionCompleter& completer,
+                                             SampleComputation& samples, Counters& counters,
+                                             JointStateUser& user)
+    : covariances_(covariances),
+      conversion_(mechanism),
+      estimator_(estimator),
+      completer_(completer),
+      samples_(samples),
+      counters_(counters),
+      user_(user) {
+  covariance_.coordinates.resize(mechanism.coordinates().size());
+}
+
+bool JointStateComputation::take(const sensor_msgs::JointState& message) {
+  JointSample sample;
+  if (const auto rejection = conversion_.convert(message, sample)) {
+    if (rejection->reason == DropReason::kNoKnownJoint) {
+      counters_.foreign.add();
+      user_.leaveForeign(rejection->text);
+    } else {
+      user_.dropJointState(rejection->reason, rejection->text);
+    }
+    return false;
+  }
+  if (!sample.mimic_disagreement.empty()) {
+    user_.warn(sample.mimic_disagreement + "; positions of mimic joints are ignored");
+  }
+  if (sample.velocity_not_finite) counters_.velocity_not_finite.add();
+  if (!sample.velocity_problem.empty()) {
+    user_.warn(sample.velocity_problem + "; velocities that are not finite are not used");
+  }
+  if (!push(sample)) return false;
+  while (estimator_.ready()) evaluate();
+  return true;
+}
+
+bool JointStateComputation::push(const JointSample& sample) {
+  using Verdict = MotionEstimator::Verdict;
+  const Verdict verdict =
+      estimator_.push(sample.stamp_ns, sample.coordinates, sample.q, sample.qd, sample.count);
+  if (verdict == Verdict::kEqualStamp) {
+    user_.dropJointState(DropReason::kEqualStamp,
+                         "its stamp " + stampText(sample.stamp_ns) + " was received before");
+    return false;
+  }
+  if (verdict == Verdict::kTooLate) {
+    user_.dropJointState(DropReason::kTooLate, "its stamp " + stampText(sample.stamp_ns) +
+                                                   " is too far behind those received before");
+    return false;
+  }
+  if (verdict == Verdict::kReordered) counters_.reordered.add();
+  if (verdict == Verdict::kAfterGap) {
+    counters_.gaps.add();
+    user_.noteGap();
+  }
+  if (verdict == Verdict::kRestartedBack) {
+    counters_.restarts.add();
+    user_.noteRestart(sample.stamp_ns);
+  }
+  counters_.accepted_joint_states.add();
+  user_.noteSeen(sample.coordinates, sample.count);
+  if (completer_.saw(sample.coordinates, sample.count)) {
+    estimator_.waitFor(completer_.needed());
+    user_.noteAllGiven();
+  }
+  return true;
+}
+
+void JointStateComputation::evaluate() {
+  ActivePlan& plan = user_.plan();
+  if (!plan.wantsSamples()) {
+    estimator_.skip();
+    counters_.skipped.add();
+    return;
+  }
+  MotionCovariance* covariance = plan.wantsCovariance() && covariances_ ? &covariance_ : nullptr;
+  const std::int64_t stamp_ns = estimator_.evaluate(samples_.motion(), covariance);
+  if (estimator_.anyHeld()) counters_.held.add();
+  const Outcome outcome = samples_.compute(plan, stamp_ns, covariance);
+  if (outcome != Outcome::kDone) {
+    user_.dropSample(outcome, plan, stamp_ns);
+    return;
+  }
+  if (const auto open = completer_.openStates()) user_.warn(*open);
+  user_.publish(plan);
+}
+
+}  // namespace virtual_work_dynamics
