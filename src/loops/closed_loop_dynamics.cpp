@@ -28,7 +28,7 @@ Request weighedRequest(const Mechanism& mechanism, const std::vector<LoopGroup>&
   request.efforts = false;
   for (const LoopGroup& group : groups) {
     for (const LoopGroup::CrossedJoint& crossed : group.joints) {
-      if (crossed.moves) request.root_axes.push_back(mechanism.joint(crossed.joint).name);
+      if (crossed.moves) request.root_axes.push_back(mechanism.reactionName(crossed.joint));
     }
   }
   return request;
@@ -83,7 +83,7 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& of, const Scene& scene, const Re
     weighed_pass = std::make_unique<InverseDynamics>(mechanism, wholeReactionsScene(open_tree),
                                                      weighedRequest(mechanism, groups));
     for (const std::string& name : weighed_pass->request().root_axes) {
-      weighed_joints.push_back(mechanism.jointIndex(name));
+      weighed_joints.push_back(mechanism.reactionIndex(name));
     }
   }
   setUsual();

@@ -24,7 +24,7 @@ LinkKinematics::JointConstants LinkKinematics::constantsOf(const Joint& joint) {
   JointConstants constants;
   constants.parent_link = joint.parent_link;
   constants.coordinate = joint.coordinate;
-  constants.slides = unitOf(joint) == Unit::kMetre;
+  constants.slides = virtual_work_dynamics::unitOf(joint) == Unit::kMetre;
   constants.multiplier = static_cast<double>(joint.multiplier);
   constants.offset = static_cast<double>(joint.offset);
   constants.p_PoKo_P = joint.p_PoKo_P.cast<double>();

@@ -58,6 +58,10 @@ class LinkKinematics {
   int coordinateOf(const PathStep& step) const {
     return joints_[static_cast<std::size_t>(step.joint)].coordinate;
   }
+  /// What the position of a joint that moves measures.
+  Unit unitOf(int joint) const {
+    return joints_[static_cast<std::size_t>(joint)].slides ? Unit::kMetre : Unit::kRadian;
+  }
   /// How a step of a joint displaces the second link relative to the first: by a unit angle, or by
   /// a slide of `length`.
   struct Displacement {

@@ -25,6 +25,7 @@
 #include "offline/row_loads.h"
 #include "offline/rows.h"
 #include "virtual_work_dynamics/dynamics.h"
+#include "virtual_work_dynamics/joint_types.h"
 #include "virtual_work_dynamics/scene_reader.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
@@ -189,11 +190,15 @@ void checkMotion(const Arguments& arguments, RecordedMotion recorded, const Mech
   if (dynamics.closed()) printNames(std::cout, "closed loops", {conditions.worst(motion.file())});
 }
 
-void check(const Arguments& arguments, const Mechanism& mechanism) {
+// The robot with the joint types of the scene.
+Mechanism robotOf(const Mechanism& described, const Scene& scene, const Arguments& arguments) {
+  return naming(prefixOf(arguments), [&] { return withJointTypes(described, scene); });
+}
+
+void check(const Arguments& arguments, const Mechanism& mechanism, Scene scene) {
   printMechanism(std::cout, mechanism);
   printDoubts(std::cout, mechanism);
   std::cout << std::flush;
-  Scene scene = loadScene(arguments);
   refuseByLoops(arguments, needsClosedLoops(scene));
   std::optional<RecordedMotion> recorded;
   if (!arguments.motion.empty()) recorded = readStart(arguments, mechanism, scene);
@@ -210,8 +215,7 @@ void check(const Arguments& arguments, const Mechanism& mechanism) {
   std::cout << "The robot can run.\n" << std::flush;
 }
 
-void explain(const Arguments& arguments, const Mechanism& mechanism) {
-  const Scene scene = loadScene(arguments);
+void explain(const Arguments& arguments, const Mechanism& mechanism, const Scene& scene) {
   refuseByLoops(arguments, needsClosedLoops(scene));
   const Request written = requestOf(mechanism, scene, arguments);
   printCost(std::cout, scene,
@@ -279,12 +283,13 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
 
 void runOffline(const Arguments& arguments) {
   refuseToOverwriteInput(arguments);
-  const Mechanism mechanism = readUrdfFile(arguments.urdf);
-  if (arguments.check) check(arguments, mechanism);
-  if (arguments.explain) explain(arguments, mechanism);
+  const Mechanism described = readUrdfFile(arguments.urdf);
+  const Scene scene = loadScene(arguments);
+  const Mechanism mechanism = robotOf(described, scene, arguments);
+  if (arguments.check) check(arguments, mechanism, scene);
+  if (arguments.explain) explain(arguments, mechanism, scene);
   if (arguments.check || arguments.explain) return;
   printDoubts(std::cerr, mechanism);
-  const Scene scene = loadScene(arguments);
   refuseByLoops(arguments, needsClosedLoops(scene));
   compute(arguments, mechanism, scene);
 }

@@ -14,6 +14,7 @@
 #include "ros/start_position.h"
 #include "ros/topic_names.h"
 #include "virtual_work_dynamics/error.h"
+#include "virtual_work_dynamics/joint_types.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {
@@ -21,7 +22,7 @@ namespace {
 
 Mechanism readRobot(const InverseDynamicsParameters& parameters) {
   try {
-    return readUrdf(parameters.robot_description);
+    return withJointTypes(readUrdf(parameters.robot_description), parameters.scene);
   } catch (const UrdfError& error) {
     throw UrdfError("parameter " + parameters.robot_description_key + ": " + error.what());
   }

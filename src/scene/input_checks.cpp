@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/printable.h"
+#include "scene/joint_type_checks.h"
 #include "scene/lookup.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -52,7 +53,8 @@ const Scene& openChain(const Scene& scene) {
   return scene;
 }
 
-void requireSoundInertias(const Mechanism& mechanism, const Scene& scene) {
+void requireSoundDescription(const Mechanism& mechanism, const Scene& scene) {
+  requireJointTypes(mechanism, scene);
   if (!scene.strict_inertia) return;
   for (const Doubt& doubt : mechanism.doubts()) {
     if (doubt.about_inertia) throw SceneError("strict_inertia: " + doubt.text);
@@ -67,7 +69,7 @@ std::vector<int> linksOf(const Mechanism& mechanism, const std::vector<std::stri
     const std::string place = entryOf("reactions", i);
     if (!seen.insert(name).second)
       throw SceneError(place + ": " + inQuotes(name) + " is named twice");
-    links.push_back(name == kGround ? 0 : jointNamed(mechanism, name, place) + 1);
+    links.push_back(name == kGround ? 0 : reactionNamed(mechanism, name, place) + 1);
   }
   return links;
 }

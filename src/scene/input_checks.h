@@ -27,9 +27,9 @@ void requireLoad(const Load& load, std::size_t applied);
 /// Returns the scene itself. @throws SceneError saying why it is not an open chain.
 const Scene& openChain(const Scene& scene);
 
-/// Checks inertias. @throws SceneError when the scene is strict about them and the mechanism has
-/// doubtful ones.
-void requireSoundInertias(const Mechanism& mechanism, const Scene& scene);
+/// Checks the mechanism that a scene is for. @throws SceneError when it lacks joint types of the
+/// scene, or has doubtful inertias and the scene is strict about them.
+void requireSoundDescription(const Mechanism& mechanism, const Scene& scene);
 
 /// Child links of the joints whose reactions are named, in the same order; that of "ground" is the
 /// root link. @throws SceneError when a name is not a joint's, or is given twice.

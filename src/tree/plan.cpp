@@ -98,7 +98,7 @@ class Compiler {
 
   Plan<Real> compile() {
     openChain(scene_);
-    requireSoundInertias(mechanism_, scene_);
+    requireSoundDescription(mechanism_, scene_);
     resolveReactions();
     plan_.coordinates = static_cast<int>(mechanism_.coordinates().size());
     plan_.efforts = request_.efforts;
@@ -211,11 +211,12 @@ class Compiler {
     }
   }
 
-  ReactionOutput<Real> output(int link) const {
+  ReactionOutput<Real> output(int link) {
     ReactionOutput<Real> output;
     output.body = places_[link].body;
     output.R_KZ = plain(Matrix3l(places_[link].R_ZL.transpose()));
     output.drop_active = !scene_.include_active && link > 0;
+    if (output.drop_active) setActivePart(link - 1, output);
     output.permutes = true;
     for (int i = 0; i < 3; ++i) {
       const Vector3l column = places_[link].R_ZL.row(i);  // of R_KZ
@@ -228,6 +229,32 @@ class Compiler {
       }
     }
     return output;
+  }
+
+  // The parts of a compound joint are not welded to each other, so that each is a body.
+  void setActivePart(int joint, ReactionOutput<Real>& output) {
+    const CompoundJoint* const compound = mechanism_.compoundOf(joint);
+    if (!compound) return;
+    switch (compound->type) {
+      case CompoundType::kPlanar:
+        output.active = ActivePart::kPlane;
+        return;
+      case CompoundType::kCylindrical:
+        output.active = ActivePart::kCylinder;
+        return;
+      case CompoundType::kScrew:
+        output.active = ActivePart::kScrew;
+        output.pitch = mechanism_.joint(compound->first).multiplier;
+        return;
+      case CompoundType::kUniversal:
+        break;
+    }
+    const Vector3l normal =
+        mechanism_.joint(compound->first).axis_K.cross(mechanism_.joint(joint).axis_K).normalized();
+    output.active = ActivePart::kCross;
+    output.normal_P = plain(Vector3l(places_[compound->first + 1].R_ZL * normal));
+    // The normal turns with the first part: the position of the last one says where it is.
+    plan_.bodies[places_[joint + 1].body].bears_point = true;
   }
 
   void addOutputs() {

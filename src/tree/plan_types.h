@@ -41,7 +41,7 @@ struct BodyUse {
   bool motion_needed = false;
   bool wrench_needed = false;
   bool pose_needed = false;      ///< R_0Z and p_0
-  bool bears_point = false;      ///< its position says where the point of a moment is
+  bool bears_point = false;      ///< its position says where the point or axis of a moment is
   bool wrench_outlives = false;  ///< the sum of (3.8) is read again after the sweep
   bool has_inertia = false;
 
@@ -125,6 +125,16 @@ struct ActuatorTerms {
   T constant = T(0);  ///< JointTerms::offset
 };
 
+/// What a joint leaves to its actuators of the wrench that passes through it, in Z axes of its
+/// body.
+enum class ActivePart : unsigned char {
+  kAxis,      ///< of a joint of one freedom: force along z where it slides, moment where it turns
+  kPlane,     ///< forces across z and the moment about it
+  kCylinder,  ///< force along z and the moment about it
+  kScrew,     ///< the moment about z that does as much work as both
+  kCross      ///< moments, except for that about the normal to both axes of a universal joint
+};
+
 /// A reaction to report.
 template <typename T>
 struct ReactionOutput {
@@ -136,7 +146,10 @@ struct ReactionOutput {
   bool flips = false;  ///< whether an entry of that permutation is -1
   int row[3] = {0, 1, 2};
   T sign[3] = {T(1), T(1), T(1)};
-  bool drop_active = false;  ///< the component along the joint axis is reported as zero
+  bool drop_active = false;  ///< the active part is reported as zero
+  ActivePart active = ActivePart::kAxis;
+  T pitch = T(0);      ///< of a screw, m/rad
+  Vec3<T> normal_P{};  ///< of a universal joint: that normal, in the Z frame of the body's parent
 };
 
 /// A step on the way from the body that a point is fixed on to the one whose reaction is reported.

@@ -19,6 +19,10 @@ set(core_test_files
   test/core/closed_loop_refusals_test.cpp
   test/core/closed_loop_singular_test.cpp
   test/core/closed_loop_tree_test.cpp
+  test/core/compound_joints_loops_test.cpp
+  test/core/compound_joints_published_test.cpp
+  test/core/compound_joints_refusals_test.cpp
+  test/core/compound_joints_test.cpp
   test/core/description_deviations_test.cpp
   test/core/description_messages_test.cpp
   test/core/deviation_rows_test.cpp

@@ -74,7 +74,8 @@ TEST(DescriptionMessages, TheCauseStandsAloneAndGeometryIsNotSpokenOf) {
             std::vector<std::string>{});
   EXPECT_EQ(refusal(arm(link("head", capsule) + joint("neck", "upper", "head", "", "spherical"),
                         kBody + capsule, capsule + kBody)),
-            "joint 'neck': type 'spherical' is not one of revolute, continuous, prismatic, fixed; "
+            "joint 'neck': type 'spherical' is not one of revolute, continuous, prismatic, fixed, "
+            "planar; "
             "revolute joints with massless links between them are the same");
 }
 

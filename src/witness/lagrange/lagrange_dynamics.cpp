@@ -100,6 +100,8 @@ struct LagrangeDynamics<Real>::Impl {
   Real effortOf(const typename LagrangePlan<Real>::Coordinate& coordinate);
   void displace(const typename LagrangePlan<Real>::Reaction& reaction, Triple<Real>& force);
   Triple<Real> leverOf(const typename LagrangePlan<Real>::Reaction& reaction) const;
+  void dropActiveOfParts(const typename LagrangePlan<Real>::Reaction& reaction,
+                         RealWrench<Real>& wrench) const;
   void rotate(const typename LagrangePlan<Real>::Reaction& reaction, Triple<Real>& torque);
   void output();
 
@@ -249,6 +251,39 @@ void LagrangeDynamics<Real>::Impl::rotate(const typename LagrangePlan<Real>::Rea
   }
 }
 
+// Takes away what the actuators of a joint of several freedoms deliver: forces along its slides,
+// moments about one axis or in the plane of two. Those of a screw deliver a moment whose work is
+// that of moment and force.
+template <typename Real>
+void LagrangeDynamics<Real>::Impl::dropActiveOfParts(
+    const typename LagrangePlan<Real>::Reaction& reaction, RealWrench<Real>& wrench) const {
+  const Triple<Real> lever = leverOf(reaction);
+  Triple<Real> force = wrench.force;
+  Triple<Real> moment = wrench.torque + times(Real(-1), cross(lever, force));  // about O_k
+  std::array<Triple<Real>, 2> turns{};
+  std::size_t count = 0;
+  Real by_force = 0;
+  for (const int k : reaction.parts) {
+    const auto& joint = plan.joints[k];
+    const Triple<Real> axis =
+        transposed(values(axes[reaction.link]), values(axes[k + 1]) * joint.axis_K);
+    if (joint.type != JointType::kPrismatic) {
+      turns[count++] = axis;
+    } else if (reaction.screw) {
+      by_force = joint.multiplier * dot(axis, force);
+    } else {
+      force = force + times(-dot(axis, force), axis);
+    }
+  }
+  if (count == 1) {
+    moment = moment + times(-(dot(turns[0], moment) + by_force), turns[0]);
+  } else {
+    const Triple<Real> normal = cross(turns[0], turns[1]);
+    moment = times(dot(normal, moment) / dot(normal, normal), normal);
+  }
+  wrench = {force, moment + cross(lever, force)};
+}
+
 template <typename Real>
 void LagrangeDynamics<Real>::Impl::take(const Load& load) {
   requireLoad(load, plan.applied.size());
@@ -313,7 +348,9 @@ void LagrangeDynamics<Real>::compute(const Motion& motion, const Load& load) {
     auto& wrench = impl.reactions[i];
     impl.displace(reaction, wrench.force);
     impl.rotate(reaction, wrench.torque);
-    if (reaction.drop_active) {
+    if (!reaction.parts.empty()) {
+      impl.dropActiveOfParts(reaction, wrench);
+    } else if (reaction.drop_active) {
       const auto& joint = impl.plan.joints[reaction.link - 1];
       dropActive(joint.type, joint.axis_K, impl.leverOf(reaction), wrench);
     }

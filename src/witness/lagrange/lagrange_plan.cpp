@@ -116,6 +116,14 @@ typename LagrangePlan<Real>::Reaction makeReaction(int link, const Scene& scene,
 }
 
 template <typename Reaction>
+void addParts(const Mechanism& mechanism, Reaction& reaction) {
+  const CompoundJoint* const compound = mechanism.compoundOf(reaction.link - 1);
+  if (!compound) return;
+  reaction.screw = compound->type == CompoundType::kScrew;
+  for (int k = compound->first; k <= compound->last; ++k) reaction.parts.push_back(k);
+}
+
+template <typename Reaction>
 void moveTo(const LinkPoint& point, Reaction& reaction) {
   reaction.moved = true;
   reaction.point_link = point.link;
@@ -132,7 +140,7 @@ LagrangePlan<Real>::LagrangePlan(const Mechanism& mechanism, const Scene& scene,
       root_moves(scene.root_moves),
       coordinate_count(static_cast<int>(mechanism.coordinates().size())) {
   openChain(scene);
-  requireSoundInertias(mechanism, scene);
+  requireSoundDescription(mechanism, scene);
   for (const Joint& joint : mechanism.joints()) joints.push_back(jointData<Real>(joint));
   for (const Link& link : mechanism.links()) links.push_back(linkData<Real>(link));
   addApplied(mechanism, scene, *this);
@@ -152,6 +160,7 @@ LagrangePlan<Real>::LagrangePlan(const Mechanism& mechanism, const Scene& scene,
         index = static_cast<int>(reactions.size());
         reactions.push_back(makeReaction(entry, scene, matters, *this));
         if (point) moveTo(*point, reactions.back());
+        if (reactions.back().drop_active) addParts(mechanism, reactions.back());
       }
       entry = index;
     }

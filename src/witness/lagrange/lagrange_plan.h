@@ -62,6 +62,9 @@ struct LagrangePlan {
     int link = 0;            ///< child link; 0: ground
     std::vector<int> links;  ///< links behind `link` that the joint carries and that matter
     bool drop_active = false;
+    /// Of a joint of several freedoms: its parts, indices into `joints`; of a joint of one: none.
+    std::vector<int> parts;
+    bool screw = false;
     bool moved = false;    ///< the moment is about `point` instead of O_k
     int point_link = 0;    ///< the link that the point is fixed on
     Triple<Real> point{};  ///< in the frame of that link
