@@ -168,6 +168,12 @@ ClosureWrench LoopReactions::borneByParts(const LoopKinematics& kinematics, cons
     case CompoundType::kScrew:
       wrench.moment = without(wrench.moment, own) - item.pitch * own.dot(wrench.force) * own;
       break;
+    case CompoundType::kSpherical:
+      wrench.moment.setZero();
+      break;
+    case CompoundType::kFloating:
+      wrench = ClosureWrench();
+      break;
     case CompoundType::kUniversal: {
       const Eigen::Vector3d normal = kinematics.axisOf(first).cross(own).normalized();
       wrench.moment = normal.dot(wrench.moment) * normal;

@@ -11,6 +11,7 @@
 #include "base/printable.h"
 #include "dynamics/given_joints.h"
 #include "dynamics/motion_start.h"
+#include "motion/free_columns.h"
 #include "offline/certified_rows.h"
 #include "offline/check_report.h"
 #include "offline/completed_motion.h"
@@ -251,7 +252,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
     columns.more.insert(columns.more.end(), more.begin(), more.end());
   }
   if (arguments.positions) {
-    const Names motion_columns = motionColumns(mechanism.coordinateNames());
+    const Names motion_columns = motionColumns(mechanism);
     columns.more.insert(columns.more.end(), motion_columns.begin(), motion_columns.end());
   }
   const std::string header = resultHeader(columns);
@@ -259,8 +260,9 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   ResultWriter writer(file, header);
   std::string warning;
   {
-    Rows rows(motion.file(), columns, arguments.child_axes, dynamics.closed(), arguments.positions,
-              certified ? &*certified : nullptr, deviations ? &*deviations : nullptr, writer);
+    Rows rows(motion.file(), columns, arguments.child_axes, dynamics.closed(),
+              arguments.positions ? &mechanism : nullptr, certified ? &*certified : nullptr,
+              deviations ? &*deviations : nullptr, writer);
     Computation(dynamics, motion, loads, arguments.threads)
         .run([&](std::size_t row, const Motion& at, const Load& load, const Results& results) {
           rows.write(row, at, load, lagrange ? lagrange->compute(at, load, results) : results);
@@ -274,6 +276,10 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   }
   if (deviations && scene.root_moves) {
     std::cerr << "note: " << arguments.motion << ": deviations take the root's motion as exact\n";
+  }
+  if (deviations && mechanism.orientations() > 0) {
+    std::cerr << "note: " << arguments.motion
+              << ": deviations take orientations of joints as exact\n";
   }
   if (deviations) std::cerr << deviations->notes(arguments.deviation_warn.value_or(kDeviationWarn));
   writer.finish();

@@ -7,7 +7,8 @@ foreach(file
     computation.cpp
     deviation_rows.cpp
     lagrange_rows.cpp
-    loop_report.cpp
+    free_turn_rows.cpp
+  loop_report.cpp
     motion_file.cpp
     offline.cpp
     output_file.cpp

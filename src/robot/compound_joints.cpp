@@ -44,9 +44,19 @@ std::vector<Part> partsOf(const CompoundWish& wish) {
       return {turn, {JointType::kContinuous, wish.axis2}};
     case CompoundType::kCylindrical:
     case CompoundType::kScrew:
+      return {slide, turn};
+    case CompoundType::kSpherical:
+    case CompoundType::kFloating:
       break;
   }
-  return {slide, turn};
+  std::vector<Part> parts;
+  const bool slides = wish.type == CompoundType::kFloating;
+  for (int i = 0; slides && i < 3; ++i) {
+    parts.push_back({JointType::kPrismatic, Vector3l::Unit(i)});
+  }
+  parts.push_back({JointType::kOriented, Vector3l::Zero()});
+  for (int i = 0; i < 3; ++i) parts.push_back({JointType::kContinuous, Vector3l::Unit(i)});
+  return parts;
 }
 
 // The type of a joint that moves along or about an axis, however it is limited.
@@ -105,6 +115,8 @@ class Copier {
     if (joint.coordinate >= 0 && !joint.mimics) {
       int& coordinate = coordinate_of_[static_cast<std::size_t>(joint.coordinate)];
       joint.coordinate = coordinate = coordinates_++;
+    } else if (joint.type == JointType::kOriented) {
+      joint.orientation = orientations_++;
     } else if (joint.mimics) {
       followers_.push_back(static_cast<int>(joints_.size()));
     }
@@ -146,7 +158,10 @@ class Copier {
         joint.R_PK = start.R_PK;
       }
       joint.coordinate = coordinates_;
-      if (screw && !last) {
+      if (joint.type == JointType::kOriented) {
+        joint.coordinate = -1;
+        joint.orientation = orientations_++;
+      } else if (screw && !last) {
         joint.mimics = true;
         joint.multiplier = static_cast<double>(static_cast<long double>(wish.pitch) / kTurn);
       } else {
@@ -220,6 +235,7 @@ class Copier {
   std::vector<Joint> joints_;
   std::vector<CompoundJoint> compounds_;
   int coordinates_ = 0;
+  int orientations_ = 0;
 };
 
 }  // namespace
@@ -233,9 +249,13 @@ std::vector<const char*> partNames(CompoundType type) {
     case CompoundType::kUniversal:
       return {"angle1", "angle2"};
     case CompoundType::kScrew:
+      return {""};
+    case CompoundType::kSpherical:
+      return {"orientation", "rx", "ry", "rz"};
+    case CompoundType::kFloating:
       break;
   }
-  return {""};
+  return {"x", "y", "z", "orientation", "rx", "ry", "rz"};
 }
 
 Mechanism withCompounds(const Mechanism& mechanism, const std::vector<CompoundWish>& wishes) {

@@ -15,7 +15,7 @@ struct CompoundWish {
   double pitch = 0;                    ///< of a screw, m per revolution
 };
 
-/// The part of the name of each freedom of a type behind that of the joint: "x" of "joint.x". That
+/// The part of the name of each part of a type behind that of the joint: "x" of "joint.x". That
 /// of a screw is empty, as its one coordinate has the joint's own name.
 std::vector<const char*> partNames(CompoundType type);
 

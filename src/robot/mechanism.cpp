@@ -74,6 +74,7 @@ Mechanism::Mechanism(std::string name, std::vector<Link> links, std::vector<Join
     for (int k = compound.first; k <= compound.last; ++k) {
       compound_of_[static_cast<std::size_t>(k)] = static_cast<int>(i);
     }
+    if (compound.turnsFreely()) free_joints_.push_back(i);
   }
 }
 

@@ -197,8 +197,8 @@ class Reader {
     if (!joint.p_PoKo_P.allFinite()) {
       throw UrdfError("joint " + inQuotes(source.name) + ": origin is not finite");
     }
-    if (source.type == urdf::Joint::PLANAR) {
-      addPlanar(source, static_cast<int>(joints_.size()));
+    if (source.type == urdf::Joint::PLANAR || source.type == urdf::Joint::FLOATING) {
+      addCompound(source, static_cast<int>(joints_.size()));
     } else if (joint.type != JointType::kFixed) {
       joint.axis_K = axisOf(source);
       readDynamics(source, joint);
@@ -211,14 +211,18 @@ class Reader {
     joints_.push_back(joint);
   }
 
-  // A joint that becomes planar once the tree is complete; until then it counts as fixed.
-  void addPlanar(const urdf::Joint& source, int index) {
+  // A joint that becomes planar or floating once the tree is complete; until then it counts as
+  // fixed.
+  void addCompound(const urdf::Joint& source, int index) {
+    const bool planar = source.type == urdf::Joint::PLANAR;
     const std::string who = "joint " + inQuotes(source.name);
-    if (source.mimic) throw UrdfError(who + ": is planar and cannot mimic");
+    if (source.mimic) {
+      throw UrdfError(who + (planar ? ": is planar" : ": is floating") + " and cannot mimic");
+    }
     CompoundWish wish;
     wish.joint = index;
-    wish.type = CompoundType::kPlanar;
-    wish.axis = axisOf(source);
+    wish.type = planar ? CompoundType::kPlanar : CompoundType::kFloating;
+    if (planar) wish.axis = axisOf(source);
     compounds_.push_back(wish);
     if (source.dynamics && (source.dynamics->damping != 0 || source.dynamics->friction != 0)) {
       doubts_.push_back({who + ": its <dynamics> is not used, as it says nothing of each freedom"});
@@ -251,11 +255,9 @@ class Reader {
       case urdf::Joint::PRISMATIC:
         return JointType::kPrismatic;
       case urdf::Joint::PLANAR:
+      case urdf::Joint::FLOATING:
       case urdf::Joint::FIXED:
         return JointType::kFixed;
-      case urdf::Joint::FLOATING:
-        throw UrdfError("joint " + inQuotes(source.name) +
-                        ": floating joints are not supported yet");
       default:
         throw UrdfError("joint " + inQuotes(source.name) + ": unknown joint type");
     }
@@ -333,7 +335,7 @@ class Reader {
       return wish.joint == static_cast<int>(found->second);
     };
     if (std::any_of(compounds_.begin(), compounds_.end(), isMaster)) {
-      throw UrdfError("joint " + inQuotes(joint.name) + ": mimics planar joint " + inQuotes(name) +
+      throw UrdfError("joint " + inQuotes(joint.name) + ": mimics joint " + inQuotes(name) +
                       ", which has several freedoms");
     }
     if (joints_[found->second].type == JointType::kFixed) {

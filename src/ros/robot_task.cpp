@@ -69,6 +69,13 @@ Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const s
     throw UrdfError("parameter " + key + ": robot " + inQuotes(mechanism.name()) +
                     " has no joint that moves");
   }
+  if (mechanism.orientations() > 0) {
+    throw UrdfError(
+        "joint " + inQuotes(mechanism.freeJoint(0).name) + ": is " +
+        nameOf(mechanism.freeJoint(0).type) +
+        ", and joint states cannot tell its orientation; inverse_dynamics_offline takes "
+        "it from columns");
+  }
   Request request;
   request.child_axes = request.root_axes = requestedReactions(mechanism, scene);
   request.child_axes_about_origin = true;  // see requestFor()

@@ -16,9 +16,17 @@ namespace virtual_work_dynamics {
 /// Checks a motion. @throws MotionError naming the first vector whose length is not `coordinates`.
 void requireLengths(const Motion& motion, Eigen::Index coordinates);
 
+/// Checks the orientations of a motion. @throws MotionError unless they are `count` of unit length,
+/// to 1e-6, or none.
+void requireOrientations(const Motion& motion, std::size_t count);
+
 /// Checks a table of a robot whose root moves. @throws MotionError unless its first `rows` have
 /// motions of the root.
 void requireRoots(const MotionTable& table, std::size_t rows);
+
+/// Checks the orientations of a table. @throws MotionError unless its first `rows` have `count`, or
+/// it has none at all.
+void requireOrientations(const MotionTable& table, std::size_t rows, std::size_t count);
 
 /// Checks a load. @throws SceneError when it has not one wrench for each of the `applied` ones of
 /// the scene.

@@ -45,6 +45,10 @@ void requireAcross(const Vector3l& axis, const Vector3l& axis2, const std::strin
   fail(where, ".axis2: is parallel to the first axis");
 }
 
+bool hasAxis(CompoundType type) {
+  return type != CompoundType::kSpherical && type != CompoundType::kFloating;
+}
+
 // The axis of a joint that an entry leaves to the description.
 Vector3l describedAxis(const Mechanism& mechanism, int joint) {
   return mechanism.joint(joint).axis_K;
@@ -62,6 +66,7 @@ CompoundWish wishOf(const Mechanism& mechanism, const JointTypeEntry& entry,
     fail(where, ".name: no joint " + inQuotes(entry.joint) + nameHelp(entry.joint, names));
   }
   wish.type = entry.type;
+  if (!hasAxis(entry.type)) return wish;
   wish.axis = entry.axis ? direction(*entry.axis) : describedAxis(mechanism, wish.joint);
   if (wish.axis.isZero(0)) {
     fail(where,
@@ -78,7 +83,8 @@ CompoundWish wishOf(const Mechanism& mechanism, const JointTypeEntry& entry,
 }  // namespace
 
 const std::vector<std::string>& compoundTypeNames() {
-  static const std::vector<std::string> names = {"planar", "cylindrical", "universal", "screw"};
+  static const std::vector<std::string> names = {"planar", "cylindrical", "universal",
+                                                 "screw",  "spherical",   "floating"};
   return names;
 }
 
@@ -96,6 +102,9 @@ void requireSoundType(const JointTypeEntry& entry, const std::string& where) {
            std::string(": ") + key + " is missing: a joint of type " + nameOf(type) + " has one");
     }
   };
+  if (entry.axis && !hasAxis(entry.type)) {
+    fail(where, std::string(".axis: a joint of type ") + nameOf(entry.type) + " has none");
+  }
   only(entry.axis2.has_value(), CompoundType::kUniversal, "axis2");
   only(entry.pitch.has_value(), CompoundType::kScrew, "pitch");
   requireDirection(entry.axis, where + ".axis");

@@ -44,7 +44,7 @@ void refuseWhole(const Mechanism& mechanism, const std::string& name, const std:
   if (!compound) return;
   std::vector<std::string> parts;
   for (int k = compound->first; k <= compound->last; ++k) {
-    parts.push_back(mechanism.joint(k).name);
+    if (mechanism.joint(k).coordinate >= 0) parts.push_back(mechanism.joint(k).name);
   }
   throw SceneError(place + ": joint " + inQuotes(name) + " has several freedoms, name one of " +
                    namesInQuotes(parts));

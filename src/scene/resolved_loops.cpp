@@ -86,7 +86,7 @@ class Resolver {
   // Finds the coordinate of a joint that neither is fixed nor mimics another one.
   int coordinateOf(const std::string& list, const std::string& name, int k) const {
     const Joint& joint = mechanism_.joint(k);
-    if (joint.type == JointType::kFixed) {
+    if (joint.coordinate < 0) {
       throw SceneError(list + ": " + inQuotes(name) + " is a fixed joint");
     }
     if (joint.mimics) throw SceneError(list + ": " + inQuotes(name) + " mimics another joint");
@@ -108,6 +108,7 @@ class Resolver {
     const int first = compound ? compound->first : jointOrClosure(name, place);
     const int last = compound ? compound->last : first;
     for (int k = first; k <= last; ++k) {
+      if (compound && mechanism_.joint(k).coordinate < 0) continue;
       chosen[static_cast<std::size_t>(coordinateOf(list, name, k))] = true;
     }
   }

@@ -101,6 +101,7 @@ class Compiler {
     requireSoundDescription(mechanism_, scene_);
     resolveReactions();
     plan_.coordinates = static_cast<int>(mechanism_.coordinates().size());
+    plan_.orientations = static_cast<int>(mechanism_.orientations());
     plan_.efforts = request_.efforts;
     plan_.static_motion = scene_.static_motion;
     plan_.root_moves = scene_.root_moves;
@@ -145,7 +146,7 @@ class Compiler {
         continue;
       }
       const Matrix3l R_KZ =
-          joint.type == JointType::kFixed ? Matrix3l(Matrix3l::Identity()) : alignZ(joint.axis_K);
+          joint.coordinate < 0 ? Matrix3l(Matrix3l::Identity()) : alignZ(joint.axis_K);
       places_[k + 1] = {static_cast<int>(plan_.bodies.size()), R_KZ.transpose(), Vector3l::Zero()};
       addBody(joint, parent.body, orthonormalized(exactProduct(R_PK, R_KZ)), p_PoKo_P);
     }
@@ -155,9 +156,11 @@ class Compiler {
     Body<Real> body;
     body.parent = parent;
     body.mobility = joint.type == JointType::kFixed       ? Mobility::kFixed
+                    : joint.type == JointType::kOriented  ? Mobility::kOriented
                     : joint.type == JointType::kPrismatic ? Mobility::kPrismatic
                                                           : Mobility::kRevolute;
     body.coordinate = joint.coordinate;
+    body.orientation = joint.orientation;
     body.multiplier = joint.multiplier;
     body.geared = joint.multiplier != 1;
     body.p_PoZo_P = plain(p_PoZo_P);
@@ -245,6 +248,12 @@ class Compiler {
       case CompoundType::kScrew:
         output.active = ActivePart::kScrew;
         output.pitch = mechanism_.joint(compound->first).multiplier;
+        return;
+      case CompoundType::kSpherical:
+        output.active = ActivePart::kBall;
+        return;
+      case CompoundType::kFloating:
+        output.active = ActivePart::kAll;
         return;
       case CompoundType::kUniversal:
         break;

@@ -8,7 +8,7 @@ namespace virtual_work_dynamics {
 // nothing else of the library.
 
 /// How a body moves on its parent.
-enum class Mobility : unsigned char { kRevolute, kPrismatic, kFixed };
+enum class Mobility : unsigned char { kRevolute, kPrismatic, kFixed, kOriented };
 
 /// Where the z axis of a frame points in the axes of another. For all except kOblique the rotation
 /// between them is Q of canonicalRotation(): a signed permutation, or one with four entries.
@@ -68,6 +68,7 @@ struct BodyUse {
   int angle = -1;        ///< index into Plan::angles
   int slide = -1;        ///< index into Plan::slides
   int coordinate = -1;   ///< the coordinate that moves it; -1: fixed
+  int orientation = -1;  ///< the orientation of the sample behind R_PZ; -1: none
   int child_axes = -1;   ///< index into Plan::child_axes
 
   int sums_into = -1;     ///< index of the wrench it is added to: the parent's, or a partial sum
@@ -132,6 +133,8 @@ enum class ActivePart : unsigned char {
   kPlane,     ///< forces across z and the moment about it
   kCylinder,  ///< force along z and the moment about it
   kScrew,     ///< the moment about z that does as much work as both
+  kBall,      ///< all moments
+  kAll,       ///< everything
   kCross      ///< moments, except for that about the normal to both axes of a universal joint
 };
 

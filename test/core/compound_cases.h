@@ -1,9 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
+#include <map>
 #include <string>
 
 #include "random_cases.h"
+#include "virtual_work_dynamics/free_turn.h"
 #include "virtual_work_dynamics/joint_types.h"
 
 namespace virtual_work_dynamics {
@@ -15,15 +18,33 @@ struct CompoundCase {
         described(random.mechanism(2 + static_cast<int>(seed % 9))),
         scene(sceneOf(is_static)),
         mechanism(withJointTypes(described, scene)),
-        motion(random.motion(mechanism)) {}
+        motion(random.motion(mechanism)) {
+    motion.orientations.resize(mechanism.orientations());
+    for (std::size_t i = 0; i < mechanism.orientations(); ++i) {
+      FreeTurn turn;
+      turn.orientation = attitude();
+      turn.angular_velocity = random.doubles(4);
+      turn.angular_acceleration = random.doubles(10);
+      setFreeTurn(mechanism, i, turn, motion);
+      turns[mechanism.freeJoint(i).name] = turn;
+    }
+  }
 
   RandomCases random;
   Mechanism described;
   Scene scene;
   Mechanism mechanism;
   Motion motion;
+  std::map<std::string, FreeTurn> turns;  ///< of joints that turn freely, by name
 
  private:
+  // Any, or one in which successive turns about x, y and z are singular.
+  Eigen::Quaterniond attitude() {
+    if (random.chance(0.2)) return Eigen::Quaterniond(std::sqrt(0.5), 0, std::sqrt(0.5), 0);
+    const Eigen::Vector3d v = random.doubles(1);
+    return Eigen::Quaterniond(random.uniform(-1, 1), v.x(), v.y(), v.z()).normalized();
+  }
+
   Scene sceneOf(bool is_static) {
     Scene made;
     made.gravity = random.doubles(10);
@@ -32,21 +53,27 @@ struct CompoundCase {
     for (int i = 0; i < 3; ++i) scene.applied_wrenches.push_back(random.appliedWrench(described));
     for (std::size_t k = 0; k < described.joints().size(); ++k) {
       if (!mayChange(described, static_cast<int>(k)) || random.chance(0.3)) continue;
-      JointTypeEntry entry;
-      entry.joint = described.joints()[k].name;
-      entry.type = static_cast<CompoundType>(random.pick(4));
-      const bool has_axis = described.joints()[k].type != JointType::kFixed;
-      if (!has_axis || random.chance(0.5)) entry.axis = axis();
-      if (entry.type == CompoundType::kUniversal) entry.axis2 = axis();
-      if (entry.type == CompoundType::kUniversal && !entry.axis) entry.axis = axis();
-      while (entry.axis && entry.axis2 &&
-             entry.axis->normalized().cross(entry.axis2->normalized()).norm() < 0.2) {
-        entry.axis2 = axis();
-      }
-      if (entry.type == CompoundType::kScrew) entry.pitch = random.uniform(-0.5, 0.5);
-      made.joint_types.push_back(entry);
+      made.joint_types.push_back(entryOf(described.joints()[k]));
     }
     return made;
+  }
+
+  JointTypeEntry entryOf(const Joint& joint) {
+    JointTypeEntry entry;
+    entry.joint = joint.name;
+    entry.type = static_cast<CompoundType>(random.pick(6));
+    if (entry.type == CompoundType::kSpherical || entry.type == CompoundType::kFloating) {
+      return entry;
+    }
+    if (joint.type == JointType::kFixed || random.chance(0.5)) entry.axis = axis();
+    if (entry.type == CompoundType::kUniversal) entry.axis2 = axis();
+    if (entry.type == CompoundType::kUniversal && !entry.axis) entry.axis = axis();
+    while (entry.axis && entry.axis2 &&
+           entry.axis->normalized().cross(entry.axis2->normalized()).norm() < 0.2) {
+      entry.axis2 = axis();
+    }
+    if (entry.type == CompoundType::kScrew) entry.pitch = random.uniform(-0.5, 0.5);
+    return entry;
   }
 
   // Along an axis of the frame, or oblique, of any length.

@@ -43,10 +43,12 @@ std::string linkage(const std::string& joints) {
          "</robot>";
 }
 
-const std::string kClosure =
-    "closures: [{name: ball, type: spherical, parent: {link: coupler, xyz: [0.4, 0, 0]},"
-    " child: {link: rocker, xyz: [0.05, 0.32, 0.1]}}]\n"
-    "gravity: [1, 2, -9]\nredundancy: {length: 0.3}\n";
+std::string closure(const std::string& type) {
+  return "closures: [{name: ball, type: " + type +
+         ", parent: {link: coupler, xyz: [0.4, 0, 0], rpy: [0.3, 0.2, 0]},"
+         " child: {link: rocker, xyz: [0.05, 0.32, 0.1]}}]\n"
+         "gravity: [1, 2, -9]\nredundancy: {length: 0.3}\n";
+}
 
 struct Loops {
   Loops(const Mechanism& mechanism, const Scene& scene, const Request& request)
@@ -79,10 +81,10 @@ Request requestOf(const std::string& u) {
 // Compares joints of two freedoms with chains that are written out.
 void expectAsChain(const std::string& type, const std::string& axes, const std::string& chain,
                    const std::vector<std::string>& parts, const std::vector<std::string>& written,
-                   bool include_active) {
+                   bool include_active, const std::string& closure_type = "spherical") {
   const std::string more = include_active ? "" : "include_active: false\n";
   const Scene scene = readScene(
-      YAML::Load(kClosure + more +
+      YAML::Load(closure(closure_type) + more +
                  "actuated: [crank_joint]\njoint_types: [{name: crank_joint, type: screw, "
                  "pitch: 0.05}, {name: u, type: " +
                  type + axes + "}]\n"));
@@ -91,7 +93,8 @@ void expectAsChain(const std::string& type, const std::string& axes, const std::
                        joint("u", "fixed", "crank", "coupler", kTip, "")));
   Loops compound(withJointTypes(described, scene), scene, requestOf("u"));
 
-  const Scene plain = readScene(YAML::Load(kClosure + more + "actuated: [crank_joint]\n"));
+  const Scene plain =
+      readScene(YAML::Load(closure(closure_type) + more + "actuated: [crank_joint]\n"));
   const std::string mimic = "<mimic joint='crank_joint' multiplier='0.007957747154594767'/>";
   Loops written_out(
       readUrdf(linkage("<link name='nut'/><link name='cross'/>" +
@@ -159,6 +162,19 @@ TEST(CompoundJoints, OfLoopsMayBeCylindrical) {
   for (const bool include_active : {true, false}) {
     expectAsChain("cylindrical", ", axis: [0, 0, 1]", chain, {"u.slide", "u.angle"},
                   {"along", "about"}, include_active);
+  }
+}
+
+// A ball that closures leave passive: three angles from the orientation that it has in the
+// assembly.
+TEST(CompoundJoints, OfLoopsMayBeSpherical) {
+  const std::string chain = "<link name='cross2'/>" +
+                            joint("first", "continuous", "crank", "cross", kTip, "1 0 0") +
+                            joint("second", "continuous", "cross", "cross2", kNone, "0 1 0") +
+                            joint("third", "continuous", "cross2", "coupler", kNone, "0 0 1");
+  for (const bool include_active : {true, false}) {
+    expectAsChain("spherical", "", chain, {"u.rx", "u.ry", "u.rz"}, {"first", "second", "third"},
+                  include_active, "universal");
   }
 }
 

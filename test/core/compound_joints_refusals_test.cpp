@@ -38,10 +38,11 @@ TEST(CompoundJoints, AreRefusedInOneLine) {
   expectLine("{type: screw, pitch: 1}", "joint_types[0]: names no joint");
   expectLine("{name: k}", "joint_types[0]: type is missing");
   expectLine("{name: k, type: ball}",
-             "joint_types[0].type: 'ball' is not one of planar, cylindrical, universal, screw");
+             "joint_types[0].type: 'ball' is not one of planar, cylindrical, universal, screw, "
+             "spherical, floating");
   expectLine("{name: k, type: universl}",
-             "joint_types[0].type: 'universl' is not one of planar, cylindrical, universal, screw; "
-             "did you mean 'universal'?");
+             "joint_types[0].type: 'universl' is not one of planar, cylindrical, universal, screw, "
+             "spherical, floating; did you mean 'universal'?");
   expectLine("{name: k, type: planar, pitch: 1, axis: [0, 0, 1]}",
              "joint_types[0].pitch: only a joint of type screw has one");
   expectLine("{name: k, type: screw, axis: [0, 0, 1]}",
@@ -58,6 +59,8 @@ TEST(CompoundJoints, AreRefusedInOneLine) {
              "joint_types[0].axis2: is parallel to the first axis");
   expectLine("{name: k, type: planar, axis: [0, 0, 0]}",
              "joint_types[0].axis: [0, 0, 0] has no direction");
+  expectLine("{name: k, type: spherical, axis: [0, 0, 1]}",
+             "joint_types[0].axis: a joint of type spherical has none");
   expectLine("{name: q, type: planar}",
              "joint_types[0].name: no joint 'q'; known are 'j', 'k' and 'm'");
   expectLine("{name: k, type: planar, axis: [0, 0, 1]}, {name: k, type: planar, axis: [1, 0, 0]}",
@@ -78,6 +81,11 @@ TEST(CompoundJoints, HaveNamesThatFitTheirUse) {
             "joints[0].name: joint 'k' has several freedoms, name one of 'k.x', 'k.y' and "
             "'k.angle'");
   EXPECT_EQ(lineOf(planar, "reactions: [k]"), "");
+  EXPECT_EQ(lineOf("{name: k, type: spherical}", "joints: [{name: k.orientation, stiffness: 1}]"),
+            "joints: 'k.orientation' is a fixed joint");
+  EXPECT_EQ(
+      lineOf("{name: k, type: spherical}", "joints: [{name: k, stiffness: 1}]"),
+      "joints[0].name: joint 'k' has several freedoms, name one of 'k.rx', 'k.ry' and 'k.rz'");
 }
 
 TEST(CompoundJoints, OfTheSceneMustBeThoseOfTheMechanism) {
@@ -117,7 +125,7 @@ TEST(CompoundJoints, ThatArePlanarNeitherMimicNorAreMimicked) {
     }
   };
   EXPECT_EQ(lineOfUrdf(kRobot, "name='j' type='continuous'", "name='j' type='planar'"),
-            "joint 'm': mimics planar joint 'j', which has several freedoms");
+            "joint 'm': mimics joint 'j', which has several freedoms");
   EXPECT_EQ(lineOfUrdf(kRobot, "name='m' type='continuous'", "name='m' type='planar'"),
             "joint 'm': is planar and cannot mimic");
 }

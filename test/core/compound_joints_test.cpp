@@ -66,7 +66,7 @@ double errorOf(const CompoundCase& compound) {
   ErrorBound bound(compound.mechanism, compound.scene);
   bound.compute(compound.motion);
   const CompoundOracle oracle(compound.described, compound.mechanism, compound.scene,
-                              compound.motion);
+                              compound.motion, compound.turns);
   double worst = 0;
   for (std::size_t i = 0; i < request.child_axes.size(); ++i) {
     const std::string& name = request.child_axes[i];
@@ -110,7 +110,7 @@ TEST(CompoundJoints, OfLagrangesEquationsAreTheSame) {
     ErrorBound bound(compound.mechanism, compound.scene);
     bound.compute(compound.motion);
     const CompoundOracle oracle(compound.described, compound.mechanism, compound.scene,
-                                compound.motion);
+                                compound.motion, compound.turns);
     for (std::size_t i = 0; i < request.child_axes.size(); ++i) {
       const WrenchMagnitude magnitude =
           magnitudeOf(compound.mechanism, bound, request.child_axes[i]);

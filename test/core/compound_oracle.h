@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "virtual_work_dynamics/free_turn.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/scene.h"
@@ -38,9 +39,10 @@ class CompoundOracle {
     Vector3l force = Vector3l::Zero(), torque = Vector3l::Zero();
   };
 
+  /// @param turns of joints that turn freely, by name
   CompoundOracle(const Mechanism& described, const Mechanism& tested, const Scene& scene,
-                 const Motion& motion)
-      : described_(described), scene_(scene), links_(described.links().size()) {
+                 const Motion& motion, const std::map<std::string, FreeTurn>& turns = {})
+      : described_(described), scene_(scene), turns_(turns), links_(described.links().size()) {
     for (std::size_t i = 0; i < tested.coordinateNames().size(); ++i) {
       const auto at = static_cast<Eigen::Index>(i);
       const bool rests = scene.static_motion;
@@ -156,6 +158,7 @@ class CompoundOracle {
 
   void relativeOf(const JointTypeEntry& entry, const Joint& joint, Rotation& R, Point& p,
                   std::vector<Freedom>& freedoms) const {
+    // Of joints that turn freely there is none.
     const Vector3l u =
         entry.axis ? Vector3l(entry.axis->cast<long double>().normalized()) : joint.axis_K;
     const std::string& n = joint.name;
@@ -190,6 +193,24 @@ class CompoundOracle {
         const Rotation first = turnAbout(u, at(n + ".angle1"));
         R = first * turnAbout(v, at(n + ".angle2"));
         freedoms = {{n + ".angle1", u, none}, {n + ".angle2", first.value * v, none}};
+        return;
+      }
+      case CompoundType::kFloating:
+        for (int i = 0; i < 3; ++i) {
+          static const char* const kSlides[] = {".x", ".y", ".z"};
+          p = p + slideAlong(Vector3l::Unit(i), at(n + kSlides[i]));
+          freedoms.push_back({n + kSlides[i], none, Vector3l::Unit(i)});
+        }
+        [[fallthrough]];
+      case CompoundType::kSpherical: {
+        static const char* const kTurns[] = {".rx", ".ry", ".rz"};
+        const FreeTurn& turn = turns_.at(n);
+        const bool rests = scene_.static_motion;
+        const Vector3l w = rests ? none : Vector3l(turn.angular_velocity.cast<long double>());
+        const Vector3l e = rests ? none : Vector3l(turn.angular_acceleration.cast<long double>());
+        const Matrix3l Q = turn.orientation.cast<long double>().normalized().toRotationMatrix();
+        R = {Q, Q * tilde(w), Q * (tilde(e) + tilde(w) * tilde(w))};
+        for (int i = 0; i < 3; ++i) freedoms.push_back({n + kTurns[i], Q.col(i), none});
         return;
       }
       case CompoundType::kScrew: {
@@ -276,6 +297,7 @@ class CompoundOracle {
 
   const Mechanism& described_;
   const Scene& scene_;
+  const std::map<std::string, FreeTurn> turns_;
   std::map<std::string, Coordinate> coordinates_;
   std::map<std::string, const JointTypeEntry*> types_;
   std::vector<std::vector<Freedom>> freedoms_;  // by joint

@@ -26,7 +26,7 @@ VWD_INLINE void movePlainBody(const PlanView<R>& plan, const Body<R>& body,
                               const KernelInputs<R>& in, const Scratch<T, R>& scratch,
                               Arrival<T>& arrival, PlainWrench<T>& wrench) {
   BodyMotion<T> motion;
-  propagateMotion<kStatic, true, kAxis>(body, jointMotion<kStatic, true>(body, in, scratch),
+  propagateMotion<kStatic, true, kAxis>(body, in, jointMotion<kStatic, true>(body, in, scratch),
                                         arrival, motion);
   wrench = inertiaWrench<kStatic>(body, motion);
   feedNext<kStatic>(plan, body, scratch, motion, arrival);
@@ -38,7 +38,7 @@ VWD_INLINE void startBody(const PlanView<R>& plan, const Body<R>& body, const Ke
                           const Scratch<T, R>& scratch, Arrival<T>& arrival,
                           PlainWrench<T>& wrench) {
   BodyMotion<T> motion;
-  startMotion<kStatic>(body, jointMotion<kStatic, false>(body, in, scratch), motion);
+  startMotion<kStatic>(body, in, jointMotion<kStatic, false>(body, in, scratch), motion);
   if (body.has_inertia) wrench = startWrench<kStatic>(body, motion);
   if (body.own_slot >= 0) scratch.slots[body.own_slot] = motion;
   feedNext<kStatic>(plan, body, scratch, motion, arrival);
@@ -55,7 +55,7 @@ VWD_INLINE void moveBody(const PlanView<R>& plan, const Body<R>& body, const Ker
   BodyMotion<T> motion;
   const JointMotion<T> joint = jointMotion<kStatic, false>(body, in, scratch);
   forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
-    propagateMotion<kStatic, false, axis.value>(body, joint, arrival, motion);
+    propagateMotion<kStatic, false, axis.value>(body, in, joint, arrival, motion);
   });
   if (body.has_inertia) wrench = inertiaWrench<kStatic>(body, motion);
   if (body.own_slot >= 0) scratch.slots[body.own_slot] = motion;
@@ -144,6 +144,12 @@ VWD_INLINE void dropActive(const ReactionOutput<R>& output, const Body<R>& body,
       return;
     case ActivePart::kScrew:
       wrench.torque.z = -output.pitch * wrench.force.z;
+      return;
+    case ActivePart::kBall:
+      wrench.torque = {zero, zero, zero};
+      return;
+    case ActivePart::kAll:
+      wrench = {{zero, zero, zero}, {zero, zero, zero}};
       return;
     case ActivePart::kCross:
       break;
@@ -263,7 +269,7 @@ VWD_INLINE void sweepIn(const PlanView<R>& plan, const KernelInputs<R>& in,
     if (body.plain_wrench) {
       const JointMotion<T> joint = jointMotion<true, true>(body, in, scratch);
       forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
-        handed = toParent<true, axis.value>(body, joint, wrench);
+        handed = toParent<true, axis.value>(body, in, joint, wrench);
       });
       continue;
     }
@@ -271,7 +277,7 @@ VWD_INLINE void sweepIn(const PlanView<R>& plan, const KernelInputs<R>& in,
     if (!body.hands_on && !body.adds_to_parent) continue;
     const JointMotion<T> joint = jointMotion<true, false>(body, in, scratch);
     forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
-      handed = toParent<false, axis.value>(body, joint, wrench);
+      handed = toParent<false, axis.value>(body, in, joint, wrench);
     });
     if (body.adds_to_parent) sumUp(plan, body, handed, scratch.wrenches);
   }
@@ -326,10 +332,10 @@ VWD_INLINE void sweepPoses(const PlanView<R>& plan, const KernelInputs<R>& in,
     if (out.twists) {
       JointMotion<T> joint = jointMotion<kStatic, false>(body, in, scratch);
       if (kStatic) joint.qd = T(0);
-      scratch.poses[k] = propagatePose<true>(body, joint, parent);
+      scratch.poses[k] = propagatePose<true>(body, in, joint, parent);
     } else {
       scratch.poses[k] =
-          propagatePose<false>(body, jointMotion<true, false>(body, in, scratch), parent);
+          propagatePose<false>(body, in, jointMotion<true, false>(body, in, scratch), parent);
     }
   }
 }

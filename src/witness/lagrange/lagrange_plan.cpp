@@ -23,13 +23,15 @@ Matrix<Real> matrix(const Matrix3l& A) {
 template <typename Real>
 typename LagrangePlan<Real>::JointData jointData(const Joint& joint) {
   typename LagrangePlan<Real>::JointData data;
-  data.type = joint.type;
+  const bool oriented = joint.type == JointType::kOriented;
+  data.type = oriented ? JointType::kFixed : joint.type;
+  data.orientation = joint.orientation;
   data.parent = joint.parent_link;
   data.coordinate = joint.coordinate;
   data.multiplier = joint.multiplier;
   data.offset = joint.offset;
   data.p_PoKo_P = triple<Real>(joint.p_PoKo_P);
-  data.R_PK = matrix<Real>(joint.R_PK);
+  data.R_PK = data.frame = matrix<Real>(joint.R_PK);
   data.axis_K = triple<Real>(joint.axis_K);
   data.axis_P = triple<Real>(joint.R_PK * joint.axis_K);
   const Vector3l& u = joint.axis_K;
@@ -119,6 +121,7 @@ template <typename Reaction>
 void addParts(const Mechanism& mechanism, Reaction& reaction) {
   const CompoundJoint* const compound = mechanism.compoundOf(reaction.link - 1);
   if (!compound) return;
+  reaction.ball = compound->turnsFreely();
   reaction.screw = compound->type == CompoundType::kScrew;
   for (int k = compound->first; k <= compound->last; ++k) reaction.parts.push_back(k);
 }
