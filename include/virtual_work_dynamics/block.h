@@ -25,6 +25,8 @@ struct MotionBlock {
   const Real* qdd = nullptr;  ///< accelerations, as many numbers a sample, rad/s^2 or m/s^2
   /// The RootState of each sample, 9 numbers in its order; read where the scene's root moves.
   const Real* root = nullptr;
+  /// Motion::orientations of each sample, x y z w of each; read where there are any.
+  const Real* orientations = nullptr;
 };
 
 /// Where results of N samples go; the arrays belong to the caller, and results whose array is null

@@ -41,6 +41,8 @@ class ClosedLoopDynamics {
 
   /// Number of generalized coordinates: the length of q, qd and qdd.
   Eigen::Index coordinates() const;
+  /// Number of orientations of a motion, see Mechanism::orientations().
+  std::size_t orientations() const;
   const Request& request() const;
   /// The assembled position that the scene's start leads to.
   const Eigen::VectorXd& assembly() const;

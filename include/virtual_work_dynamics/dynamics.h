@@ -46,6 +46,8 @@ class Dynamics {
 
   /// Number of generalized coordinates: the length of q, qd and qdd.
   Eigen::Index coordinates() const;
+  /// Number of orientations of a motion, see Mechanism::orientations().
+  std::size_t orientations() const;
   const Request& request() const;
   /// Names of what has an effort: the coordinates, then the actuated closures. An effort that
   /// nothing delivers, see ClosedLoopDynamics::residual(), has kMotionResidual before the name.

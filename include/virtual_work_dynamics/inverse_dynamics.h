@@ -39,6 +39,8 @@ class InverseDynamics {
 
   /// Number of generalized coordinates: the length of q, qd, qdd and of the effort.
   Eigen::Index coordinates() const;
+  /// Number of orientations of a motion, see Mechanism::orientations().
+  std::size_t orientations() const;
   const Request& request() const;
   InstructionSet instructionSet() const;
   /// Whether the scene's root link moves: motions then say how, Motion::root.

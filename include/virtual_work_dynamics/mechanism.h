@@ -13,7 +13,15 @@ using Matrix3l = Eigen::Matrix<long double, 3, 3>;
 /// Name under which the wrench that ground exerts on the root link is requested and reported.
 constexpr char kGround[] = "ground";
 
-enum class JointType { kRevolute, kContinuous, kPrismatic, kFixed };
+enum class JointType {
+  kRevolute,
+  kContinuous,
+  kPrismatic,
+  kFixed,
+  /// Part of a joint that turns freely: holds its child link at an orientation that each motion
+  /// gives, Motion::orientations, from which the parts after it turn.
+  kOriented
+};
 
 /// What a position measures, of a coordinate, a joint or a condition.
 enum class Unit { kRadian, kMetre };
@@ -52,6 +60,7 @@ struct Joint {
   /// Index of the generalized coordinate that moves it; -1: fixed. A mimic joint has its master's.
   int coordinate = -1;
   bool mimics = false;
+  int orientation = -1;   ///< of an oriented joint: index into Motion::orientations
   double multiplier = 1;  ///< joint position = multiplier * q[coordinate]
   double offset = 0;      ///< + offset, rad or m
   double damping = 0;   ///< as described, viscous, N m s/rad or N s/m; see Scene::use_urdf_dynamics
@@ -63,6 +72,32 @@ struct Joint {
 
 /// What the position of a joint that moves measures.
 Unit unitOf(const Joint& joint);
+
+/// What a joint of several freedoms leaves free, and a screw, whose turn and slide are one freedom.
+enum class CompoundType {
+  kPlanar,       ///< slides along two axes of a plane, then a turn about its normal
+  kCylindrical,  ///< a slide along an axis and a turn about it
+  kUniversal,    ///< a turn about an axis of the parent, then about one of the child
+  kScrew,        ///< a turn about an axis with a slide along it, tied by the pitch
+  kSpherical,    ///< all turns
+  kFloating      ///< slides along the axes of the joint's frame on the parent, then all turns
+};
+
+/// A joint of the description or scene that is not a joint of one axis. The mechanism has a chain
+/// of such joints in its place, its parts, with links between them that have no mass. The first
+/// part hangs on the joint's parent link, the last one carries its child link.
+struct CompoundJoint {
+  std::string name;
+  CompoundType type = CompoundType::kPlanar;
+  int first = 0;     ///< parts: the joints from this index
+  int last = 0;      ///< to this one; the reaction of the whole joint is that of the last part
+  double pitch = 0;  ///< of a screw, m per revolution; positive is right-handed
+
+  /// Whether it turns freely: an orientation is then part of its position.
+  bool turnsFreely() const {
+    return type == CompoundType::kSpherical || type == CompoundType::kFloating;
+  }
+};
 
 /// Something questionable in a description that is computed all the same; one line for the user.
 struct Doubt {
@@ -78,12 +113,13 @@ class Mechanism {
   /// Takes links and joints in the order above. The urdf_reader makes them; tests may, too.
   /// @throws UrdfError when that order is broken.
   Mechanism(std::string name, std::vector<Link> links, std::vector<Joint> joints,
-            std::vector<Doubt> doubts = {});
+            std::vector<Doubt> doubts = {}, std::vector<CompoundJoint> compounds = {});
 
   const std::string& name() const { return name_; }
   const std::vector<Link>& links() const { return links_; }
   const std::vector<Joint>& joints() const { return joints_; }
   const std::vector<Doubt>& doubts() const { return doubts_; }
+  const std::vector<CompoundJoint>& compounds() const { return compounds_; }
   /// The link or joint of that index, which must be one.
   const Link& link(int index) const { return links_[static_cast<std::size_t>(index)]; }
   const Joint& joint(int index) const { return joints_[static_cast<std::size_t>(index)]; }
@@ -91,6 +127,16 @@ class Mechanism {
   /// Indices into joints() of the generalized coordinates: every movable joint that mimics no
   /// other.
   const std::vector<int>& coordinates() const { return coordinates_; }
+  /// Number of orientations that a motion has: one for each joint that turns freely.
+  std::size_t orientations() const { return free_joints_.size(); }
+  /// The joint that turns freely of an orientation.
+  const CompoundJoint& freeJoint(std::size_t orientation) const {
+    return compounds_[free_joints_[orientation]];
+  }
+  /// The first of the three coordinates, angles about x, y and z, of the joint of an orientation.
+  int anglesOf(std::size_t orientation) const {
+    return joint(freeJoint(orientation).last).coordinate - 2;
+  }
   /// Names of the joints in coordinates(), in that order.
   const std::vector<std::string>& coordinateNames() const { return coordinate_names_; }
   /// The joint that a generalized coordinate is the position of, and what it measures.
@@ -105,15 +151,30 @@ class Mechanism {
   /// Index in coordinates() of the joint of that name; -1 when none moves by itself under it.
   int coordinateIndex(const std::string& name) const;
 
+  /// The compound joint that a joint is part of; null where it is a joint of its own.
+  const CompoundJoint* compoundOf(int joint) const;
+  /// Whether a joint is a part of a compound joint other than its last, and so has no reaction of
+  /// its own.
+  bool isInnerPart(int joint) const;
+  /// Index of the joint whose reaction has that name, which of a compound joint is its last part;
+  /// -1 when there is none. Parts have no reaction under their own names.
+  int reactionIndex(const std::string& name) const;
+  /// The name of the reaction of a joint that is not an inner part.
+  const std::string& reactionName(int joint) const;
+
  private:
   std::string name_;
   std::vector<Link> links_;
   std::vector<Joint> joints_;
   std::vector<Doubt> doubts_;
+  std::vector<CompoundJoint> compounds_;
+  std::vector<int> compound_of_;          // by joint, index into compounds_; empty: there are none
+  std::vector<std::size_t> free_joints_;  // by orientation, index into compounds_
   std::vector<int> coordinates_;
   std::vector<std::string> coordinate_names_;
   std::unordered_map<std::string, int> index_of_joint_;
   std::unordered_map<std::string, int> index_of_link_;
+  std::unordered_map<std::string, int> index_of_compound_;
 };
 
 }  // namespace virtual_work_dynamics

@@ -4,9 +4,18 @@
 #include <string>
 #include <vector>
 
+#include "virtual_work_dynamics/free_turn.h"
 #include "virtual_work_dynamics/root_motion.h"
 
 namespace virtual_work_dynamics {
+
+/// How a joint that turns freely does so in the rows of a table, as it is given.
+struct FreeTurns {
+  std::string joint;
+  std::vector<FreeTurn> rows;
+  std::vector<std::string> lack;  ///< members of FreeTurn that were not given
+  double orientation_error = 0;   ///< how far the lengths of given orientations were off 1
+};
 
 /// A motion as a table: row i of each matrix belongs to times[i], column j to joints[j]. Wrenches
 /// that are applied while it goes on may stand beside it.
@@ -19,6 +28,10 @@ struct MotionTable {
   /// Covariances of (q, qd, qdd), see MotionCovariance: rows x joints, row after row; empty: not
   /// known.
   std::vector<Eigen::Matrix3d> covariances;
+
+  std::vector<FreeTurns> turns;  ///< as read; completeFreeTurns() makes a motion of them
+  /// rows x 4 n: Motion::orientations as x y z w of each; 0 x 0 where the robot has none.
+  Eigen::MatrixXd orientations;
 
   std::vector<RootMotion> roots;        ///< by row: how the root link moves; empty: not given
   std::vector<std::string> roots_lack;  ///< members of RootMotion that `roots` were not given

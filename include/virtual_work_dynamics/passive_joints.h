@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
@@ -65,6 +67,7 @@ class PassiveJoints {
                    Dynamics::Workspace& workspace);
   bool searchFrom(double further, const Motion& motion, const Eigen::VectorXd& target,
                   const Dynamics& dynamics, Dynamics::Workspace& workspace);
+  void foldTurns();
   bool givenUp() const;
   bool turnsFar(const Eigen::VectorXd& from, const Eigen::VectorXd& to) const;
 
@@ -77,6 +80,13 @@ class PassiveJoints {
   std::vector<Eigen::Index> turning_;
   int searches_ = 0, failures_ = 0;
   Motion completed_, driven_;
+  /// A joint that turns freely and is not given: its orientation is found, too.
+  struct FoundTurn {
+    std::size_t orientation;
+    Eigen::Index angles;  ///< the first of three coordinates
+    Eigen::Quaterniond reference = Eigen::Quaterniond::Identity();  ///< that they turn on from
+  };
+  std::vector<FoundTurn> found_turns_;
   Eigen::VectorXd position_;  // found last
   Eigen::VectorXd before_, closed_;
   Eigen::VectorXd previous_;                            // before closed_ on the way

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-namespace virtual_work_dynamics {
+#include "virtual_work_dynamics/mechanism.h"
 
-class Mechanism;
+namespace virtual_work_dynamics {
 
 /// Axes in which a vector is given.
 enum class Axes { kLink, kRoot };
@@ -68,6 +68,20 @@ struct JointTerms {
   double coulomb_velocity = 1e-3;
   double rotor_inertia = 0;  ///< at the joint: gear ratio squared included, kg m^2 or kg
   double offset = 0;         ///< effort needed in every position and motion, N m or N
+};
+
+/// A joint with other freedoms than those that the description can say, in place of one of its
+/// joints.
+struct JointTypeEntry {
+  std::string joint;  ///< name of a joint of the description
+  CompoundType type = CompoundType::kUniversal;
+  /// In the frame of the joint, of any length: the axis, of a plane its normal; none: that of the
+  /// description's joint.
+  std::optional<Eigen::Vector3d> axis;
+  /// Of a universal joint, which must have one: the axis of the child link, where its angles are 0.
+  std::optional<Eigen::Vector3d> axis2;
+  /// Of a screw, which must have one, m per revolution. Positive is right-handed.
+  std::optional<double> pitch;
 };
 
 /// A frame on a link.
@@ -171,6 +185,9 @@ struct Scene {
   std::vector<Payload> payloads;
   std::vector<AppliedWrench> applied_wrenches;
   std::vector<JointTerms> joints;  ///< terms of some joints, each once
+  /// Joints of other types than described; withJointTypes() makes the mechanism that has them,
+  /// which goes with this scene.
+  std::vector<JointTypeEntry> joint_types;
   /// True: damping and friction of the description count for joints whose terms do not give them.
   bool use_urdf_dynamics = false;
   Tolerances tolerances;  ///< see Deviations

@@ -15,7 +15,7 @@ namespace virtual_work_dynamics {
 /// @throws UrdfError, one line that begins with the link or joint: broken XML, a xacro file that
 /// was
 ///   not expanded, an unknown or doubled name, negative or non-finite mass, non-finite inertia,
-///   zero axis, floating or planar joint, mimic cycle, reserved name.
+///   zero axis, mimic cycle, reserved name.
 Mechanism readUrdf(const std::string& urdf);
 
 /// Reads a robot description from a file, as readUrdf() does from text.

@@ -23,7 +23,7 @@ Mechanism alone(const Mechanism& mechanism, std::size_t link, Kind kind) {
     if (i != link || kind != Kind::kMass) links[i].mass = 0;
     if (i != link || kind != Kind::kInertia) links[i].inertia_Cm_K.setZero();
   }
-  return Mechanism(mechanism.name(), links, mechanism.joints());
+  return Mechanism(mechanism.name(), links, mechanism.joints(), {}, mechanism.compounds());
 }
 
 }  // namespace

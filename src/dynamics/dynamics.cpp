@@ -83,6 +83,10 @@ Eigen::Index Dynamics::coordinates() const {
   return impl_->assembly.size();
 }
 
+std::size_t Dynamics::orientations() const {
+  return impl_->chain ? impl_->chain->orientations() : impl_->loops->orientations();
+}
+
 const Request& Dynamics::request() const {
   return impl_->chain ? impl_->chain->request() : impl_->loops->request();
 }

@@ -49,7 +49,8 @@ class LinkPoints {
       links_.emplace(mechanism.links()[i].name, static_cast<int>(i));
     }
     for (std::size_t k = 0; k < mechanism.joints().size(); ++k) {
-      pins_.emplace(mechanism.joints()[k].name,
+      if (mechanism.isInnerPart(static_cast<int>(k))) continue;
+      pins_.emplace(mechanism.reactionName(static_cast<int>(k)),
                     std::pair(static_cast<int>(k) + 1, Vector3d::Zero()));
     }
     for (const Closure& closure : scene.closures) {

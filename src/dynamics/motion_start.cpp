@@ -60,6 +60,7 @@ Trial tried(const Mechanism& mechanism, const Scene& scene, const MotionStart& s
     Dynamics::Workspace workspace = dynamics.makeWorkspace();
     Motion motion(dynamics.coordinates());
     motion.q = start.motion.q;
+    motion.orientations = start.motion.orientations;
     Motion driven(static_cast<Eigen::Index>(start.given.drivenNumbers()));
     driven.q = start.driven.q;
     trial.leads = PassiveJoints(mechanism, dynamics, start.given)

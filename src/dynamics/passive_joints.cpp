@@ -46,10 +46,14 @@ PassiveJoints::PassiveJoints(const Mechanism& mechanism, const Dynamics& dynamic
                              const Given& given)
     : given_(given),
       coordinates_(dynamics.coordinates()),
-      completed_(coordinates_),
+      completed_(coordinates_, mechanism.orientations()),
       driven_(static_cast<Eigen::Index>(given.drivenNumbers())),
       position_(dynamics.assembly()),
       missed_(position_) {
+  for (std::size_t i = 0; i < mechanism.orientations(); ++i) {
+    const int angles = mechanism.anglesOf(i);
+    if (!given.coordinates[static_cast<std::size_t>(angles)]) found_turns_.push_back({i, angles});
+  }
   const std::vector<bool> is_mimicked = mimicked(mechanism);
   for (std::size_t i = 0; i < mechanism.coordinates().size(); ++i) {
     const Joint& joint = mechanism.joints()[static_cast<std::size_t>(mechanism.coordinates()[i])];
@@ -97,6 +101,10 @@ bool PassiveJoints::complete(Motion& motion, const Motion& driven, const Dynamic
   requireLengths(motion, coordinates_);
   requireLengths(driven, driven_.q.size());
   if (!dynamics.closed()) return true;
+  if (!motion.orientations.empty()) completed_.orientations = motion.orientations;
+  for (const FoundTurn& turn : found_turns_) {
+    completed_.orientations[turn.orientation] = turn.reference;
+  }
   before_ = closed_;
   setNearest(motion, driven);
   searches_ = failures_ = 0;
@@ -118,7 +126,25 @@ bool PassiveJoints::complete(Motion& motion, const Motion& driven, const Dynamic
     if (i < coordinates_) completed_.q[i] = motion.q[i];
   }
   motion = completed_;
+  if (closes) foldTurns();
   return closes;
+}
+
+// Lets angles that are large start anew from where they lead, before they become singular. The next
+// search starts without a guess of how they go on.
+void PassiveJoints::foldTurns() {
+  constexpr double kLarge = 0.5;  // rad; singular is a quarter turn
+  for (FoundTurn& turn : found_turns_) {
+    const Eigen::Vector3d angles = position_.segment<3>(turn.angles);
+    if (angles.cwiseAbs().maxCoeff() < kLarge) continue;
+    for (int i = 0; i < 3; ++i) {
+      turn.reference = turn.reference * Eigen::AngleAxisd(angles[i], Eigen::Vector3d::Unit(i));
+    }
+    turn.reference.normalize();
+    for (Eigen::VectorXd* values : {&position_, &closed_, &previous_, &rates_, &accelerations_}) {
+      values->segment<3>(turn.angles).setZero();
+    }
+  }
 }
 
 std::string PassiveJoints::whyOpen(const Dynamics& dynamics, Dynamics::Workspace& workspace) const {

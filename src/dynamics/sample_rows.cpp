@@ -25,7 +25,7 @@ struct SampleRows::Loops {
       : dynamics(of), wrenches(applied), workers(threads) {
     for (int i = 0; i < threads; ++i) {
       workspaces.push_back(dynamics.makeWorkspace());
-      motions.emplace_back(dynamics.coordinates());
+      motions.emplace_back(dynamics.coordinates(), dynamics.orientations());
     }
     results.assign(capacity, workspaces.front().results());
   }
@@ -44,6 +44,7 @@ struct SampleRows::Loops {
                           std::to_string(dynamics.coordinates()) + " coordinates is needed");
       }
     }
+    requireOrientations(table, first + count, dynamics.orientations());
     if (dynamics.tree().root_moves) requireRoots(table, first + count);
     for (std::size_t i = 0; loads && i < count; ++i) requireLoad(loads[i], wrenches);
     struct Job {
@@ -125,6 +126,12 @@ const Results& SampleRows::read(std::size_t index) {
 
 void takeRow(const MotionTable& table, std::size_t row, Motion& motion) {
   if (!table.roots.empty()) motion.root = table.roots[row];
+  for (std::size_t i = 0; i < motion.orientations.size(); ++i) {
+    if (table.orientations.size() == 0) break;
+    const auto at = static_cast<Eigen::Index>(row);
+    motion.orientations[i].coeffs() =
+        table.orientations.row(at).segment<4>(static_cast<Eigen::Index>(4 * i));
+  }
   if (motion.q.size() == 0) return;  // a table without columns has no rows
   const auto index = static_cast<Eigen::Index>(row);
   motion.q = table.positions.row(index);

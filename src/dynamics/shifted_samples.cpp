@@ -53,6 +53,7 @@ ShiftedChain::ShiftedChain(const InverseDynamics& dynamics, const Load& own, int
                           packWidth(dynamics.instructionSet()))),
       inputs_(3 * coordinates_ * samples_),
       root_(dynamics.rootMoves() ? RootState::kNumbers * samples_ : 0),
+      orientations_(4 * dynamics.orientations() * samples_),
       position_(dynamics.coordinates()),
       loads_(samples_, own) {
   const ResultNumbers numbers(dynamics.makeWorkspace().results());
@@ -84,12 +85,25 @@ void ShiftedChain::compute(const Motion& motion, const Eigen::MatrixXd& shifts,
       samples[1 + level * coordinates_ + i] = value + shifts(row, static_cast<Eigen::Index>(level));
     }
   }
+  setOrientations(motion);
   setRoots(motion);
   setLoads(motion, shifts, law);
   const double* const inputs = inputs_.data();
-  block_.compute(BlockLayout::kStructureOfArrays,
-                 {samples_, inputs, inputs + size, inputs + 2 * size, root_.data()}, loads_.data(),
-                 results_);
+  block_.compute(
+      BlockLayout::kStructureOfArrays,
+      {samples_, inputs, inputs + size, inputs + 2 * size, root_.data(), orientations_.data()},
+      loads_.data(), results_);
+}
+
+// Orientations are the same in all samples; their errors are shifts of the angles behind them.
+void ShiftedChain::setOrientations(const Motion& motion) {
+  for (std::size_t c = 0; c < orientations_.size() / samples_; ++c) {
+    const double value =
+        motion.orientations.empty()
+            ? (c % 4 == 3 ? 1 : 0)
+            : motion.orientations[c / 4].coeffs()[static_cast<Eigen::Index>(c % 4)];
+    std::fill_n(&orientations_[c * samples_], samples_, value);
+  }
 }
 
 // The root's motion is the same in all samples.

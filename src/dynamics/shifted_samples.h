@@ -74,6 +74,7 @@ class ShiftedChain : public ShiftedSamples {
   const std::vector<bool>& known() const override { return known_; }
 
  private:
+  void setOrientations(const Motion& motion);
   void setRoots(const Motion& motion);
   void setLoads(const Motion& motion, const Eigen::MatrixXd& shifts, const LoadLaw& law);
 
@@ -81,7 +82,7 @@ class ShiftedChain : public ShiftedSamples {
   BlockInverseDynamics<double> block_;
   const std::size_t coordinates_;
   std::size_t samples_;  // whole packs of vector instructions
-  std::vector<double> inputs_, root_, outputs_;
+  std::vector<double> inputs_, root_, orientations_, outputs_;
   ResultBlock<double> results_;
   Eigen::VectorXd position_;  // of a sample
   std::vector<Load> loads_;   // of the samples

@@ -28,7 +28,7 @@ Request weighedRequest(const Mechanism& mechanism, const std::vector<LoopGroup>&
   request.efforts = false;
   for (const LoopGroup& group : groups) {
     for (const LoopGroup::CrossedJoint& crossed : group.joints) {
-      if (crossed.moves) request.root_axes.push_back(mechanism.joint(crossed.joint).name);
+      if (crossed.moves) request.root_axes.push_back(mechanism.reactionName(crossed.joint));
     }
   }
   return request;
@@ -83,7 +83,7 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& of, const Scene& scene, const Re
     weighed_pass = std::make_unique<InverseDynamics>(mechanism, wholeReactionsScene(open_tree),
                                                      weighedRequest(mechanism, groups));
     for (const std::string& name : weighed_pass->request().root_axes) {
-      weighed_joints.push_back(mechanism.jointIndex(name));
+      weighed_joints.push_back(mechanism.reactionIndex(name));
     }
   }
   setUsual();
@@ -168,6 +168,10 @@ ClosedLoopDynamics::ClosedLoopDynamics(const Mechanism& mechanism, const Scene& 
 ClosedLoopDynamics::~ClosedLoopDynamics() = default;
 ClosedLoopDynamics::ClosedLoopDynamics(ClosedLoopDynamics&&) noexcept = default;
 ClosedLoopDynamics& ClosedLoopDynamics::operator=(ClosedLoopDynamics&&) noexcept = default;
+
+std::size_t ClosedLoopDynamics::orientations() const {
+  return impl_->mechanism.orientations();
+}
 
 Eigen::Index ClosedLoopDynamics::coordinates() const {
   return impl_->assembly.size();
@@ -278,6 +282,8 @@ bool ClosedLoopDynamics::completeFromCloseBy(Motion& motion, const std::vector<b
   LoopSolvers& solvers = workspace.solversOf(*impl_);
   requireLengths(motion, coordinates());
   requireGiven(given);
+  requireOrientations(motion, impl_->mechanism.orientations());
+  solvers.kinematics.setOrientations(motion.orientations);
   return solvers.completion.complete(solvers.kinematics, motion, given,
                                      LoopCompletion::kFromCloseBy);
 }
@@ -287,6 +293,8 @@ bool ClosedLoopDynamics::complete(Motion& motion, const std::vector<bool>& given
   LoopSolvers& solvers = workspace.solversOf(*impl_);
   requireLengths(motion, coordinates());
   requireGiven(given);
+  requireOrientations(motion, impl_->mechanism.orientations());
+  solvers.kinematics.setOrientations(motion.orientations);
   return solvers.completion.complete(solvers.kinematics, motion, given);
 }
 
@@ -313,6 +321,7 @@ void ClosedLoopDynamics::compute(const Motion& motion, const Load& load,
                                  Workspace& workspace) const {
   workspace.solversOf(*impl_);
   requireLengths(motion, coordinates());
+  requireOrientations(motion, impl_->mechanism.orientations());
   requireLoad(load, impl_->own_wrenches);
   workspace.impl_->compute(motion, load);
 }

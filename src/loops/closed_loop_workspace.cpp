@@ -50,6 +50,7 @@ ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compil
 }
 
 void ClosedLoopDynamics::Workspace::Impl::compute(const Motion& motion, const Load& load) {
+  solvers.kinematics.setOrientations(motion.orientations);
   solvers.kinematics.setPosition(motion.q);
   solvers.residuals.set(solvers.kinematics, plan.static_motion ? rest_ : motion);
   push(motion, load);

@@ -64,7 +64,7 @@ Scene closedTreeScene(const Scene& scene, const PointSprings& springs) {
 }
 
 bool isClosure(const Mechanism& mechanism, const std::string& name) {
-  return name != kGround && mechanism.jointIndex(name) < 0;
+  return name != kGround && mechanism.reactionIndex(name) < 0;
 }
 
 Request treeRequest(const Mechanism& mechanism, const Request& request) {

@@ -54,6 +54,7 @@ ConditionSets GivenLoops::setsOf(const Mechanism& mechanism, const LoopKinematic
 
 bool GivenLoops::complete(Motion& motion, const Motion& driven) {
   kinematics_.driven() = driven;
+  kinematics_.setOrientations(motion.orientations);
   return completion_.complete(kinematics_, motion, given_.coordinates,
                               LoopCompletion::kFromCloseBy);
 }

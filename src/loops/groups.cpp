@@ -36,10 +36,15 @@ void addMoved(const LoopKinematics& kinematics, LoopGroup& group) {
   }
 }
 
+// Whether a joint has a reaction that stiffness can weigh.
+bool reacts(const Mechanism& mechanism, int joint) {
+  return mechanism.joint(joint).coordinate >= 0 && !mechanism.isInnerPart(joint);
+}
+
 void addClosure(const Mechanism& mechanism, const LoopKinematics& kinematics, std::size_t closure,
                 LoopGroup& group) {
   for (const PathStep& step : kinematics.path(closure)) {
-    crossing(group, step.joint, mechanism.joint(step.joint).coordinate >= 0)
+    crossing(group, step.joint, reacts(mechanism, step.joint))
         .passages.push_back({group.closures.size(), step.sign});
   }
   group.closures.push_back(closure);

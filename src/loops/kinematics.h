@@ -47,6 +47,10 @@ class LoopKinematics {
     placed_ = false;
     return state_.driven;
   }
+  /// Sets the orientations of joints that turn freely, see LinkKinematics.
+  void setOrientations(const std::vector<Eigen::Quaterniond>& orientations) {
+    if (state_.links.setOrientations(orientations)) placed_ = false;
+  }
   /// Computes poses of links, conditions and their Jacobian at a position. Costs nothing when they
   /// are at that position already.
   void setPosition(const Eigen::VectorXd& q);

@@ -24,7 +24,7 @@ LinkKinematics::JointConstants LinkKinematics::constantsOf(const Joint& joint) {
   JointConstants constants;
   constants.parent_link = joint.parent_link;
   constants.coordinate = joint.coordinate;
-  constants.slides = unitOf(joint) == Unit::kMetre;
+  constants.slides = virtual_work_dynamics::unitOf(joint) == Unit::kMetre;
   constants.multiplier = static_cast<double>(joint.multiplier);
   constants.offset = static_cast<double>(joint.offset);
   constants.p_PoKo_P = joint.p_PoKo_P.cast<double>();
@@ -43,7 +43,26 @@ LinkKinematics::JointConstants LinkKinematics::constantsOf(const Joint& joint) {
 }
 
 LinkKinematics::LinkKinematics(const Mechanism& mechanism) : links_(mechanism.links().size()) {
-  for (const Joint& joint : mechanism.joints()) joints_.push_back(constantsOf(joint));
+  for (const Joint& joint : mechanism.joints()) {
+    if (joint.type == JointType::kOriented) {
+      oriented_.push_back({joints_.size(), joint.R_PK.cast<double>()});
+    }
+    joints_.push_back(constantsOf(joint));
+  }
+}
+
+bool LinkKinematics::setOrientations(const std::vector<Eigen::Quaterniond>& orientations) {
+  bool changes = false;
+  for (std::size_t i = 0; i < oriented_.size(); ++i) {
+    Oriented& own = oriented_[i];
+    const Eigen::Quaterniond next =
+        orientations.empty() ? Eigen::Quaterniond::Identity() : orientations[i];
+    if (own.orientation.coeffs() == next.coeffs()) continue;
+    own.orientation = next;
+    joints_[own.joint].still.noalias() = own.R_PK * next.toRotationMatrix();
+    changes = true;
+  }
+  return changes;
 }
 
 void LinkKinematics::setPosition(const Eigen::VectorXd& q) {

@@ -21,6 +21,9 @@ class LinkKinematics {
  public:
   explicit LinkKinematics(const Mechanism& mechanism);
 
+  /// Sets the orientations of joints that turn freely, at first all the identity; of none, all are
+  /// that. Holds from the next position on. Returns whether anything changes.
+  bool setOrientations(const std::vector<Eigen::Quaterniond>& orientations);
   void setPosition(const Eigen::VectorXd& q);
   /// Computes motions of the links at the present position, with accelerations for qdd = 0.
   void setVelocity(const Eigen::VectorXd& qd);
@@ -58,6 +61,10 @@ class LinkKinematics {
   int coordinateOf(const PathStep& step) const {
     return joints_[static_cast<std::size_t>(step.joint)].coordinate;
   }
+  /// What the position of a joint that moves measures.
+  Unit unitOf(int joint) const {
+    return joints_[static_cast<std::size_t>(joint)].slides ? Unit::kMetre : Unit::kRadian;
+  }
   /// How a step of a joint displaces the second link relative to the first: by a unit angle, or by
   /// a slide of `length`.
   struct Displacement {
@@ -84,6 +91,12 @@ class LinkKinematics {
     // Of the child's axes in the parent's: still + cos(angle) across + sin(angle) turned.
     Eigen::Matrix3d still, across, turned;
   };
+  /// A joint that holds an orientation of the motion: `still` is R_PK with it.
+  struct Oriented {
+    std::size_t joint;
+    Eigen::Matrix3d R_PK;
+    Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  };
   static JointConstants constantsOf(const Joint& joint);
   struct LinkState {
     Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
@@ -94,6 +107,7 @@ class LinkKinematics {
   void moveLink(std::size_t k, const Eigen::VectorXd& qd);
 
   std::vector<JointConstants> joints_;
+  std::vector<Oriented> oriented_;  // by orientation
   std::vector<LinkState> links_;
 };
 

@@ -47,7 +47,7 @@ LoopReactions::LoopReactions(const Mechanism& mechanism, const Scene& scene, con
     const auto closure = closures.find(name);
     if (closure != closures.end()) {
       items_.push_back(itemOfClosure(scene, loops, closure->second));
-    } else if (name == kGround || mechanism.jointIndex(name) >= 0) {
+    } else if (name == kGround || mechanism.reactionIndex(name) >= 0) {
       items_.push_back(itemOfJoint(mechanism, scene, name));
     } else {
       failAtUnknown(mechanism, scene, name, entryOf("reactions", i));
@@ -74,11 +74,17 @@ LoopReactions::Item LoopReactions::itemOfClosure(const Scene& scene, const LoopS
 LoopReactions::Item LoopReactions::itemOfJoint(const Mechanism& mechanism, const Scene& scene,
                                                const std::string& name) {
   Item item;
-  item.joint = mechanism.jointIndex(name);  // none of ground
+  item.joint = mechanism.reactionIndex(name);  // none of ground
   if (item.joint >= 0) {
     const Joint& joint = mechanism.joint(item.joint);
     item.active = unitOf(joint);
     item.drops_active = !scene.include_active && joint.type != JointType::kFixed;
+    if (const CompoundJoint* const compound = mechanism.compoundOf(item.joint)) {
+      item.compound = *compound;
+    }
+    if (item.compound && item.compound->type == CompoundType::kScrew) {
+      item.pitch = mechanism.joint(item.compound->first).multiplier;
+    }
   }
   return item;
 }
@@ -143,10 +149,45 @@ Eigen::Vector3d LoopReactions::leverOf(const LoopKinematics& kinematics, const I
   return originOf(kinematics, item) - kinematics.links().originOf(*item.point);
 }
 
+// What a joint of several freedoms bears of a wrench in root axes, about the child frame's origin.
+ClosureWrench LoopReactions::borneByParts(const LoopKinematics& kinematics, const Item& item,
+                                          ClosureWrench wrench) {
+  const int first = item.compound->first, last = item.compound->last;
+  const auto without = [](const Eigen::Vector3d& v, const Eigen::Vector3d& axis) {
+    return Eigen::Vector3d(v - axis.dot(v) * axis);
+  };
+  const Eigen::Vector3d& own = kinematics.axisOf(last);
+  switch (item.compound->type) {
+    case CompoundType::kPlanar:
+      wrench.force = own.dot(wrench.force) * own;
+      wrench.moment = without(wrench.moment, own);
+      break;
+    case CompoundType::kCylindrical:
+      wrench = {without(wrench.force, own), without(wrench.moment, own)};
+      break;
+    case CompoundType::kScrew:
+      wrench.moment = without(wrench.moment, own) - item.pitch * own.dot(wrench.force) * own;
+      break;
+    case CompoundType::kSpherical:
+      wrench.moment.setZero();
+      break;
+    case CompoundType::kFloating:
+      wrench = ClosureWrench();
+      break;
+    case CompoundType::kUniversal: {
+      const Eigen::Vector3d normal = kinematics.axisOf(first).cross(own).normalized();
+      wrench.moment = normal.dot(wrench.moment) * normal;
+      break;
+    }
+  }
+  return wrench;
+}
+
 // Takes away what is not reported of a wrench in root axes, about the child frame's origin.
 ClosureWrench LoopReactions::borne(const LoopKinematics& kinematics, const Item& item,
                                    ClosureWrench wrench) {
   if (!item.drops_active) return wrench;
+  if (item.compound) return borneByParts(kinematics, item, wrench);
   const Eigen::Vector3d axis = item.closure >= 0
                                    ? kinematics.freeAxis(static_cast<std::size_t>(item.closure))
                                    : kinematics.axisOf(item.joint);
@@ -251,15 +292,20 @@ void LoopReactions::visitUnborne(const LoopKinematics& kinematics, std::size_t g
                                  const LoopForces& forces, Visit visit) {
   for (const Change& change : changes_[group]) {
     if (!change.crossed) continue;
-    const int coordinate = kinematics.links().coordinateOf({change.crossed->joint, 1});
-    const std::vector<int>& all = forces.group().coordinates;
-    const auto local = std::find(all.begin(), all.end(), coordinate) - all.begin();
-    if (coordinate < 0 || !forces.isFree(local)) continue;
     const Item& item = items_[change.item];
-    ClosureWrench wrench;
-    activePart(item.active, wrench) =
-        effortScaleOf(item.active, forces.length()) * kinematics.axisOf(item.joint);
-    visit(change.item, wrench);
+    const int last = item.joint;
+    const bool chain = item.compound && item.compound->type != CompoundType::kScrew;
+    const int first = chain ? item.compound->first : last;
+    for (int joint = first; joint <= last; ++joint) {
+      const int coordinate = kinematics.links().coordinateOf({joint, 1});
+      const std::vector<int>& all = forces.group().coordinates;
+      const auto local = std::find(all.begin(), all.end(), coordinate) - all.begin();
+      if (coordinate < 0 || !forces.isFree(local)) continue;
+      const Unit unit = kinematics.links().unitOf(joint);
+      ClosureWrench wrench;
+      activePart(unit, wrench) = effortScaleOf(unit, forces.length()) * kinematics.axisOf(joint);
+      visit(change.item, wrench);
+    }
   }
 }
 

@@ -68,6 +68,8 @@ class LoopReactions {
     int closure = -1;             ///< -1 for what the tree has
     Unit active = Unit::kRadian;  ///< what its motion about or along its axis measures
     bool drops_active = false;
+    std::optional<CompoundJoint> compound;       ///< that the joint is the last part of
+    double pitch = 0;                            ///< of a screw, m/rad
     std::optional<LinkKinematics::Frame> point;  ///< of the moment, where it is not the origin
     std::vector<LoopGroup::Passage> passages;    ///< of all closures through a joint, by closure
   };
@@ -95,6 +97,8 @@ class LoopReactions {
   void addChanges(const std::vector<LoopGroup>& groups);
   static ClosureWrench borne(const LoopKinematics& kinematics, const Item& item,
                              ClosureWrench wrench);
+  static ClosureWrench borneByParts(const LoopKinematics& kinematics, const Item& item,
+                                    ClosureWrench wrench);
   void addChangeOf(const LoopKinematics& kinematics, std::size_t item, const LoopForces& forces,
                    const ClosureWrench& wrench);
   ClosureWrench reported(const LoopKinematics& kinematics, const Item& item,

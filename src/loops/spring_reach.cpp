@@ -35,7 +35,7 @@ SpringReach::SpringReach(const Mechanism& mechanism, const Scene& scene, const L
   }
   const auto add = [&](const std::vector<std::string>& names, std::vector<std::size_t>& items) {
     for (std::size_t i = 0; i < names.size(); ++i) {
-      const int joint = mechanism.jointIndex(names[i]);
+      const int joint = mechanism.reactionIndex(names[i]);
       bool reached = joint >= 0 && joints[static_cast<std::size_t>(joint)];
       for (std::size_t c = 0; c < closures.size(); ++c) {
         reached = reached || (closures[c] && scene.closures[c].name == names[i]);

@@ -14,6 +14,7 @@
 #include "base/text_file.h"
 #include "base/wrench_components.h"
 #include "motion/csv_lines.h"
+#include "motion/free_columns.h"
 #include "motion/motion_text.h"
 #include "motion/root_columns.h"
 #include "motion/wrench_columns.h"
@@ -50,6 +51,9 @@ std::string columnHelp(std::string_view column) {
   }
   if (column.find('\t') != std::string_view::npos) return "; cells are separated by commas";
   if (column.substr(0, 7) == "wrench.") return std::string(", ") + kWrenchColumns;
+  for (const char* kind : {"orientation.", "angular_velocity.", "angular_acceleration."}) {
+    if (column.rfind(kind, 0) == 0) return std::string(", ") + kFreeColumns;
+  }
   if (column.substr(0, 5) == "root.") return std::string(", ") + kRootColumns;
   const std::size_t point = std::min(column.find('.'), column.size());
   const std::vector<std::string> kinds(kKinds.begin(), kKinds.end());
@@ -98,7 +102,7 @@ class CsvReader {
   MotionTable read(const JointChoice& choose, std::vector<std::string>* unused,
                    std::vector<std::size_t>* line_numbers) {
     readHeader();
-    table_.joints = choose(jointsWithPositions());
+    table_.joints = choose(jointsWithMotion());
     assignColumns();
     if (unused != nullptr) {
       unused->clear();
@@ -151,7 +155,7 @@ class CsvReader {
   bool isKnown(std::size_t column, const std::string& column_name) const {
     if (column_name == kTime || column_name == kStamp || isOf(kKinds, column_name) ||
         isOf(kIgnored, column_name) || !wrenchOf(column_name).empty() ||
-        isRootColumn(column_name)) {
+        isRootColumn(column_name) || isFreeColumn(column_name)) {
       return true;
     }
     const std::string help = columnHelp(column_name);
@@ -167,6 +171,15 @@ class CsvReader {
       if (column_name.compare(0, prefix.size(), prefix) == 0) {
         joints.push_back(column_name.substr(prefix.size()));
       }
+    }
+    return joints;
+  }
+
+  // Also the angles of joints that turn freely, whose orientations are their positions.
+  std::vector<std::string> jointsWithMotion() const {
+    std::vector<std::string> joints = jointsWithPositions();
+    for (const std::string& joint : freeJointsOf(header_)) {
+      for (const char* angle : {".rx", ".ry", ".rz"}) joints.push_back(joint + angle);
     }
     return joints;
   }
@@ -199,6 +212,13 @@ class CsvReader {
     root_columns_ = rootColumnsOf(header_);
     for (const std::string& column : root_columns_) {
       assign(column, target++, ", though other components of it are there");
+    }
+    free_joints_ = freeJointsOf(header_);
+    for (const std::string& joint : free_joints_) {
+      free_columns_.push_back(freeColumnsOf(header_, joint));
+      for (const std::string& column : free_columns_.back()) {
+        assign(column, target++, ", though other components of it are there");
+      }
     }
     targets_ = static_cast<std::size_t>(target);
   }
@@ -302,12 +322,22 @@ class CsvReader {
     }
     const auto wrenches = static_cast<Eigen::Index>(6 * table_.wrenches.size());
     table_.wrench_values = rows.middleCols(start, wrenches);
-    const std::size_t row =
-        takeRoots(root_columns_, rows.rightCols(rows.cols() - start - wrenches), table_);
-    if (row < numbers.size()) {
-      throw FileError(atLine(numbers[row]) + ": " + rootColumnsText("orientation") +
-                      " has the length " + numberText(table_.roots[row].orientation.norm()) +
-                      ", not 1");
+    start += wrenches;
+    const auto requireUnit = [&](std::size_t row, const std::string& columns, const auto& turned) {
+      if (row >= numbers.size()) return;
+      throw FileError(atLine(numbers[row]) + ": " + columns + " has the length " +
+                      numberText(turned[row].orientation.norm()) + ", not 1");
+    };
+    const auto of_root = static_cast<Eigen::Index>(root_columns_.size());
+    requireUnit(takeRoots(root_columns_, rows.middleCols(start, of_root), table_),
+                rootColumnsText("orientation"), table_.roots);
+    start += of_root;
+    for (std::size_t i = 0; i < free_joints_.size(); ++i) {
+      const auto count = static_cast<Eigen::Index>(free_columns_[i].size());
+      const std::size_t row =
+          takeFreeTurns(free_joints_[i], free_columns_[i], rows.middleCols(start, count), table_);
+      requireUnit(row, freeColumnsText("orientation", free_joints_[i]), table_.turns.back().rows);
+      start += count;
     }
   }
 
@@ -318,7 +348,8 @@ class CsvReader {
   bool ends_with_comma_ = false;    // the header, and so its rows may
   std::vector<std::string> cells_;  // of a line with quotes
   std::vector<std::string> header_;
-  std::vector<std::string> root_columns_;
+  std::vector<std::string> root_columns_, free_joints_;
+  std::vector<std::vector<std::string>> free_columns_;  // by joint
   std::map<std::string, std::size_t> column_of_name_;
   std::vector<int> target_of_column_;
   std::size_t targets_ = 0;

@@ -4,6 +4,9 @@ vwd_core(
   csv_lines.cpp
   end_slopes.cpp
   far_positions.cpp
+  free_columns.cpp
+  free_turn.cpp
+  free_turn_completion.cpp
   motion_completion.cpp
   motion_csv.cpp
   motion_estimator.cpp

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <iomanip>
+#include <map>
 #include <sstream>
 
 #include "base/printable.h"
+#include "virtual_work_dynamics/joint_types.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -35,18 +37,28 @@ std::ostream& label(std::ostream& out, const std::string& name) {
 
 std::string jointCounts(const Mechanism& mechanism) {
   std::ostringstream text;
+  const auto add = [&](int count, const char* name) {
+    if (count > 0) text << (text.tellp() > 0 ? ", " : "") << count << " " << name;
+  };
+  const int joints = static_cast<int>(mechanism.joints().size());
   for (const TypeText& type : kTypes) {
-    const auto count = std::count_if(mechanism.joints().begin(), mechanism.joints().end(),
-                                     [&](const Joint& joint) { return joint.type == type.type; });
-    if (count > 0) text << (text.tellp() > 0 ? ", " : "") << count << " " << type.name;
+    int count = 0;
+    for (int k = 0; k < joints; ++k) {
+      if (!mechanism.compoundOf(k) && mechanism.joint(k).type == type.type) ++count;
+    }
+    add(count, type.name);
   }
+  std::map<CompoundType, int> compounds;
+  for (const CompoundJoint& compound : mechanism.compounds()) ++compounds[compound.type];
+  for (const auto& [type, count] : compounds) add(count, nameOf(type));
   return text.tellp() > 0 ? text.str() : "none";
 }
 
 void printMimicJoints(std::ostream& out, const Mechanism& mechanism) {
   std::vector<std::string> rules;
-  for (const Joint& joint : mechanism.joints()) {
-    if (!joint.mimics) continue;
+  for (int k = 0; k < static_cast<int>(mechanism.joints().size()); ++k) {
+    const Joint& joint = mechanism.joint(k);
+    if (!joint.mimics || mechanism.isInnerPart(k)) continue;
     const std::string& master = mechanism.jointOf(joint.coordinate).name;
     std::ostringstream rule;
     rule << shortened(joint.name) << " = " << joint.multiplier << " " << shortened(master);
@@ -54,6 +66,12 @@ void printMimicJoints(std::ostream& out, const Mechanism& mechanism) {
     rules.push_back(rule.str());
   }
   printNames(out, "mimic joints", rules);
+}
+
+// The type of the joint that a coordinate belongs to.
+const char* typeOf(const Mechanism& mechanism, int joint) {
+  const CompoundJoint* const compound = mechanism.compoundOf(joint);
+  return compound ? nameOf(compound->type) : nameOf(mechanism.joint(joint).type);
 }
 
 void printCoordinates(std::ostream& out, const Mechanism& mechanism) {
@@ -65,7 +83,7 @@ void printCoordinates(std::ostream& out, const Mechanism& mechanism) {
   for (const int index : mechanism.coordinates()) {
     const Joint& joint = mechanism.joint(index);
     out << "  " << std::left << std::setw(static_cast<int>(longest) + 2) << shortened(joint.name)
-        << std::setw(12) << nameOf(joint.type) << symbolOf(unitOf(joint)) << "\n";
+        << std::setw(12) << typeOf(mechanism, index) << symbolOf(unitOf(joint)) << "\n";
   }
 }
 
@@ -81,8 +99,12 @@ void printMechanism(std::ostream& out, const Mechanism& mechanism) {
   long double mass = 0;
   for (const Link& link : mechanism.links()) mass += link.mass;
   label(out, "robot") << shortened(mechanism.name()) << "\n";
-  label(out, "links") << mechanism.links().size() << ", root " << shortened(mechanism.link(0).name)
-                      << "\n";
+  std::size_t between = 0;  // links within compound joints
+  for (const CompoundJoint& compound : mechanism.compounds()) {
+    between += static_cast<std::size_t>(compound.last - compound.first);
+  }
+  label(out, "links") << mechanism.links().size() - between << ", root "
+                      << shortened(mechanism.link(0).name) << "\n";
   label(out, "joints") << jointCounts(mechanism) << "\n";
   label(out, "total mass") << mass << " kg\n";
   printMimicJoints(out, mechanism);

@@ -8,6 +8,7 @@
 #include "base/printable.h"
 #include "dynamics/given_joints.h"
 #include "dynamics/sample_rows.h"
+#include "offline/free_turn_rows.h"
 #include "offline/root_rows.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -91,7 +92,7 @@ CompletedMotion::CompletedMotion(RecordedMotion recorded, const Mechanism& mecha
     : closures_(dynamics.closureNames()),
       tolerance_(tolerance),
       file_(std::move(recorded.file)),
-      row_(dynamics.coordinates()),
+      row_(dynamics.coordinates(), dynamics.orientations()),
       driven_row_(static_cast<Eigen::Index>(recorded.drivenNumbers())),
       passive_(mechanism, dynamics, recorded.given) {
   positions_follow_ = !GivenJoints::givesAll(recorded.given);
@@ -105,7 +106,10 @@ CompletedMotion::CompletedMotion(RecordedMotion recorded, const Mechanism& mecha
   completeDerivatives(mechanism, scene, completion, file_);
   completeRoots(mechanism, scene, completion, file_);
   driven_ = takenFrom(file_.table, recorded.drivenNumbers());
-  if (positions_follow_ || !recorded.resting.empty()) widen(mechanism, file_.table);
+  if (positions_follow_ || !recorded.resting.empty() || dynamics.orientations() > 0) {
+    widen(mechanism, file_.table);
+  }
+  completeFreeTurns(mechanism, scene, completion, file_);
   for (const auto& [name, position] : recorded.resting) {
     file_.table.positions.col(mechanism.coordinateIndex(name)).setConstant(position);
   }
@@ -137,6 +141,10 @@ void CompletedMotion::complete(std::size_t row, const Dynamics& dynamics,
   }
   const auto index = static_cast<Eigen::Index>(row);
   if (positions_follow_) table.positions.row(index) = row_.q;
+  for (std::size_t i = 0; i < row_.orientations.size(); ++i) {
+    table.orientations.row(index).segment<4>(static_cast<Eigen::Index>(4 * i)) =
+        row_.orientations[i].coeffs();
+  }
   if (velocities_follow_) table.velocities.row(index) = row_.qd;
   if (accelerations_follow_) table.accelerations.row(index) = row_.qdd;
 }

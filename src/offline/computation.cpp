@@ -47,7 +47,7 @@ Computation::Computation(const Dynamics& dynamics, CompletedMotion& motion, cons
       workspace_(dynamics.makeWorkspace()) {}
 
 void Computation::run(const Take& take) {
-  Motion row(dynamics_.coordinates());
+  Motion row(dynamics_.coordinates(), dynamics_.orientations());
   Block now = complete(0);
   while (now.count > 0 || now.open) {
     std::future<Block> next;

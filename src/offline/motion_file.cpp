@@ -12,6 +12,7 @@
 #include "bag/bag_reader.h"
 #include "base/number_text.h"
 #include "base/printable.h"
+#include "motion/free_columns.h"
 #include "motion/motion_text.h"
 #include "motion/stream_text.h"
 #include "offline/progress.h"
@@ -53,6 +54,9 @@ Unused sorted(const std::string& path, const Names& columns, const Names& coordi
     const std::string joint = column.substr(column.find('.') + 1);
     if (!isMotion(column)) {
       unused.others.push_back(column);
+    } else if (known.count(joint) > 0 && column.rfind("position.", 0) == 0) {
+      throw FileError(path + ": column " + inQuotes(column) +
+                      ": this joint turns freely, its orientation is given by " + kFreeColumns);
     } else if (known.count(joint) > 0) {
       throw FileError(path + ": column " + inQuotes(column) + " without " +
                       inQuotes("position." + joint));

@@ -11,6 +11,7 @@
 #include "base/printable.h"
 #include "dynamics/given_joints.h"
 #include "dynamics/motion_start.h"
+#include "motion/free_columns.h"
 #include "offline/certified_rows.h"
 #include "offline/check_report.h"
 #include "offline/completed_motion.h"
@@ -25,6 +26,7 @@
 #include "offline/row_loads.h"
 #include "offline/rows.h"
 #include "virtual_work_dynamics/dynamics.h"
+#include "virtual_work_dynamics/joint_types.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {
@@ -166,11 +168,15 @@ void checkMotion(const Arguments& arguments, RecordedMotion recorded, const Mech
   if (dynamics.closed()) printNames(std::cout, "closed loops", {conditions.worst(motion.file())});
 }
 
-void check(const Arguments& arguments, const Mechanism& mechanism) {
+// The robot with the joint types of the scene.
+Mechanism robotOf(const Mechanism& described, const Scene& scene, const Arguments& arguments) {
+  return naming(prefixOf(arguments), [&] { return withJointTypes(described, scene); });
+}
+
+void check(const Arguments& arguments, const Mechanism& mechanism, Scene scene) {
   printMechanism(std::cout, mechanism);
   printDoubts(std::cout, mechanism);
   std::cout << std::flush;
-  Scene scene = askedScene(arguments);
   refuseByLoops(arguments, needsClosedLoops(scene));
   std::optional<RecordedMotion> recorded;
   if (!arguments.motion.empty()) recorded = readStart(arguments, mechanism, scene);
@@ -187,8 +193,7 @@ void check(const Arguments& arguments, const Mechanism& mechanism) {
   std::cout << "The robot can run.\n" << std::flush;
 }
 
-void explain(const Arguments& arguments, const Mechanism& mechanism) {
-  const Scene scene = askedScene(arguments);
+void explain(const Arguments& arguments, const Mechanism& mechanism, const Scene& scene) {
   refuseByLoops(arguments, needsClosedLoops(scene));
   const Request written = requestOf(mechanism, scene, arguments);
   printCost(std::cout, scene,
@@ -225,7 +230,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
     columns.more.insert(columns.more.end(), more.begin(), more.end());
   }
   if (arguments.positions) {
-    const Names motion_columns = motionColumns(mechanism.coordinateNames());
+    const Names motion_columns = motionColumns(mechanism);
     columns.more.insert(columns.more.end(), motion_columns.begin(), motion_columns.end());
   }
   const std::string header = resultHeader(columns);
@@ -233,8 +238,9 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   ResultWriter writer(file, header);
   std::string warning;
   {
-    Rows rows(motion.file(), columns, arguments.child_axes, dynamics.closed(), arguments.positions,
-              certified ? &*certified : nullptr, deviations ? &*deviations : nullptr, writer);
+    Rows rows(motion.file(), columns, arguments.child_axes, dynamics.closed(),
+              arguments.positions ? &mechanism : nullptr, certified ? &*certified : nullptr,
+              deviations ? &*deviations : nullptr, writer);
     Computation(dynamics, motion, loads, arguments.threads)
         .run([&](std::size_t row, const Motion& at, const Load& load, const Results& results) {
           rows.write(row, at, load, lagrange ? lagrange->compute(at, load, results) : results);
@@ -251,6 +257,10 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
     std::cerr << "note: " << printable(arguments.motion.name())
               << ": deviations take the root's motion as exact\n";
   }
+  if (deviations && mechanism.orientations() > 0) {
+    std::cerr << "note: " << printable(arguments.motion.name())
+              << ": deviations take orientations of joints as exact\n";
+  }
   if (deviations) std::cerr << deviations->notes(arguments.deviation_warn.value_or(kDeviationWarn));
   writer.finish();
 }
@@ -263,12 +273,13 @@ void runOffline(const Arguments& arguments) {
         "--output: bags are written by a build with ROS only, and this is one without");
   }
   refuseToOverwriteInput(arguments);
-  const Mechanism mechanism = readUrdfFile(arguments.urdf);
-  if (arguments.check) check(arguments, mechanism);
-  if (arguments.explain) explain(arguments, mechanism);
+  const Mechanism described = readUrdfFile(arguments.urdf);
+  const Scene scene = askedScene(arguments);
+  const Mechanism mechanism = robotOf(described, scene, arguments);
+  if (arguments.check) check(arguments, mechanism, scene);
+  if (arguments.explain) explain(arguments, mechanism, scene);
   if (arguments.check || arguments.explain) return;
   printDoubts(std::cerr, mechanism);
-  const Scene scene = askedScene(arguments);
   refuseByLoops(arguments, needsClosedLoops(scene));
   compute(arguments, mechanism, scene);
 }

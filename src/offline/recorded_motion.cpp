@@ -8,6 +8,7 @@
 #include "base/nearest_name.h"
 #include "base/printable.h"
 #include "offline/arguments.h"
+#include "offline/free_turn_rows.h"
 #include "scene/closure_types.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/unwrap.h"
@@ -61,7 +62,7 @@ class Choice {
     given.coordinates.assign(all.size(), false);
     for (std::size_t i = 0; i < all.size(); ++i) {
       const bool has = columns_.count(all[i]) > 0;
-      if (has) wanted.push_back(all[i]);
+      if (has && !isFreeAngle(i)) wanted.push_back(all[i]);
       given.coordinates[i] = has || rests(all[i]);
     }
     for (std::size_t c = 0; c < scene_.closures.size(); ++c) {
@@ -87,14 +88,22 @@ class Choice {
     Names wanted;
     const Names& all = mechanism_.coordinateNames();
     motion_.given = Given();
-    for (const std::string& name : all) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const std::string& name = all[i];
       const bool needs = scene_.closures.empty() || !scene_.actuated ||
                          std::count(scene_.actuated->begin(), scene_.actuated->end(), name) > 0;
       const bool has = columns_.count(name) > 0;
-      if (has || (needs && !rests(name))) wanted.push_back(name);
+      if (!isFreeAngle(i) && (has || (needs && !rests(name)))) wanted.push_back(name);
       motion_.given.coordinates.push_back(needs || has || rests(name));
     }
     return wanted;
+  }
+
+  // Of a joint whose orientation is given instead.
+  bool isFreeAngle(std::size_t coordinate) const {
+    const int joint = mechanism_.coordinates()[coordinate];
+    const CompoundJoint* const compound = mechanism_.compoundOf(joint);
+    return compound && compound->turnsFreely() && joint > compound->last - 3;
   }
 
   bool rests(const std::string& name) const {
@@ -204,6 +213,14 @@ MotionStart RecordedMotion::start(const Mechanism& mechanism) const {
   for (const auto& [name, position] : resting) {
     start.motion.q[mechanism.coordinateIndex(name)] = position;
   }
+  start.motion.orientations.assign(mechanism.orientations(), Eigen::Quaterniond::Identity());
+  for (std::size_t i = 0; i < mechanism.orientations(); ++i) {
+    for (const FreeTurns& turns : table.turns) {
+      if (turns.joint == mechanism.freeJoint(i).name) {
+        start.motion.orientations[i] = turns.rows[0].orientation;
+      }
+    }
+  }
   if (numbers > 0) start.driven.q = table.positions.row(0).tail(numbers);
   return start;
 }
@@ -222,6 +239,7 @@ RecordedMotion readRecordedMotion(const MotionSource& source, const Mechanism& m
     if (given.count(joint.first) == 0) motion.resting.push_back(joint);
   }
   if (source.degrees) makeRadians(mechanism, scene, motion);
+  checkFreeTurns(mechanism, motion.given, motion.file);
   straighten(mechanism, scene, motion);
   return motion;
 }

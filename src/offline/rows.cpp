@@ -6,6 +6,7 @@
 
 #include "base/number_text.h"
 #include "base/printable.h"
+#include "motion/free_columns.h"
 
 namespace virtual_work_dynamics {
 
@@ -24,14 +25,6 @@ std::vector<std::string> loopColumns(const Columns& results,
     for (const std::string& closure : closures) {
       columns.push_back(std::string("residual.") + level + "." + closure);
     }
-  }
-  return columns;
-}
-
-std::vector<std::string> motionColumns(const std::vector<std::string>& joints) {
-  std::vector<std::string> columns;
-  for (const char* kind : {"position.", "velocity.", "acceleration."}) {
-    for (const std::string& joint : joints) columns.push_back(kind + joint);
   }
   return columns;
 }
@@ -55,13 +48,13 @@ std::string Conditions::worst(const MotionFile& file) const {
 }
 
 Rows::Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool loops,
-           bool positions, CertifiedRows* certified, DeviationRows* deviations,
+           const Mechanism* motion_of, CertifiedRows* certified, DeviationRows* deviations,
            ResultWriter& writer)
     : file_(file),
       columns_(columns),
       child_axes_(child_axes),
       loops_(loops),
-      positions_(positions),
+      motion_of_(motion_of),
       certified_(certified),
       deviations_(deviations),
       writer_(writer),
@@ -80,11 +73,7 @@ void Rows::write(std::size_t row, const Motion& motion, const Load& load, const 
   }
   if (certified_) certified_->check(motion, load, results, file_.lines[row], more_);
   if (deviations_) deviations_->add(row, motion, load, results, more_);
-  if (positions_) {
-    for (const Eigen::VectorXd* values : {&motion.q, &motion.qd, &motion.qdd}) {
-      more_.insert(more_.end(), values->data(), values->data() + values->size());
-    }
-  }
+  if (motion_of_) appendMotion(*motion_of_, motion, more_);
   writer_.beginRow(file_.table.times[row]);
   if (columns_.stamps) writer_.writeStamp(file_.stamps_ns[row]);
   writer_.writeResults(effort_, reactions_, more_);

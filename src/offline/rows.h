@@ -21,9 +21,6 @@ namespace virtual_work_dynamics {
 std::vector<std::string> loopColumns(const Columns& results,
                                      const std::vector<std::string>& closures);
 
-/// Names of the columns of the motion of all joints.
-std::vector<std::string> motionColumns(const std::vector<std::string>& joints);
-
 /// How close rows come to singular positions.
 class Conditions {
  public:
@@ -46,11 +43,12 @@ class Rows {
  public:
   /// @param child_axes whether reactions are in child link axes rather than root axes
   /// @param loops whether the columns include loopColumns()
-  /// @param positions whether the columns end with motionColumns()
+  /// @param motion_of whose motionColumns() the columns end with; null: they do not
   /// @param certified null when no certificates are asked for
   /// @param deviations null when no deviations are asked for
-  Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool loops, bool positions,
-       CertifiedRows* certified, DeviationRows* deviations, ResultWriter& writer);
+  Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool loops,
+       const Mechanism* motion_of, CertifiedRows* certified, DeviationRows* deviations,
+       ResultWriter& writer);
 
   /// @param load with which `results` were computed
   void write(std::size_t row, const Motion& motion, const Load& load, const Results& results);
@@ -65,7 +63,8 @@ class Rows {
 
   const MotionFile& file_;
   const Columns& columns_;
-  const bool child_axes_, loops_, positions_;
+  const bool child_axes_, loops_;
+  const Mechanism* const motion_of_;
   CertifiedRows* certified_;
   DeviationRows* deviations_;
   ResultWriter& writer_;

@@ -7,11 +7,12 @@ foreach(file
     completed_motion.cpp
     computation.cpp
     deviation_rows.cpp
-    lagrange_rows.cpp
+    free_turn_rows.cpp
     help_text.cpp
     inputs.cpp
     joint_renaming.cpp
     joint_state_rows.cpp
+    lagrange_rows.cpp
     loop_report.cpp
     motion_file.cpp
     offline.cpp

@@ -34,11 +34,12 @@ Unit unitOf(const Joint& joint) {
 }
 
 Mechanism::Mechanism(std::string name, std::vector<Link> links, std::vector<Joint> joints,
-                     std::vector<Doubt> doubts)
+                     std::vector<Doubt> doubts, std::vector<CompoundJoint> compounds)
     : name_(std::move(name)),
       links_(std::move(links)),
       joints_(std::move(joints)),
-      doubts_(std::move(doubts)) {
+      doubts_(std::move(doubts)),
+      compounds_(std::move(compounds)) {
   if (links_.size() != joints_.size() + 1) {
     throw UrdfError("mechanism " + inQuotes(name_) + ": a tree has one link more than joints");
   }
@@ -63,6 +64,18 @@ Mechanism::Mechanism(std::string name, std::vector<Link> links, std::vector<Join
   }
   index_of_joint_ = indicesOf(joints_);
   index_of_link_ = indicesOf(links_);
+  index_of_compound_ = indicesOf(compounds_);
+  if (!compounds_.empty()) compound_of_.assign(joints_.size(), -1);
+  for (std::size_t i = 0; i < compounds_.size(); ++i) {
+    const CompoundJoint& compound = compounds_[i];
+    if (compound.first < 0 || compound.last >= static_cast<int>(joints_.size())) {
+      throw UrdfError("joint " + inQuotes(compound.name) + ": its parts are no joints");
+    }
+    for (int k = compound.first; k <= compound.last; ++k) {
+      compound_of_[static_cast<std::size_t>(k)] = static_cast<int>(i);
+    }
+    if (compound.turnsFreely()) free_joints_.push_back(i);
+  }
 }
 
 int Mechanism::jointIndex(const std::string& name) const {
@@ -76,6 +89,29 @@ int Mechanism::linkIndex(const std::string& name) const {
 int Mechanism::coordinateIndex(const std::string& name) const {
   const int index = jointIndex(name);
   return index < 0 || joint(index).mimics ? -1 : joint(index).coordinate;
+}
+
+const CompoundJoint* Mechanism::compoundOf(int joint) const {
+  if (compound_of_.empty()) return nullptr;
+  const int index = compound_of_[static_cast<std::size_t>(joint)];
+  return index < 0 ? nullptr : &compounds_[static_cast<std::size_t>(index)];
+}
+
+bool Mechanism::isInnerPart(int joint) const {
+  const CompoundJoint* const compound = compoundOf(joint);
+  return compound && compound->last != joint;
+}
+
+int Mechanism::reactionIndex(const std::string& name) const {
+  const int compound = indexIn(index_of_compound_, name);
+  if (compound >= 0) return compounds_[static_cast<std::size_t>(compound)].last;
+  const int index = jointIndex(name);
+  return index >= 0 && compoundOf(index) ? -1 : index;
+}
+
+const std::string& Mechanism::reactionName(int joint) const {
+  const CompoundJoint* const compound = compoundOf(joint);
+  return compound ? compound->name : this->joint(joint).name;
 }
 
 }  // namespace virtual_work_dynamics

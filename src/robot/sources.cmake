@@ -1,4 +1,5 @@
 vwd_core(
+  compound_joints.cpp
   inertia_doubts.cpp
   mechanism.cpp
   unit_doubts.cpp

@@ -223,11 +223,12 @@ class Checker {
     if (type.empty()) throw UrdfError(who + ": has no type");
     refuseXacro(type);
     if (std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end()) return type;
-    const bool ball = type == "spherical" || type == "ball" || type == "universal";
+    const bool of_scene =
+        type == "cylindrical" || type == "universal" || type == "screw" || type == "spherical";
     const std::string nearest = nearestName(type, kTypes);
     throw UrdfError(who + ": type " + inQuotes(type) +
-                    " is not one of revolute, continuous, prismatic, fixed" +
-                    (ball ? "; revolute joints with massless links between them are the same"
+                    " is not one of revolute, continuous, prismatic, fixed, planar, floating" +
+                    (of_scene ? "; 'joint_types' of a scene makes a joint of another type " + type
                      : nearest.empty() ? ""
                                        : "; did you mean " + inQuotes(nearest) + "?"));
   }

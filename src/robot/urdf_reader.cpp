@@ -18,6 +18,7 @@
 #include "base/number_text.h"
 #include "base/printable.h"
 #include "base/text_file.h"
+#include "robot/compound_joints.h"
 #include "robot/inertia_doubts.h"
 #include "robot/unit_doubts.h"
 #include "robot/unread_elements.h"
@@ -112,7 +113,9 @@ class Reader {
     resolveMimics();
     for (Doubt& doubt : inertiaDoubts(links_, joints_)) doubts_.push_back(std::move(doubt));
     for (Doubt& doubt : unitDoubts(links_, joints_)) doubts_.push_back(std::move(doubt));
-    return Mechanism(model_->getName(), std::move(links_), std::move(joints_), std::move(doubts_));
+    const Mechanism mechanism(model_->getName(), std::move(links_), std::move(joints_),
+                              std::move(doubts_));
+    return compounds_.empty() ? mechanism : withCompounds(mechanism, compounds_);
   }
 
  private:
@@ -194,7 +197,9 @@ class Reader {
     if (!joint.p_PoKo_P.allFinite()) {
       throw UrdfError("joint " + inQuotes(source.name) + ": origin is not finite");
     }
-    if (joint.type != JointType::kFixed) {
+    if (source.type == urdf::Joint::PLANAR || source.type == urdf::Joint::FLOATING) {
+      addCompound(source, static_cast<int>(joints_.size()));
+    } else if (joint.type != JointType::kFixed) {
       joint.axis_K = axisOf(source);
       readDynamics(source, joint);
       readLimits(source, joint);
@@ -204,6 +209,24 @@ class Reader {
           {"joint " + inQuotes(source.name) + ": is fixed, its <mimic> has no meaning"});
     }
     joints_.push_back(joint);
+  }
+
+  // A joint that becomes planar or floating once the tree is complete; until then it counts as
+  // fixed.
+  void addCompound(const urdf::Joint& source, int index) {
+    const bool planar = source.type == urdf::Joint::PLANAR;
+    const std::string who = "joint " + inQuotes(source.name);
+    if (source.mimic) {
+      throw UrdfError(who + (planar ? ": is planar" : ": is floating") + " and cannot mimic");
+    }
+    CompoundWish wish;
+    wish.joint = index;
+    wish.type = planar ? CompoundType::kPlanar : CompoundType::kFloating;
+    if (planar) wish.axis = axisOf(source);
+    compounds_.push_back(wish);
+    if (source.dynamics && (source.dynamics->damping != 0 || source.dynamics->friction != 0)) {
+      doubts_.push_back({who + ": its <dynamics> is not used, as it says nothing of each freedom"});
+    }
   }
 
   static void readDynamics(const urdf::Joint& source, Joint& joint) {
@@ -231,13 +254,10 @@ class Reader {
         return JointType::kContinuous;
       case urdf::Joint::PRISMATIC:
         return JointType::kPrismatic;
+      case urdf::Joint::PLANAR:
+      case urdf::Joint::FLOATING:
       case urdf::Joint::FIXED:
         return JointType::kFixed;
-      case urdf::Joint::FLOATING:
-        throw UrdfError("joint " + inQuotes(source.name) +
-                        ": floating joints are not supported yet");
-      case urdf::Joint::PLANAR:
-        throw UrdfError("joint " + inQuotes(source.name) + ": planar joints are not supported yet");
       default:
         throw UrdfError("joint " + inQuotes(source.name) + ": unknown joint type");
     }
@@ -311,6 +331,13 @@ class Reader {
       throw UrdfError("joint " + inQuotes(joint.name) + ": mimics unknown joint " + inQuotes(name) +
                       nameHelp(name, jointNames()));
     }
+    const auto isMaster = [&](const CompoundWish& wish) {
+      return wish.joint == static_cast<int>(found->second);
+    };
+    if (std::any_of(compounds_.begin(), compounds_.end(), isMaster)) {
+      throw UrdfError("joint " + inQuotes(joint.name) + ": mimics joint " + inQuotes(name) +
+                      ", which has several freedoms");
+    }
     if (joints_[found->second].type == JointType::kFixed) {
       throw UrdfError("joint " + inQuotes(joint.name) + ": mimics fixed joint " + inQuotes(name));
     }
@@ -328,6 +355,7 @@ class Reader {
   std::vector<Link> links_;
   std::vector<Joint> joints_;
   std::vector<Doubt> doubts_;
+  std::vector<CompoundWish> compounds_;
   int coordinates_ = 0;
 };
 

@@ -46,7 +46,7 @@ tf2_msgs::TFMessage closureFrames(const Mechanism& mechanism, const Scene& scene
 }
 
 std::string reactionFrame(const Mechanism& mechanism, const std::string& reaction) {
-  const int joint = reaction == kGround ? -1 : mechanism.jointIndex(reaction);
+  const int joint = reaction == kGround ? -1 : mechanism.reactionIndex(reaction);
   if (joint < 0 && reaction != kGround) return reaction;
   return mechanism.link(joint + 1).name;
 }

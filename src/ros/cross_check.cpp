@@ -73,7 +73,7 @@ std::vector<CrossCheckSlot::Compared> CrossCheckSlot::comparedOf(
     const Mechanism& mechanism, const std::vector<std::string>& joints) {
   std::vector<Compared> compared;
   for (std::size_t i = 0; i < joints.size(); ++i) {
-    const int index = joints[i] == kGround ? -1 : mechanism.jointIndex(joints[i]);
+    const int index = joints[i] == kGround ? -1 : mechanism.reactionIndex(joints[i]);
     if (index < 0 && joints[i] != kGround) continue;  // a closure
     compared.push_back({i, static_cast<std::size_t>(index + 1)});
   }

@@ -14,6 +14,7 @@
 #include "ros/start_position.h"
 #include "ros/topic_names.h"
 #include "virtual_work_dynamics/error.h"
+#include "virtual_work_dynamics/joint_types.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {
@@ -21,7 +22,7 @@ namespace {
 
 Mechanism readRobot(const InverseDynamicsParameters& parameters) {
   try {
-    return readUrdf(parameters.robot_description);
+    return withJointTypes(readUrdf(parameters.robot_description), parameters.scene);
   } catch (const UrdfError& error) {
     throw UrdfError("parameter " + parameters.robot_description_key + ": " + error.what());
   }
@@ -67,6 +68,13 @@ Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const s
   if (mechanism.coordinates().empty()) {
     throw UrdfError("parameter " + key + ": robot " + inQuotes(mechanism.name()) +
                     " has no joint that moves");
+  }
+  if (mechanism.orientations() > 0) {
+    throw UrdfError(
+        "joint " + inQuotes(mechanism.freeJoint(0).name) + ": is " +
+        nameOf(mechanism.freeJoint(0).type) +
+        ", and joint states cannot tell its orientation; inverse_dynamics_offline takes "
+        "it from columns");
   }
   Request request;
   request.child_axes = request.root_axes = requestedReactions(mechanism, scene);

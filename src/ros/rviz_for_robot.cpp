@@ -24,6 +24,7 @@
 #include "ros/rviz_for_robot_usage.h"
 #include "ros/scene_parameter.h"
 #include "ros/topic_names.h"
+#include "virtual_work_dynamics/joint_types.h"
 #include "virtual_work_dynamics/scene_reader.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
@@ -141,15 +142,16 @@ Inputs parametersOf(const Options& options, const std::string& node) {
 std::string configurationFor(const Options& options) {
   const std::string node = ros::names::resolve(options["node"]);
   const Inputs inputs = options.robot.empty() ? parametersOf(options, node) : filesOf(options);
+  const Mechanism mechanism = withJointTypes(inputs.mechanism, inputs.scene);
   RvizScene scene;
-  scene.reactions = requestedReactions(inputs.mechanism, inputs.scene);
-  scene.view = modelView(inputs.mechanism, inputs.scene, scene.reactions);
+  scene.reactions = requestedReactions(mechanism, inputs.scene);
+  scene.view = modelView(mechanism, inputs.scene, scene.reactions);
   scene.reaction_topics = reactionTopics(scene.reactions);
   for (std::string& topic : scene.reaction_topics) topic = node + "/reaction/" + topic;
   scene.marker_topic = node + "/markers";
   scene.robot_description = inputs.robot_description;
   scene.frame_prefix = inputs.frame_prefix;
-  scene.root_frame = inputs.frame_prefix + inputs.mechanism.links().front().name;
+  scene.root_frame = inputs.frame_prefix + mechanism.links().front().name;
   const std::string& frame = options["frame"];
   scene.fixed_frame = frame.empty() || frame == "auto" ? scene.root_frame : frame;
   if (!inputs.frame_prefix.empty() && inputs.frame_prefix.back() != '/') {

@@ -1,9 +1,12 @@
 #include "scene/input_checks.h"
 
+#include <cmath>
 #include <set>
 #include <string>
 
+#include "base/number_text.h"
 #include "base/printable.h"
+#include "scene/joint_type_checks.h"
 #include "scene/lookup.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -25,10 +28,35 @@ void requireLengths(const Motion& motion, Eigen::Index coordinates) {
   requireLength("qdd", motion.qdd.size(), coordinates);
 }
 
+void requireOrientations(const Motion& motion, std::size_t count) {
+  constexpr double kOff = 1e-6;
+  if (motion.orientations.empty()) return;
+  if (motion.orientations.size() != count) {
+    throw MotionError("motion: it has " + std::to_string(motion.orientations.size()) +
+                      " orientations, the mechanism has " + std::to_string(count) +
+                      " joints that turn freely");
+  }
+  for (const Eigen::Quaterniond& orientation : motion.orientations) {
+    if (std::abs(orientation.squaredNorm() - 1) <= 2 * kOff) continue;
+    throw MotionError("motion: an orientation has the length " + numberText(orientation.norm()) +
+                      ", not 1");
+  }
+}
+
 void requireRoots(const MotionTable& table, std::size_t rows) {
   if (table.roots.size() >= rows) return;
   throw MotionError("motion: the root moves, and " + std::to_string(table.roots.size()) +
                     " of its motions are given; needed are " + std::to_string(rows));
+}
+
+void requireOrientations(const MotionTable& table, std::size_t rows, std::size_t count) {
+  const Eigen::MatrixXd& all = table.orientations;
+  const bool fits = static_cast<std::size_t>(all.rows()) >= rows &&
+                    static_cast<std::size_t>(all.cols()) == 4 * count;
+  if (all.size() == 0 || fits) return;
+  throw MotionError("motion: orientations are " + std::to_string(all.rows()) + " x " +
+                    std::to_string(all.cols()) + ", needed are " + std::to_string(rows) + " x " +
+                    std::to_string(4 * count));
 }
 
 void requireLoad(const Load& load, std::size_t applied) {
@@ -52,7 +80,8 @@ const Scene& openChain(const Scene& scene) {
   return scene;
 }
 
-void requireSoundInertias(const Mechanism& mechanism, const Scene& scene) {
+void requireSoundDescription(const Mechanism& mechanism, const Scene& scene) {
+  requireJointTypes(mechanism, scene);
   if (!scene.strict_inertia) return;
   for (const Doubt& doubt : mechanism.doubts()) {
     if (doubt.about_inertia) throw SceneError("strict_inertia: " + doubt.text);
@@ -67,7 +96,7 @@ std::vector<int> linksOf(const Mechanism& mechanism, const std::vector<std::stri
     const std::string place = entryOf("reactions", i);
     if (!seen.insert(name).second)
       throw SceneError(place + ": " + inQuotes(name) + " is named twice");
-    links.push_back(name == kGround ? 0 : jointNamed(mechanism, name, place) + 1);
+    links.push_back(name == kGround ? 0 : reactionNamed(mechanism, name, place) + 1);
   }
   return links;
 }

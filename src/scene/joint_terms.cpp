@@ -37,7 +37,7 @@ std::vector<int> termsOfJoints(const Mechanism& mechanism, const Scene& scene) {
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     const JointTerms& terms = scene.joints[i];
     const int joint = jointNamed(mechanism, terms.joint, entryOf("joints", i) + ".name");
-    if (mechanism.joint(joint).type == JointType::kFixed) {
+    if (mechanism.joint(joint).coordinate < 0) {
       throw SceneError("joints: " + inQuotes(terms.joint) + " is a fixed joint");
     }
     if (given[joint] >= 0) throw SceneError("joints: " + inQuotes(terms.joint) + " is given twice");
@@ -54,7 +54,7 @@ std::vector<ResolvedJointTerms> resolveJointTerms(const Mechanism& mechanism, co
   std::vector<ResolvedJointTerms> resolved;
   for (std::size_t k = 0; k < given.size(); ++k) {
     const Joint& joint = mechanism.joints()[k];
-    if (joint.type == JointType::kFixed) continue;
+    if (joint.coordinate < 0) continue;
     JointTerms terms;
     terms.joint = joint.name;
     if (given[k] >= 0) terms = scene.joints[given[k]];

@@ -20,6 +20,36 @@ std::vector<std::string> namesOf(const std::vector<Named>& list) {
   throw SceneError(place + ": no " + kind + " " + inQuotes(name) + nameHelp(name, known));
 }
 
+// The names of the joints' reactions.
+std::vector<std::string> reactionNames(const Mechanism& mechanism) {
+  std::vector<std::string> names;
+  for (int k = 0; k < static_cast<int>(mechanism.joints().size()); ++k) {
+    if (!mechanism.isInnerPart(k)) names.push_back(mechanism.reactionName(k));
+  }
+  return names;
+}
+
+// Refuses a part of a compound joint where only the whole one can stand, and the other way round.
+void refuseParts(const Mechanism& mechanism, const std::string& name, const std::string& place) {
+  const int joint = mechanism.jointIndex(name);
+  if (joint >= 0 && mechanism.compoundOf(joint)) {
+    throw SceneError(place + ": " + inQuotes(name) + " is a part of joint " +
+                     inQuotes(mechanism.compoundOf(joint)->name) + ", whose reaction is one");
+  }
+}
+
+void refuseWhole(const Mechanism& mechanism, const std::string& name, const std::string& place) {
+  const int joint = mechanism.reactionIndex(name);
+  const CompoundJoint* const compound = joint < 0 ? nullptr : mechanism.compoundOf(joint);
+  if (!compound) return;
+  std::vector<std::string> parts;
+  for (int k = compound->first; k <= compound->last; ++k) {
+    if (mechanism.joint(k).coordinate >= 0) parts.push_back(mechanism.joint(k).name);
+  }
+  throw SceneError(place + ": joint " + inQuotes(name) + " has several freedoms, name one of " +
+                   namesInQuotes(parts));
+}
+
 }  // namespace
 
 std::string entryOf(const std::string& list, std::size_t index) {
@@ -28,7 +58,15 @@ std::string entryOf(const std::string& list, std::size_t index) {
 
 int jointNamed(const Mechanism& mechanism, const std::string& name, const std::string& place) {
   const int joint = mechanism.jointIndex(name);
+  if (joint < 0) refuseWhole(mechanism, name, place);
   if (joint < 0) fail(place, "joint", name, namesOf(mechanism.joints()));
+  return joint;
+}
+
+int reactionNamed(const Mechanism& mechanism, const std::string& name, const std::string& place) {
+  const int joint = mechanism.reactionIndex(name);
+  if (joint < 0) refuseParts(mechanism, name, place);
+  if (joint < 0) fail(place, "joint", name, reactionNames(mechanism));
   return joint;
 }
 
@@ -40,6 +78,8 @@ int linkNamed(const Mechanism& mechanism, const std::string& name, const std::st
 
 void failAtUnknown(const Mechanism& mechanism, const Scene& scene, const std::string& name,
                    const std::string& place) {
+  refuseWhole(mechanism, name, place);
+  refuseParts(mechanism, name, place);
   std::vector<std::string> known = namesOf(mechanism.joints());
   for (const Closure& closure : scene.closures) known.push_back(closure.name);
   fail(place, scene.closures.empty() ? "joint" : "joint or closure", name, known);

@@ -17,9 +17,11 @@ LinkPoint pointOnLink(const Mechanism& mechanism, const MomentPoint& point,
   return {linkNamed(mechanism, *point.link, place + ".link"), point.at.cast<long double>()};
 }
 
-LinkPoint pointOfJoint(const Joint& joint, const MomentPoint& point) {
+LinkPoint pointOfJoint(const Mechanism& mechanism, int index, const MomentPoint& point) {
   const Vector3l at = point.at.cast<long double>();
-  if (point.frame == JointFrame::kChild) return {joint.child_link, at};
+  if (point.frame == JointFrame::kChild) return {mechanism.joint(index).child_link, at};
+  const CompoundJoint* const compound = mechanism.compoundOf(index);
+  const Joint& joint = mechanism.joint(compound ? compound->first : index);
   return {joint.parent_link, joint.p_PoKo_P + joint.R_PK * at};
 }
 
@@ -46,14 +48,14 @@ MomentPoints::MomentPoints(const Mechanism& mechanism, const Scene& scene) {
       throw SceneError(place + ": the moment of ground is about the origin of the root link");
     }
     if (!point.at.allFinite()) throw SceneError(place + ".at: is not three finite numbers");
-    const int joint = mechanism.jointIndex(point.name);
+    const int joint = mechanism.reactionIndex(point.name);
     const auto closure = closures.find(point.name);
     if (joint < 0 && closure == closures.end()) {
       failAtUnknown(mechanism, scene, point.name, place);
     }
     const auto resolved = [&] {
       if (point.link) return pointOnLink(mechanism, point, place);
-      if (joint >= 0) return pointOfJoint(mechanism.joint(joint), point);
+      if (joint >= 0) return pointOfJoint(mechanism, joint, point);
       return pointOfClosure(mechanism, scene.closures[closure->second], point, place);
     }();
     const bool first = joint >= 0 ? joints_.emplace(joint, resolved).second

@@ -48,7 +48,8 @@ LoadedMechanism::LoadedMechanism(const Mechanism& mechanism, const Scene& scene)
     add(payload,
         links[static_cast<std::size_t>(linkNamed(mechanism, payload.link, place + ".link"))]);
   }
-  loaded_.emplace(mechanism.name(), std::move(links), mechanism.joints(), mechanism.doubts());
+  loaded_.emplace(mechanism.name(), std::move(links), mechanism.joints(), mechanism.doubts(),
+                  mechanism.compounds());
 }
 
 }  // namespace virtual_work_dynamics

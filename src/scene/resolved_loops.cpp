@@ -67,7 +67,7 @@ class Resolver {
       const std::string what = "closures: " + inQuotes(closure.name);
       if (closure.name.empty()) throw SceneError("closures: a closure has no name");
       if (closure.name == kGround) throw SceneError(what + ": that name is reserved");
-      if (mechanism_.jointIndex(closure.name) >= 0) {
+      if (mechanism_.jointIndex(closure.name) >= 0 || mechanism_.reactionIndex(closure.name) >= 0) {
         throw SceneError(what + ": a joint has the same name");
       }
       requireOnce("closures", seen, closure.name);
@@ -86,7 +86,7 @@ class Resolver {
   // Finds the coordinate of a joint that neither is fixed nor mimics another one.
   int coordinateOf(const std::string& list, const std::string& name, int k) const {
     const Joint& joint = mechanism_.joint(k);
-    if (joint.type == JointType::kFixed) {
+    if (joint.coordinate < 0) {
       throw SceneError(list + ": " + inQuotes(name) + " is a fixed joint");
     }
     if (joint.mimics) throw SceneError(list + ": " + inQuotes(name) + " mimics another joint");
@@ -98,6 +98,19 @@ class Resolver {
     const int k = mechanism_.jointIndex(name);
     if (k < 0) failAtUnknown(mechanism_, scene_, name, place);
     return k;
+  }
+
+  // Chooses the coordinate of a joint, or all of a joint with several freedoms.
+  void choose(const std::string& list, const std::string& name, const std::string& place,
+              std::vector<bool>& chosen) const {
+    const int whole = mechanism_.jointIndex(name) < 0 ? mechanism_.reactionIndex(name) : -1;
+    const CompoundJoint* const compound = whole < 0 ? nullptr : mechanism_.compoundOf(whole);
+    const int first = compound ? compound->first : jointOrClosure(name, place);
+    const int last = compound ? compound->last : first;
+    for (int k = first; k <= last; ++k) {
+      if (compound && mechanism_.joint(k).coordinate < 0) continue;
+      chosen[static_cast<std::size_t>(coordinateOf(list, name, k))] = true;
+    }
   }
 
   void readActuated() {
@@ -112,8 +125,7 @@ class Resolver {
       requireOnce("actuated", seen, name);
       const int c = closureIndex(name);
       if (c < 0) {
-        const int k = jointOrClosure(name, entryOf("actuated", i));
-        loops_.actuated[static_cast<std::size_t>(coordinateOf("actuated", name, k))] = true;
+        choose("actuated", name, entryOf("actuated", i), loops_.actuated);
         continue;
       }
       closures[freeAxisOf("actuated", name, c)] = true;
@@ -146,8 +158,7 @@ class Resolver {
       } else if (name.compare(0, kPose.size(), kPose) == 0 && mechanism_.jointIndex(name) < 0) {
         loops_.given.links.push_back(linkOfPose(name.substr(kPose.size()), entryOf("given", i)));
       } else {
-        const int k = jointOrClosure(name, entryOf("given", i));
-        loops_.given.coordinates[static_cast<std::size_t>(coordinateOf("given", name, k))] = true;
+        choose("given", name, entryOf("given", i), loops_.given.coordinates);
       }
     }
   }
@@ -213,8 +224,9 @@ class Resolver {
       requireOnce(list, seen, stiffness.name);
       requirePositive(list + ": " + inQuotes(stiffness.name), stiffness.value);
       const int c = closureIndex(stiffness.name);
-      const int k =
-          c < 0 ? jointOrClosure(stiffness.name, entryOf("redundancy.stiffness", i) + ".name") : -1;
+      const std::string place = entryOf("redundancy.stiffness", i) + ".name";
+      const int k = c < 0 ? mechanism_.reactionIndex(stiffness.name) : -1;
+      if (c < 0 && k < 0) failAtUnknown(mechanism_, scene_, stiffness.name, place);
       if (c < 0 && mechanism_.joint(k).type == JointType::kFixed) {
         throw SceneError(list + ": " + inQuotes(stiffness.name) + " is a fixed joint");
       }

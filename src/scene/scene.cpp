@@ -20,7 +20,7 @@ NameSet checkedNames(const Mechanism& mechanism, const Scene& scene) {
   for (const Closure& closure : scene.closures) closures.insert(closure.name);
   for (std::size_t i = 0; i < scene.reaction_names.size(); ++i) {
     const std::string& name = scene.reaction_names[i];
-    if (name != kGround && mechanism.jointIndex(name) < 0 && closures.count(name) == 0) {
+    if (name != kGround && mechanism.reactionIndex(name) < 0 && closures.count(name) == 0) {
       failAtUnknown(mechanism, scene, name, entryOf("reactions", i));
     }
     if (!names.insert(name).second) {
@@ -44,8 +44,10 @@ std::vector<std::string> requestedReactions(const Mechanism& mechanism, const Sc
   const auto isNamed = [&](const std::string& name) { return wanted.count(name) > 0; };
   std::vector<std::string> names;
   if (!all && isNamed(kGround)) names.emplace_back(kGround);
-  for (const Joint& joint : mechanism.joints()) {
-    if (all ? joint.type != JointType::kFixed : isNamed(joint.name)) names.push_back(joint.name);
+  for (int k = 0; k < static_cast<int>(mechanism.joints().size()); ++k) {
+    if (mechanism.isInnerPart(k)) continue;
+    const std::string& name = mechanism.reactionName(k);
+    if (all ? mechanism.joint(k).type != JointType::kFixed : isNamed(name)) names.push_back(name);
   }
   for (const Closure& closure : scene.closures) {
     if (all || isNamed(closure.name)) names.push_back(closure.name);

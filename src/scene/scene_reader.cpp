@@ -4,6 +4,7 @@
 #include "base/printable.h"
 #include "base/text_file.h"
 #include "scene/closure_reader.h"
+#include "scene/joint_type_checks.h"
 #include "scene/yaml_document.h"
 #include "scene/yaml_values.h"
 #include "virtual_work_dynamics/error.h"
@@ -15,7 +16,7 @@ namespace {
 const Names kSceneKeys = {
     "gravity",       "root",           "motion",           "reactions", "include_active",
     "moments_about", "strict_inertia", "applied_wrenches", "joints",    "use_urdf_dynamics",
-    "tolerances",    "payload"};
+    "tolerances",    "payload",        "joint_types"};
 // Bytes, beyond those of the most values that a scene may have.
 constexpr std::size_t kLongestScene = std::size_t{64} << 20;
 const Names kWrenchKeys = {"name", "link", "at", "axes", "force", "torque", "live", "invert"};
@@ -23,6 +24,7 @@ const Names kWrenchKeys = {"name", "link", "at", "axes", "force", "torque", "liv
 const Names kMeasured = {"at", "axes", "force", "torque"};
 const Names kPayloadKeys = {"link", "mass", "at", "inertia"};
 const Names kMomentKeys = {"name", "frame", "link", "at"};
+const Names kTypeKeys = {"name", "type", "axis", "axis2", "pitch"};
 const Names kToleranceKeys = {"mass", "inertia"};
 const Names kJointKeys = {"name",    "stiffness",        "rest",          "damping",
                           "coulomb", "coulomb_velocity", "rotor_inertia", "offset"};
@@ -130,6 +132,25 @@ JointTerms readJointTerms(const YAML::Node& node, const std::string& where) {
   return terms;
 }
 
+JointTypeEntry readJointType(const YAML::Node& node, const std::string& where) {
+  JointTypeEntry entry;
+  bool has_type = false;
+  readMap(node, where, kTypeKeys, [&](const auto& key, const auto& value, const auto& path) {
+    if (key == "name") entry.joint = scalarText(value, path, "a joint's name");
+    if (key == "type") {
+      entry.type = static_cast<CompoundType>(readWord(value, path, compoundTypeNames()));
+      has_type = true;
+    }
+    if (key == "axis") entry.axis = readVector3(value, path);
+    if (key == "axis2") entry.axis2 = readVector3(value, path);
+    if (key == "pitch") entry.pitch = readNumber(value, path);
+  });
+  if (entry.joint.empty()) failAt(where, "names no joint");
+  if (!has_type) failAt(where, "type is missing");
+  requireSoundType(entry, where);
+  return entry;
+}
+
 Tolerances readTolerances(const YAML::Node& node, const std::string& where) {
   Tolerances tolerances;
   readMap(node, where, kToleranceKeys, [&](const auto& key, const auto& value, const auto& path) {
@@ -163,6 +184,7 @@ void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
   if (key == "applied_wrenches") scene.applied_wrenches = readList(value, key, readAppliedWrench);
   if (key == "payload") scene.payloads = readList(value, key, readPayload);
   if (key == "joints") scene.joints = readList(value, key, readJointTerms);
+  if (key == "joint_types") scene.joint_types = readList(value, key, readJointType);
   if (key == "tolerances") scene.tolerances = readTolerances(value, key);
   if (key == "use_urdf_dynamics") scene.use_urdf_dynamics = readBool(value, key);
 }

@@ -3,6 +3,7 @@ vwd_core(
   closure_types.cpp
   input_checks.cpp
   joint_terms.cpp
+  joint_types.cpp
   load.cpp
   lookup.cpp
   moment_points.cpp

@@ -15,8 +15,8 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-constexpr int kArrays = 9;  // four of a MotionBlock, five of a ResultBlock
-constexpr int kInputs = 4;
+constexpr int kArrays = 10;  // five of a MotionBlock, five of a ResultBlock
+constexpr int kInputs = 5;
 
 /// The arrays of a block, and how many numbers of each belong to a sample.
 template <typename Real>
@@ -57,6 +57,7 @@ struct BlockInverseDynamics<Real>::Impl {
                                           coordinates,
                                           coordinates,
                                           plan.root_moves ? std::size_t{RootState::kNumbers} : 0,
+                                          4 * static_cast<std::size_t>(plan.orientations),
                                           request.efforts ? coordinates : 0,
                                           6 * plan.child_axes.size(),
                                           6 * in_root_axes,
@@ -76,8 +77,9 @@ struct BlockInverseDynamics<Real>::Impl {
   }
 
   void check(const BlockArrays<Real>& arrays) const {
-    static const char* const kNames[] = {"q",          "qd",        "qdd",   "root",  "effort",
-                                         "child_axes", "root_axes", "poses", "twists"};
+    static const char* const kNames[] = {
+        "q",      "qd",         "qdd",       "root",  "orientations",
+        "effort", "child_axes", "root_axes", "poses", "twists"};
     if (arrays.samples == 0) return;
     for (int i = 0; i < kInputs; ++i) {
       if (columns[i] > 0 && !arrays.inputs[i]) {
@@ -100,7 +102,7 @@ struct BlockInverseDynamics<Real>::Impl {
         layout,
         applied,
         loads,
-        {motion.q, motion.qd, motion.qdd, motion.root},
+        {motion.q, motion.qd, motion.qdd, motion.root, motion.orientations},
         {results.effort, results.child_axes, results.root_axes, results.poses, results.twists}};
     check(arrays);
     struct Job {
@@ -146,7 +148,8 @@ struct BlockInverseDynamics<Real>::Impl {
     const auto at = [first](auto* array) { return array ? array + first : nullptr; };
     kernel.pack(view,
                 {at(arrays.inputs[0]), at(arrays.inputs[1]), at(arrays.inputs[2]), arrays.samples,
-                 applied.data(), applied.stride(), at(arrays.inputs[3]), arrays.samples},
+                 applied.data(), applied.stride(), at(arrays.inputs[3]), arrays.samples,
+                 at(arrays.inputs[4]), arrays.samples},
                 {at(arrays.outputs[0]), at(arrays.outputs[1]), at(arrays.outputs[2]),
                  at(arrays.outputs[3]), at(arrays.outputs[4]), arrays.samples},
                 scratch[thread].get());
@@ -176,9 +179,11 @@ struct BlockInverseDynamics<Real>::Impl {
       }
     }
     const auto wanted = [&](int i) { return arrays.outputs[i] ? tile[kInputs + i] : nullptr; };
-    kernel.pack(
-        view, {tile[0], tile[1], tile[2], width, applied.data(), applied.stride(), tile[3], width},
-        {wanted(0), wanted(1), wanted(2), wanted(3), wanted(4), width}, scratch[thread].get());
+    kernel.pack(view,
+                {tile[0], tile[1], tile[2], width, applied.data(), applied.stride(), tile[3], width,
+                 tile[4], width},
+                {wanted(0), wanted(1), wanted(2), wanted(3), wanted(4), width},
+                scratch[thread].get());
     for (int i = kInputs; i < kArrays; ++i) {
       Real* const to = arrays.outputs[i - kInputs];
       if (!to || columns[i] == 0) continue;

@@ -14,6 +14,7 @@ namespace virtual_work_dynamics {
 
 // Results are written as plain numbers in this order.
 static_assert(sizeof(Wrench) == 6 * sizeof(double), "force, then torque");
+static_assert(sizeof(Eigen::Quaterniond) == 4 * sizeof(double), "x y z w");
 static_assert(sizeof(Twist) == 6 * sizeof(double), "linear, then angular");
 constexpr std::size_t kPoseNumbers = 12;
 
@@ -23,6 +24,7 @@ struct Workspace::Scratch {
         own(impl.plan),
         given(impl.plan),
         memory(impl.kernel->scratchSize(impl.view)),
+        unturned(static_cast<std::size_t>(impl.plan.orientations), Eigen::Quaterniond::Identity()),
         poses(impl.request.poses ? kPoseNumbers * impl.plan.root_axes.size() : 0) {
     impl.kernel->prepare(impl.view, memory.get());
   }
@@ -31,6 +33,7 @@ struct Workspace::Scratch {
   AppliedValues<double> own;          // values of the scene's applied wrenches
   AppliedValues<double> given;        // values of a Load's wrenches
   AlignedMemory memory;
+  std::vector<Eigen::Quaterniond> unturned;  // orientations of motions that have none
   std::vector<double> poses;
   RootState root{RootMotion(), Eigen::Vector3d::Zero(), true};
 };
@@ -68,6 +71,10 @@ InverseDynamics::InverseDynamics(const Mechanism& mechanism, const Scene& scene)
 InverseDynamics::~InverseDynamics() = default;
 InverseDynamics::InverseDynamics(InverseDynamics&&) noexcept = default;
 InverseDynamics& InverseDynamics::operator=(InverseDynamics&&) noexcept = default;
+
+std::size_t InverseDynamics::orientations() const {
+  return static_cast<std::size_t>(impl_->plan.orientations);
+}
 
 Eigen::Index InverseDynamics::coordinates() const {
   return impl_->plan.coordinates;
@@ -121,6 +128,12 @@ void InverseDynamics::computeWith(const Load* load, const Motion& motion,
     scratch.root = rootState(motion.root);
     in.root = scratch.root.data();
     in.root_stride = 1;
+  }
+  if (plan.orientations > 0) {
+    requireOrientations(motion, static_cast<std::size_t>(plan.orientations));
+    const auto& all = motion.orientations.empty() ? scratch.unturned : motion.orientations;
+    in.orientations = all.front().coeffs().data();
+    in.orientation_stride = 1;
   }
   const KernelOutputs<double> out = {plan.efforts ? results.effort.data() : nullptr,
                                      numbersOf(results.child_axes),

@@ -98,9 +98,10 @@ class Compiler {
 
   Plan<Real> compile() {
     openChain(scene_);
-    requireSoundInertias(mechanism_, scene_);
+    requireSoundDescription(mechanism_, scene_);
     resolveReactions();
     plan_.coordinates = static_cast<int>(mechanism_.coordinates().size());
+    plan_.orientations = static_cast<int>(mechanism_.orientations());
     plan_.efforts = request_.efforts;
     plan_.static_motion = scene_.static_motion;
     plan_.root_moves = scene_.root_moves;
@@ -145,7 +146,7 @@ class Compiler {
         continue;
       }
       const Matrix3l R_KZ =
-          joint.type == JointType::kFixed ? Matrix3l(Matrix3l::Identity()) : alignZ(joint.axis_K);
+          joint.coordinate < 0 ? Matrix3l(Matrix3l::Identity()) : alignZ(joint.axis_K);
       places_[k + 1] = {static_cast<int>(plan_.bodies.size()), R_KZ.transpose(), Vector3l::Zero()};
       addBody(joint, parent.body, orthonormalized(exactProduct(R_PK, R_KZ)), p_PoKo_P);
     }
@@ -155,9 +156,11 @@ class Compiler {
     Body<Real> body;
     body.parent = parent;
     body.mobility = joint.type == JointType::kFixed       ? Mobility::kFixed
+                    : joint.type == JointType::kOriented  ? Mobility::kOriented
                     : joint.type == JointType::kPrismatic ? Mobility::kPrismatic
                                                           : Mobility::kRevolute;
     body.coordinate = joint.coordinate;
+    body.orientation = joint.orientation;
     body.multiplier = joint.multiplier;
     body.geared = joint.multiplier != 1;
     body.p_PoZo_P = plain(p_PoZo_P);
@@ -211,11 +214,12 @@ class Compiler {
     }
   }
 
-  ReactionOutput<Real> output(int link) const {
+  ReactionOutput<Real> output(int link) {
     ReactionOutput<Real> output;
     output.body = places_[link].body;
     output.R_KZ = plain(Matrix3l(places_[link].R_ZL.transpose()));
     output.drop_active = !scene_.include_active && link > 0;
+    if (output.drop_active) setActivePart(link - 1, output);
     output.permutes = true;
     for (int i = 0; i < 3; ++i) {
       const Vector3l column = places_[link].R_ZL.row(i);  // of R_KZ
@@ -228,6 +232,38 @@ class Compiler {
       }
     }
     return output;
+  }
+
+  // The parts of a compound joint are not welded to each other, so that each is a body.
+  void setActivePart(int joint, ReactionOutput<Real>& output) {
+    const CompoundJoint* const compound = mechanism_.compoundOf(joint);
+    if (!compound) return;
+    switch (compound->type) {
+      case CompoundType::kPlanar:
+        output.active = ActivePart::kPlane;
+        return;
+      case CompoundType::kCylindrical:
+        output.active = ActivePart::kCylinder;
+        return;
+      case CompoundType::kScrew:
+        output.active = ActivePart::kScrew;
+        output.pitch = mechanism_.joint(compound->first).multiplier;
+        return;
+      case CompoundType::kSpherical:
+        output.active = ActivePart::kBall;
+        return;
+      case CompoundType::kFloating:
+        output.active = ActivePart::kAll;
+        return;
+      case CompoundType::kUniversal:
+        break;
+    }
+    const Vector3l normal =
+        mechanism_.joint(compound->first).axis_K.cross(mechanism_.joint(joint).axis_K).normalized();
+    output.active = ActivePart::kCross;
+    output.normal_P = plain(Vector3l(places_[compound->first + 1].R_ZL * normal));
+    // The normal turns with the first part: the position of the last one says where it is.
+    plan_.bodies[places_[joint + 1].body].bears_point = true;
   }
 
   void addOutputs() {

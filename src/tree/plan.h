@@ -23,7 +23,8 @@ struct LeftOut {
 /// The part of a plan that does not depend on its number type.
 struct PlanUse {
   int coordinates = 0;
-  int slots = 0;  ///< motions that are kept for later children
+  int orientations = 0;  ///< that a motion has
+  int slots = 0;         ///< motions that are kept for later children
   bool efforts = true;
   bool static_motion = false;
   bool root_moves = false;

@@ -100,8 +100,12 @@ PlanSummary summarize(const Plan<double>& plan) {
       root(6 * plan.root_axes.size() + 1);
   std::vector<double> poses(12 * plan.root_axes.size() + 1), twists(root.size());
   const std::vector<double> root_state(RootState::kNumbers);
-  const KernelInputs<double> in = {zeros.data(),   zeros.data(),     zeros.data(),      1,
-                                   applied.data(), applied.stride(), root_state.data(), 1};
+  const std::vector<double> orientations(4 * static_cast<std::size_t>(plan.orientations) + 1);
+  const KernelInputs<double> in = {zeros.data(),        zeros.data(),
+                                   zeros.data(),        1,
+                                   applied.data(),      applied.stride(),
+                                   root_state.data(),   1,
+                                   orientations.data(), 1};
   const KernelOutputs<double> out = {plan.efforts ? effort.data() : nullptr,
                                      child.data(),
                                      root.data(),

@@ -210,7 +210,7 @@ class Reduction {
     std::vector<JointPosition<Real>> angles, slides;
     for (std::size_t k = 1; k < bodies_.size(); ++k) {
       Body<Real>& body = bodies_[k];
-      if (body.mobility == Mobility::kFixed) continue;
+      if (body.coordinate < 0) continue;
       if (!positionMatters(body)) {
         body.angle = body.slide = -1;
         if (used(body)) plan_.left_out.idle.push_back(kept_names_[k]);

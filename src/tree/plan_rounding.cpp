@@ -59,6 +59,9 @@ ReactionOutput<T> rounded(const ReactionOutput<Real>& from) {
   std::copy(std::begin(from.row), std::end(from.row), output.row);
   for (int i = 0; i < 3; ++i) output.sign[i] = T(from.sign[i]);
   output.drop_active = from.drop_active;
+  output.active = from.active;
+  output.pitch = T(from.pitch);
+  output.normal_P = rounded<T>(from.normal_P);
   return output;
 }
 

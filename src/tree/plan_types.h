@@ -8,7 +8,7 @@ namespace virtual_work_dynamics {
 // nothing else of the library.
 
 /// How a body moves on its parent.
-enum class Mobility : unsigned char { kRevolute, kPrismatic, kFixed };
+enum class Mobility : unsigned char { kRevolute, kPrismatic, kFixed, kOriented };
 
 /// Where the z axis of a frame points in the axes of another. For all except kOblique the rotation
 /// between them is Q of canonicalRotation(): a signed permutation, or one with four entries.
@@ -41,7 +41,7 @@ struct BodyUse {
   bool motion_needed = false;
   bool wrench_needed = false;
   bool pose_needed = false;      ///< R_0Z and p_0
-  bool bears_point = false;      ///< its position says where the point of a moment is
+  bool bears_point = false;      ///< its position says where the point or axis of a moment is
   bool wrench_outlives = false;  ///< the sum of (3.8) is read again after the sweep
   bool has_inertia = false;
 
@@ -68,6 +68,7 @@ struct BodyUse {
   int angle = -1;        ///< index into Plan::angles
   int slide = -1;        ///< index into Plan::slides
   int coordinate = -1;   ///< the coordinate that moves it; -1: fixed
+  int orientation = -1;  ///< the orientation of the sample behind R_PZ; -1: none
   int child_axes = -1;   ///< index into Plan::child_axes
 
   int sums_into = -1;     ///< index of the wrench it is added to: the parent's, or a partial sum
@@ -125,6 +126,18 @@ struct ActuatorTerms {
   T constant = T(0);  ///< JointTerms::offset
 };
 
+/// What a joint leaves to its actuators of the wrench that passes through it, in Z axes of its
+/// body.
+enum class ActivePart : unsigned char {
+  kAxis,      ///< of a joint of one freedom: force along z where it slides, moment where it turns
+  kPlane,     ///< forces across z and the moment about it
+  kCylinder,  ///< force along z and the moment about it
+  kScrew,     ///< the moment about z that does as much work as both
+  kBall,      ///< all moments
+  kAll,       ///< everything
+  kCross      ///< moments, except for that about the normal to both axes of a universal joint
+};
+
 /// A reaction to report.
 template <typename T>
 struct ReactionOutput {
@@ -136,7 +149,10 @@ struct ReactionOutput {
   bool flips = false;  ///< whether an entry of that permutation is -1
   int row[3] = {0, 1, 2};
   T sign[3] = {T(1), T(1), T(1)};
-  bool drop_active = false;  ///< the component along the joint axis is reported as zero
+  bool drop_active = false;  ///< the active part is reported as zero
+  ActivePart active = ActivePart::kAxis;
+  T pitch = T(0);      ///< of a screw, m/rad
+  Vec3<T> normal_P{};  ///< of a universal joint: that normal, in the Z frame of the body's parent
 };
 
 /// A step on the way from the body that a point is fixed on to the one whose reaction is reported.

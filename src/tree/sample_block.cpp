@@ -23,6 +23,7 @@ struct SampleBlock::Impl {
         twists(block.request().twists ? root_axes : 0),
         inputs(3 * capacity * block.coordinates()),
         roots(inverse_dynamics.rootMoves() ? RootState::kNumbers * capacity : 0),
+        orientations(4 * inverse_dynamics.orientations() * capacity),
         outputs(capacity * (efforts + child_axes + root_axes + poses + twists)) {
     double* next = outputs.data();
     const auto array = [&](std::size_t width) {
@@ -50,14 +51,31 @@ struct SampleBlock::Impl {
     }
   }
 
+  // The orientations of rows, each the identity where the table has none.
+  void takeOrientations(const MotionTable& table, std::size_t first, std::size_t count) {
+    if (orientations.empty()) return;
+    const std::size_t numbers = orientations.size() / capacity;
+    requireOrientations(table, first + count, numbers / 4);
+    for (std::size_t row = 0; row < count; ++row) {
+      for (std::size_t c = 0; c < numbers; ++c) {
+        orientations[row * numbers + c] =
+            table.orientations.size() == 0
+                ? (c % 4 == 3 ? 1 : 0)
+                : table.orientations(static_cast<Eigen::Index>(first + row),
+                                     static_cast<Eigen::Index>(c));
+      }
+    }
+  }
+
   BlockInverseDynamics<double> block;
   const InverseDynamics& dynamics;
   const InverseDynamics::Impl* plan;  // is compared, never read
   std::size_t computed = 0;           // samples of the last block
   std::size_t capacity;
   std::size_t efforts, child_axes, root_axes, poses, twists;  // numbers of each in a sample
-  std::vector<double> inputs, roots, outputs;  // arrays one after the other; roots: RootStates
-  ResultBlock<double> results;                 // their places in `outputs`
+  std::vector<double> inputs, roots, orientations,
+      outputs;                  // arrays one after the other; roots: RootStates
+  ResultBlock<double> results;  // their places in `outputs`
 };
 
 SampleBlock::SampleBlock(const InverseDynamics& inverse_dynamics, std::size_t capacity, int threads)
@@ -99,8 +117,9 @@ void SampleBlock::compute(const MotionTable& table, std::size_t first, std::size
     }
   }
   impl.takeRoots(table, first, count);
-  const MotionBlock<double> motion = {count, impl.input(0), impl.input(1), impl.input(2),
-                                      impl.roots.data()};
+  impl.takeOrientations(table, first, count);
+  const MotionBlock<double> motion = {count,         impl.input(0),     impl.input(1),
+                                      impl.input(2), impl.roots.data(), impl.orientations.data()};
   if (loads) {
     impl.block.compute(BlockLayout::kRowMajor, motion, loads, impl.results);
   } else {

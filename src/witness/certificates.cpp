@@ -170,6 +170,14 @@ struct Certifier::Impl {
 
   void takeMotion(const Motion& motion) {
     if (root_moves) takeRoot(motion.root);
+    for (const WeldedBodies::Oriented& turned : welded.oriented) {
+      const Eigen::Matrix3d R = motion.orientations.empty()
+                                    ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
+                                    : motion.orientations[turned.orientation].toRotationMatrix();
+      const Eigen::Matrix3d R_PZ = turned.before * R * turned.after;
+      std::copy_n(R_PZ.data(), 9, welded.bodies[turned.body].R_PZ);
+      std::copy_n(R_PZ.data(), 9, joints[turned.body].R_PZ);  // turn() leaves its axis as it is
+    }
     for (std::size_t i = 0; i < drives.size(); ++i) {
       const Drive& drive = drives[i];
       MomentumJoint& joint = joints[i + 1];
@@ -265,6 +273,7 @@ Certificates Certifier::check(const Motion& motion, const Load& load, const Eige
                               const Wrench& ground) {
   Impl& impl = *impl_;
   requireLengths(motion, impl.coordinates);
+  requireOrientations(motion, impl.welded.oriented.size());
   requireLoad(load, impl.wrenches.size());
   if (effort.size() != impl.coordinates) {
     throw MotionError("certificates: effort has " + std::to_string(effort.size()) +

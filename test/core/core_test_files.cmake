@@ -19,6 +19,11 @@ set(core_test_files
   test/core/closed_loop_refusals_test.cpp
   test/core/closed_loop_singular_test.cpp
   test/core/closed_loop_tree_test.cpp
+  test/core/compound_joints_free_test.cpp
+  test/core/compound_joints_loops_test.cpp
+  test/core/compound_joints_published_test.cpp
+  test/core/compound_joints_refusals_test.cpp
+  test/core/compound_joints_test.cpp
   test/core/description_deviations_test.cpp
   test/core/description_messages_test.cpp
   test/core/deviation_rows_test.cpp
@@ -68,6 +73,7 @@ set(core_test_files
   test/core/offline_deviations_test.cpp
   test/core/offline_errors_test.cpp
   test/core/offline_loops_checks_test.cpp
+  test/core/offline_free_turns_test.cpp
   test/core/offline_given_test.cpp
   test/core/offline_inputs_test.cpp
   test/core/offline_loops_errors_test.cpp

@@ -74,8 +74,8 @@ TEST(DescriptionMessages, TheCauseStandsAloneAndGeometryIsNotSpokenOf) {
             std::vector<std::string>{});
   EXPECT_EQ(refusal(arm(link("head", capsule) + joint("neck", "upper", "head", "", "spherical"),
                         kBody + capsule, capsule + kBody)),
-            "joint 'neck': type 'spherical' is not one of revolute, continuous, prismatic, fixed; "
-            "revolute joints with massless links between them are the same");
+            "joint 'neck': type 'spherical' is not one of revolute, continuous, prismatic, fixed, "
+            "planar, floating; 'joint_types' of a scene makes a joint of another type spherical");
 }
 
 TEST(DescriptionMessages, EachRefusalNamesItsCause) {
@@ -97,7 +97,7 @@ TEST(DescriptionMessages, EachRefusalNamesItsCause) {
             "joint 'shoulder': origin rpy '0 0 up' is not three finite numbers");
   EXPECT_EQ(refusal(replaced(arm(), "revolute", "Revolute")),
             "joint 'shoulder': type 'Revolute' is not one of revolute, continuous, prismatic, "
-            "fixed; did you mean 'revolute'?");
+            "fixed, planar, floating; did you mean 'revolute'?");
   EXPECT_EQ(refusal(replaced(arm(), kLimit, "")),
             "joint 'shoulder': a revolute joint needs a <limit>; without limits its type is "
             "continuous");

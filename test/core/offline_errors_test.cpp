@@ -193,7 +193,7 @@ TEST_F(OfflineToolErrors, BadRobotsAreNamed) {
   bad.replace(bad.find("0 1 0"), 5, "0 0 0");
   EXPECT_TRUE(contains(urdf(bad), "'hinge'"));
   bad = pendulum;
-  bad.replace(bad.find("continuous"), 10, "floating");
+  bad.replace(bad.find("continuous"), 10, "flying");
   EXPECT_TRUE(contains(urdf(bad), "'hinge'"));
   EXPECT_TRUE(contains(failure("--urdf none.urdf --motion m.csv --output r.csv", 1),
                        "none.urdf: cannot be read: No such file or directory"));

@@ -23,6 +23,7 @@ MAPS = {
     "kWrenchKeys": ("applied_wrenches",),
     "kPayloadKeys": ("payload",),
     "kJointKeys": ("joints",),
+    "kTypeKeys": ("joint_types",),
     "kToleranceKeys": ("tolerances",),
     "kClosureKeys": ("closures",),
     "kFrameKeys": ("closures.parent", "closures.child"),
@@ -43,6 +44,7 @@ VALUES = {"motion": {False: "full", True: "static"}, "root": {False: "fixed", Tr
 # Which tables of the page stand for which maps: the heading, or the line before a table in it.
 TABLES = {"Top level": [""], "moments_about": ["moments_about"],
           "applied_wrenches": ["applied_wrenches"], "payload": ["payload"], "joints": ["joints"],
+          "joint_types": ["joint_types"],
           "tolerances": ["tolerances"],
           "closures": ["closures", ("closures.parent", "closures.child")], "springs": ["springs"],
           "assembly": ["assembly"],

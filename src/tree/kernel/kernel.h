@@ -49,6 +49,10 @@ struct KernelInputs {
   /// A RootState where the root moves: number c is at [c * root_stride].
   const R* root = nullptr;
   std::size_t root_stride = 0;
+  /// Orientations as x y z w of each: number c of orientation i is at [(4 i + c) *
+  /// orientation_stride].
+  const R* orientations = nullptr;
+  std::size_t orientation_stride = 0;
 };
 
 /// Where results go, laid out as those of a ResultBlock; null: not wanted.

@@ -16,8 +16,8 @@ struct BodyPose {
 
 /// Pose of a body from its parent's, and its velocities (2.5) and (2.6) in root axes.
 template <bool kTwist, typename T, typename R>
-VWD_INLINE BodyPose<T> propagatePose(const Body<R>& body, const JointMotion<T>& joint,
-                                     const BodyPose<T>& parent) {
+VWD_INLINE BodyPose<T> propagatePose(const Body<R>& body, const KernelInputs<R>& in,
+                                     const JointMotion<T>& joint, const BodyPose<T>& parent) {
   const Mat3<T>& R_0P = parent.R_0Z;
   const Vec3<T> arm = body.mobility == Mobility::kPrismatic
                           ? times(R_0P, originInParent(body, joint.slide))
@@ -31,6 +31,14 @@ VWD_INLINE BodyPose<T> propagatePose(const Body<R>& body, const JointMotion<T>& 
     pose.R_0Z = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
   });
   if (body.mobility == Mobility::kRevolute) pose.R_0Z = times(pose.R_0Z, joint.Rz);
+  if (body.mobility == Mobility::kOriented) {
+    const Mat3<T> turn = orientationOf<T>(body, in);
+    const Mat3<T>& A = pose.R_0Z;
+    const Vec3<T> x = transposeTimes(turn, Vec3<T>{A.xx, A.xy, A.xz});
+    const Vec3<T> y = transposeTimes(turn, Vec3<T>{A.yx, A.yy, A.yz});
+    const Vec3<T> z = transposeTimes(turn, Vec3<T>{A.zx, A.zy, A.zz});
+    pose.R_0Z = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
+  }
   if (!kTwist) return pose;
   pose.w_0 = parent.w_0;
   pose.v_0 = addCross(parent.v_0, parent.w_0, arm);  // (2.6)

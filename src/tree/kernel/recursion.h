@@ -31,6 +31,19 @@ struct JointMotion {
   T qdd;
 };
 
+/// The rotation of an oriented body, child axes -> those in which it is not turned.
+template <typename T, typename R>
+VWD_INLINE Mat3<T> orientationOf(const Body<R>& body, const KernelInputs<R>& in) {
+  const std::size_t stride = in.orientation_stride;
+  const R* const from = in.orientations + 4 * static_cast<std::size_t>(body.orientation) * stride;
+  const T x = load<T>(from), y = load<T>(from + stride), z = load<T>(from + 2 * stride),
+          w = load<T>(from + 3 * stride);
+  const T one = T(R(1)), x2 = x + x, y2 = y + y, z2 = z + z;
+  return {one - mulAdd(y, y2, z * z2), subMul(x * y2, w, z2),       mulAdd(w, y2, x * z2),
+          mulAdd(w, z2, x * y2),       one - mulAdd(x, x2, z * z2), subMul(y * z2, w, x2),
+          subMul(x * z2, w, y2),       mulAdd(w, x2, y * z2),       one - mulAdd(x, x2, y * y2)};
+}
+
 /// U = w~ w~ + alpha~, the bracket of (2.7) and (3.5).
 template <typename T>
 VWD_INLINE Mat3<T> accelerationGradient(const Vec3<T>& w, const Vec3<T>& alpha) {
@@ -118,8 +131,9 @@ VWD_INLINE void arriveAt(const Body<R>& body, const T* slides, const BodyMotion<
 
 /// Motion of a body from its parent's, (2.5) and (2.7). kPlain: see BodyUse::plain_motion.
 template <bool kStatic, bool kPlain, AxisDirection kAxis, typename T, typename R>
-VWD_INLINE void propagateMotion(const Body<R>& body, const JointMotion<T>& joint,
-                                const Arrival<T>& arrival, BodyMotion<T>& motion) {
+VWD_INLINE void propagateMotion(const Body<R>& body, const KernelInputs<R>& in,
+                                const JointMotion<T>& joint, const Arrival<T>& arrival,
+                                BodyMotion<T>& motion) {
   const Mobility mobility = kPlain ? Mobility::kRevolute : body.mobility;
   if (!kStatic) {
     motion.w = toChild<kAxis>(body.R_PZ, arrival.w);          // (2.5), a w_p
@@ -140,18 +154,27 @@ VWD_INLINE void propagateMotion(const Body<R>& body, const JointMotion<T>& joint
     motion.gamma.x = mulAdd(qd2, motion.w.y, motion.gamma.x);  // (2.7), + 2 qd w x u3
     motion.gamma.y = subMul(motion.gamma.y, qd2, motion.w.x);
     motion.gamma.z = motion.gamma.z + joint.qdd;  // (2.7), + qdd u3
+  } else if (mobility == Mobility::kOriented) {
+    const Mat3<T> turn = orientationOf<T>(body, in);
+    motion.gamma = transposeTimes(turn, motion.gamma);
+    if (!kStatic) {
+      motion.w = transposeTimes(turn, motion.w);
+      motion.alpha = transposeTimes(turn, motion.alpha);
+    }
   }
   if (!kStatic) motion.U = accelerationGradient(motion.w, motion.alpha);
 }
 
 /// Motion of a body on a parent at rest, (2.5) and (2.7) with the parent's w and alpha zero.
 template <bool kStatic, typename T, typename R>
-VWD_INLINE void startMotion(const Body<R>& body, const JointMotion<T>& joint,
-                            BodyMotion<T>& motion) {
+VWD_INLINE void startMotion(const Body<R>& body, const KernelInputs<R>& in,
+                            const JointMotion<T>& joint, BodyMotion<T>& motion) {
   const T zero = T(0);
   motion.gamma = {T(body.gamma_rest.x), T(body.gamma_rest.y), T(body.gamma_rest.z)};
   if (body.mobility == Mobility::kRevolute && !body.rest_along_z) {
     motion.gamma = transposeTimes(joint.Rz, body.gamma_rest);
+  } else if (body.mobility == Mobility::kOriented) {
+    motion.gamma = transposeTimes(orientationOf<T>(body, in), motion.gamma);
   }
   if (kStatic) return;
   motion.w = motion.alpha = {zero, zero, zero};
@@ -228,11 +251,14 @@ VWD_INLINE PlainWrench<T> startWrench(const Body<R>& body, const BodyMotion<T>& 
 
 /// What a body's wrench adds to its parent's, (3.8), in the parent's frame and about its origin.
 template <bool kPlain, AxisDirection kAxis, typename T, typename R>
-VWD_INLINE PlainWrench<T> toParent(const Body<R>& body, const JointMotion<T>& joint,
-                                   PlainWrench<T> wrench) {
+VWD_INLINE PlainWrench<T> toParent(const Body<R>& body, const KernelInputs<R>& in,
+                                   const JointMotion<T>& joint, PlainWrench<T> wrench) {
   const Mobility mobility = kPlain ? Mobility::kRevolute : body.mobility;
   if (mobility == Mobility::kRevolute) {
     wrench = {times(joint.Rz, wrench.force), times(joint.Rz, wrench.torque)};
+  } else if (mobility == Mobility::kOriented) {
+    const Mat3<T> turn = orientationOf<T>(body, in);
+    wrench = {times(turn, wrench.force), times(turn, wrench.torque)};
   }
   wrench.force = toParent<kAxis>(body.R_PZ, wrench.force);    // (3.8), a^T F
   wrench.torque = toParent<kAxis>(body.R_PZ, wrench.torque);  // (3.8), a^T M

@@ -26,7 +26,7 @@ VWD_INLINE void movePlainBody(const PlanView<R>& plan, const Body<R>& body,
                               const KernelInputs<R>& in, const Scratch<T, R>& scratch,
                               Arrival<T>& arrival, PlainWrench<T>& wrench) {
   BodyMotion<T> motion;
-  propagateMotion<kStatic, true, kAxis>(body, jointMotion<kStatic, true>(body, in, scratch),
+  propagateMotion<kStatic, true, kAxis>(body, in, jointMotion<kStatic, true>(body, in, scratch),
                                         arrival, motion);
   wrench = inertiaWrench<kStatic>(body, motion);
   feedNext<kStatic>(plan, body, scratch, motion, arrival);
@@ -38,7 +38,7 @@ VWD_INLINE void startBody(const PlanView<R>& plan, const Body<R>& body, const Ke
                           const Scratch<T, R>& scratch, Arrival<T>& arrival,
                           PlainWrench<T>& wrench) {
   BodyMotion<T> motion;
-  startMotion<kStatic>(body, jointMotion<kStatic, false>(body, in, scratch), motion);
+  startMotion<kStatic>(body, in, jointMotion<kStatic, false>(body, in, scratch), motion);
   if (body.has_inertia) wrench = startWrench<kStatic>(body, motion);
   if (body.own_slot >= 0) scratch.slots[body.own_slot] = motion;
   feedNext<kStatic>(plan, body, scratch, motion, arrival);
@@ -55,7 +55,7 @@ VWD_INLINE void moveBody(const PlanView<R>& plan, const Body<R>& body, const Ker
   BodyMotion<T> motion;
   const JointMotion<T> joint = jointMotion<kStatic, false>(body, in, scratch);
   forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
-    propagateMotion<kStatic, false, axis.value>(body, joint, arrival, motion);
+    propagateMotion<kStatic, false, axis.value>(body, in, joint, arrival, motion);
   });
   if (body.has_inertia) wrench = inertiaWrench<kStatic>(body, motion);
   if (body.own_slot >= 0) scratch.slots[body.own_slot] = motion;
@@ -125,10 +125,43 @@ VWD_INLINE void subtractApplied(const PlanView<R>& plan, const KernelInputs<R>& 
   }
 }
 
-template <typename T>
-VWD_INLINE void dropActive(Mobility mobility, PlainWrench<T>& wrench) {
-  if (mobility == Mobility::kRevolute) wrench.torque.z = T(0);
-  if (mobility == Mobility::kPrismatic) wrench.force.z = T(0);
+/// Takes from a wrench what actuators deliver, see ActivePart.
+template <typename T, typename R>
+VWD_INLINE void dropActive(const ReactionOutput<R>& output, const Body<R>& body,
+                           const KernelInputs<R>& in, const Scratch<T, R>& scratch,
+                           PlainWrench<T>& wrench) {
+  const T zero = T(0);
+  switch (output.active) {
+    case ActivePart::kAxis:
+      if (body.mobility == Mobility::kRevolute) wrench.torque.z = zero;
+      if (body.mobility == Mobility::kPrismatic) wrench.force.z = zero;
+      return;
+    case ActivePart::kPlane:
+      wrench = {{zero, zero, wrench.force.z}, {wrench.torque.x, wrench.torque.y, zero}};
+      return;
+    case ActivePart::kCylinder:
+      wrench.force.z = wrench.torque.z = zero;
+      return;
+    case ActivePart::kScrew:
+      wrench.torque.z = -output.pitch * wrench.force.z;
+      return;
+    case ActivePart::kBall:
+      wrench.torque = {zero, zero, zero};
+      return;
+    case ActivePart::kAll:
+      wrench = {{zero, zero, zero}, {zero, zero, zero}};
+      return;
+    case ActivePart::kCross:
+      break;
+  }
+  const JointMotion<T> joint = jointMotion<true, false>(body, in, scratch);
+  Vec3<T> normal = {T(output.normal_P.x), T(output.normal_P.y), T(output.normal_P.z)};
+  forAxis(body.axis,
+          [&](auto axis) VWD_LAMBDA { normal = toChild<axis.value>(body.R_PZ, normal); });
+  normal = transposeTimes(joint.Rz, normal);
+  const T along = mulAdd(normal.x, wrench.torque.x,
+                         mulAdd(normal.y, wrench.torque.y, normal.z * wrench.torque.z));
+  wrench.torque = {along * normal.x, along * normal.y, along * normal.z};
 }
 
 template <typename T, typename R>
@@ -138,9 +171,8 @@ VWD_INLINE Vec3<T> flipped(const ReactionOutput<R>& output, const Vec3<T>& v) {
 
 /// A reported wrench in the axes of R_KZ, as six numbers.
 template <typename T, typename R>
-VWD_INLINE void storeWrench(const ReactionOutput<R>& output, PlainWrench<T> wrench,
-                            Mobility mobility, R* to, std::size_t stride) {
-  if (output.drop_active) dropActive(mobility, wrench);
+VWD_INLINE void storeWrench(const ReactionOutput<R>& output, PlainWrench<T> wrench, R* to,
+                            std::size_t stride) {
   if (output.permutes) {
     if (output.flips) {
       wrench.force = flipped(output, wrench.force);
@@ -224,14 +256,20 @@ VWD_INLINE void sweepIn(const PlanView<R>& plan, const KernelInputs<R>& in,
       addEffort(body, wrench, out);
     }
     if (body.child_axes >= 0 && out.child_axes) {
-      storeWrench(plan.child_axes[body.child_axes], wrench, body.mobility,
-                  out.child_axes + 6 * static_cast<std::size_t>(body.child_axes) * out.stride,
-                  out.stride);
+      const ReactionOutput<R>& output = plan.child_axes[body.child_axes];
+      R* const to = out.child_axes + 6 * static_cast<std::size_t>(body.child_axes) * out.stride;
+      if (output.drop_active) {
+        PlainWrench<T> borne = wrench;
+        dropActive(output, body, in, scratch, borne);
+        storeWrench(output, borne, to, out.stride);
+      } else {
+        storeWrench(output, wrench, to, out.stride);
+      }
     }
     if (body.plain_wrench) {
       const JointMotion<T> joint = jointMotion<true, true>(body, in, scratch);
       forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
-        handed = toParent<true, axis.value>(body, joint, wrench);
+        handed = toParent<true, axis.value>(body, in, joint, wrench);
       });
       continue;
     }
@@ -239,7 +277,7 @@ VWD_INLINE void sweepIn(const PlanView<R>& plan, const KernelInputs<R>& in,
     if (!body.hands_on && !body.adds_to_parent) continue;
     const JointMotion<T> joint = jointMotion<true, false>(body, in, scratch);
     forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
-      handed = toParent<false, axis.value>(body, joint, wrench);
+      handed = toParent<false, axis.value>(body, in, joint, wrench);
     });
     if (body.adds_to_parent) sumUp(plan, body, handed, scratch.wrenches);
   }
@@ -294,18 +332,18 @@ VWD_INLINE void sweepPoses(const PlanView<R>& plan, const KernelInputs<R>& in,
     if (out.twists) {
       JointMotion<T> joint = jointMotion<kStatic, false>(body, in, scratch);
       if (kStatic) joint.qd = T(0);
-      scratch.poses[k] = propagatePose<true>(body, joint, parent);
+      scratch.poses[k] = propagatePose<true>(body, in, joint, parent);
     } else {
       scratch.poses[k] =
-          propagatePose<false>(body, jointMotion<true, false>(body, in, scratch), parent);
+          propagatePose<false>(body, in, jointMotion<true, false>(body, in, scratch), parent);
     }
   }
 }
 
 /// Writes reactions (4.3), poses and twists in root axes.
 template <typename T, typename R>
-VWD_INLINE void storeRootAxes(const PlanView<R>& plan, const KernelOutputs<R>& out,
-                              const Scratch<T, R>& scratch) {
+VWD_INLINE void storeRootAxes(const PlanView<R>& plan, const KernelInputs<R>& in,
+                              const KernelOutputs<R>& out, const Scratch<T, R>& scratch) {
   for (int i = 0; i < plan.root_axes_count; ++i) {
     const ReactionOutput<R>& output = plan.root_axes[i];
     const std::size_t index = static_cast<std::size_t>(i);
@@ -319,7 +357,7 @@ VWD_INLINE void storeRootAxes(const PlanView<R>& plan, const KernelOutputs<R>& o
       const Body<R>& body = plan.bodies[output.body];
       if (body.wrench_needed) {
         PlainWrench<T> wrench = scratch.wrenches[output.body];
-        if (output.drop_active) dropActive(body.mobility, wrench);
+        if (output.drop_active) dropActive(output, body, in, scratch, wrench);
         storeVector(times(pose.R_0Z, wrench.force), to, out.stride);  // (4.3)
         storeVector(times(pose.R_0Z, wrench.torque), to + 3 * out.stride, out.stride);
       } else {
@@ -344,7 +382,7 @@ VWD_INLINE void sweepAll(const PlanView<R>& plan, const KernelInputs<R>& in,
   sweepIn(plan, in, out, scratch);
   storeKnownZeros<T>(plan, out);
   if (out.effort) addActuators<kStatic, T>(plan, in, out);
-  storeRootAxes(plan, out, scratch);
+  storeRootAxes(plan, in, out, scratch);
   if (plan.moved_count > 0) moveMoments(plan, in, out, scratch);
 }
 

@@ -89,17 +89,21 @@ struct LagrangeDynamics<Real>::Impl {
         reactions(plan.reactions.size()),
         effort(Eigen::VectorXd::Zero(plan.coordinates.size())),
         child_axes(plan.child_axes.size()),
-        root_axes(plan.root_axes.size()) {
+        root_axes(plan.root_axes.size()),
+        orientations(mechanism.orientations()) {
     for (std::size_t i = 0; i < 3; ++i) axes[0].R[i][i].value = 1;
     gravity = plan.gravity;
   }
 
   void take(const Load& load);
   void moveRoot(const RootMotion& motion);
+  void orient(std::size_t k, const Motion& motion);
   void move(const Motion& motion);
   Real effortOf(const typename LagrangePlan<Real>::Coordinate& coordinate);
   void displace(const typename LagrangePlan<Real>::Reaction& reaction, Triple<Real>& force);
   Triple<Real> leverOf(const typename LagrangePlan<Real>::Reaction& reaction) const;
+  void dropActiveOfParts(const typename LagrangePlan<Real>::Reaction& reaction,
+                         RealWrench<Real>& wrench) const;
   void rotate(const typename LagrangePlan<Real>::Reaction& reaction, Triple<Real>& torque);
   void output();
 
@@ -119,6 +123,7 @@ struct LagrangeDynamics<Real>::Impl {
   std::vector<RealWrench<Real>> reactions;  // in child axes
   Eigen::VectorXd effort;
   std::vector<Wrench> child_axes, root_axes;
+  std::size_t orientations;  // of a motion
 };
 
 // The root's pose is a given function of time. The inertial frame is the one whose axes are the
@@ -141,11 +146,26 @@ void LagrangeDynamics<Real>::Impl::moveRoot(const RootMotion& motion) {
   }
 }
 
+// The orientation of a sample is a constant of its equations: what turns on from it are angles.
+template <typename Real>
+void LagrangeDynamics<Real>::Impl::orient(std::size_t k, const Motion& motion) {
+  auto& joint = plan.joints[k];
+  const Eigen::Quaterniond turn =
+      motion.orientations.empty()
+          ? Eigen::Quaterniond::Identity()
+          : motion.orientations[static_cast<std::size_t>(joint.orientation)];
+  const Matrix<Real> back = turnedBack<Real>(turn);
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) joint.R_PK[i][j] = dot(joint.frame[i], back[j]);
+  }
+}
+
 template <typename Real>
 void LagrangeDynamics<Real>::Impl::move(const Motion& motion) {
   if (plan.root_moves) moveRoot(motion.root);
   for (std::size_t k = 0; k < plan.joints.size(); ++k) {
     const auto& joint = plan.joints[k];
+    if (joint.orientation >= 0) orient(k, motion);
     if (joint.coordinate >= 0) {
       JointState<Real>& state = states[k];
       state.q = joint.multiplier * Real(motion.q[joint.coordinate]) + joint.offset;
@@ -249,6 +269,42 @@ void LagrangeDynamics<Real>::Impl::rotate(const typename LagrangePlan<Real>::Rea
   }
 }
 
+// Takes away what the actuators of a joint of several freedoms deliver: forces along its slides,
+// moments about one axis or in the plane of two. Those of a screw deliver a moment whose work is
+// that of moment and force.
+template <typename Real>
+void LagrangeDynamics<Real>::Impl::dropActiveOfParts(
+    const typename LagrangePlan<Real>::Reaction& reaction, RealWrench<Real>& wrench) const {
+  const Triple<Real> lever = leverOf(reaction);
+  Triple<Real> force = wrench.force;
+  Triple<Real> moment = wrench.torque + times(Real(-1), cross(lever, force));  // about O_k
+  std::array<Triple<Real>, 2> turns{};
+  std::size_t count = 0;
+  Real by_force = 0;
+  for (const int k : reaction.parts) {
+    const auto& joint = plan.joints[k];
+    const Triple<Real> axis =
+        transposed(values(axes[reaction.link]), values(axes[k + 1]) * joint.axis_K);
+    if (joint.coordinate < 0) continue;
+    if (joint.type != JointType::kPrismatic) {
+      if (!reaction.ball) turns[count++] = axis;
+    } else if (reaction.screw) {
+      by_force = joint.multiplier * dot(axis, force);
+    } else {
+      force = force + times(-dot(axis, force), axis);
+    }
+  }
+  if (reaction.ball) {
+    moment = {};
+  } else if (count == 1) {
+    moment = moment + times(-(dot(turns[0], moment) + by_force), turns[0]);
+  } else {
+    const Triple<Real> normal = cross(turns[0], turns[1]);
+    moment = times(dot(normal, moment) / dot(normal, normal), normal);
+  }
+  wrench = {force, moment + cross(lever, force)};
+}
+
 template <typename Real>
 void LagrangeDynamics<Real>::Impl::take(const Load& load) {
   requireLoad(load, plan.applied.size());
@@ -303,6 +359,7 @@ template <typename Real>
 void LagrangeDynamics<Real>::compute(const Motion& motion, const Load& load) {
   Impl& impl = *impl_;
   requireLengths(motion, coordinates());
+  requireOrientations(motion, impl.orientations);
   impl.take(load);
   impl.move(motion);
   for (std::size_t i = 0; i < impl.plan.coordinates.size(); ++i) {
@@ -313,7 +370,9 @@ void LagrangeDynamics<Real>::compute(const Motion& motion, const Load& load) {
     auto& wrench = impl.reactions[i];
     impl.displace(reaction, wrench.force);
     impl.rotate(reaction, wrench.torque);
-    if (reaction.drop_active) {
+    if (!reaction.parts.empty()) {
+      impl.dropActiveOfParts(reaction, wrench);
+    } else if (reaction.drop_active) {
       const auto& joint = impl.plan.joints[reaction.link - 1];
       dropActive(joint.type, joint.axis_K, impl.leverOf(reaction), wrench);
     }

@@ -23,13 +23,15 @@ Matrix<Real> matrix(const Matrix3l& A) {
 template <typename Real>
 typename LagrangePlan<Real>::JointData jointData(const Joint& joint) {
   typename LagrangePlan<Real>::JointData data;
-  data.type = joint.type;
+  const bool oriented = joint.type == JointType::kOriented;
+  data.type = oriented ? JointType::kFixed : joint.type;
+  data.orientation = joint.orientation;
   data.parent = joint.parent_link;
   data.coordinate = joint.coordinate;
   data.multiplier = joint.multiplier;
   data.offset = joint.offset;
   data.p_PoKo_P = triple<Real>(joint.p_PoKo_P);
-  data.R_PK = matrix<Real>(joint.R_PK);
+  data.R_PK = data.frame = matrix<Real>(joint.R_PK);
   data.axis_K = triple<Real>(joint.axis_K);
   data.axis_P = triple<Real>(joint.R_PK * joint.axis_K);
   const Vector3l& u = joint.axis_K;
@@ -116,6 +118,15 @@ typename LagrangePlan<Real>::Reaction makeReaction(int link, const Scene& scene,
 }
 
 template <typename Reaction>
+void addParts(const Mechanism& mechanism, Reaction& reaction) {
+  const CompoundJoint* const compound = mechanism.compoundOf(reaction.link - 1);
+  if (!compound) return;
+  reaction.ball = compound->turnsFreely();
+  reaction.screw = compound->type == CompoundType::kScrew;
+  for (int k = compound->first; k <= compound->last; ++k) reaction.parts.push_back(k);
+}
+
+template <typename Reaction>
 void moveTo(const LinkPoint& point, Reaction& reaction) {
   reaction.moved = true;
   reaction.point_link = point.link;
@@ -132,7 +143,7 @@ LagrangePlan<Real>::LagrangePlan(const Mechanism& mechanism, const Scene& scene,
       root_moves(scene.root_moves),
       coordinate_count(static_cast<int>(mechanism.coordinates().size())) {
   openChain(scene);
-  requireSoundInertias(mechanism, scene);
+  requireSoundDescription(mechanism, scene);
   for (const Joint& joint : mechanism.joints()) joints.push_back(jointData<Real>(joint));
   for (const Link& link : mechanism.links()) links.push_back(linkData<Real>(link));
   addApplied(mechanism, scene, *this);
@@ -152,6 +163,7 @@ LagrangePlan<Real>::LagrangePlan(const Mechanism& mechanism, const Scene& scene,
         index = static_cast<int>(reactions.size());
         reactions.push_back(makeReaction(entry, scene, matters, *this));
         if (point) moveTo(*point, reactions.back());
+        if (reactions.back().drop_active) addParts(mechanism, reactions.back());
       }
       entry = index;
     }

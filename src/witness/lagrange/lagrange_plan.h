@@ -28,6 +28,8 @@ struct LagrangePlan {
     Matrix<Real> R_PK{};      ///< at position zero
     Triple<Real> axis_K{};
     Triple<Real> axis_P{};
+    int orientation = -1;  ///< of a motion, behind `frame`; R_PK is then that of the sample
+    Matrix<Real> frame{};
     /// Rodrigues: R_PK(q) = along + sin(q) sine + cos(q) cosine.
     Matrix<Real> along{}, sine{}, cosine{};
   };
@@ -62,6 +64,10 @@ struct LagrangePlan {
     int link = 0;            ///< child link; 0: ground
     std::vector<int> links;  ///< links behind `link` that the joint carries and that matter
     bool drop_active = false;
+    /// Of a joint of several freedoms: its parts, indices into `joints`; of a joint of one: none.
+    std::vector<int> parts;
+    bool screw = false;
+    bool ball = false;     ///< whether it turns freely
     bool moved = false;    ///< the moment is about `point` instead of O_k
     int point_link = 0;    ///< the link that the point is fixed on
     Triple<Real> point{};  ///< in the frame of that link

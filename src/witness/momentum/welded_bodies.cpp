@@ -72,13 +72,20 @@ WeldedBodies::WeldedBodies(const Mechanism& mechanism)
   for (std::size_t k = 0; k < mechanism.joints().size(); ++k) {
     const Joint& joint = mechanism.joints()[k];
     const LinkPlace& parent = places[joint.parent_link];
-    if (joint.type == JointType::kFixed) {
+    if (joint.type == JointType::kFixed || joint.type == JointType::kOriented) {
       places[k + 1] = {parent.body, parent.R_ZL * joint.R_PK,
                        parent.p_ZoLo_Z + parent.R_ZL * joint.p_PoKo_P,
                        parent.distance + joint.p_PoKo_P.norm()};
       continue;
     }
     const Matrix3l R_KZ = withZ(joint.axis_K);
+    // An oriented joint carries nothing but the part that follows it, with which it lines up.
+    const Joint* const before =
+        joint.parent_link > 0 ? &mechanism.joint(joint.parent_link - 1) : nullptr;
+    if (before && before->type == JointType::kOriented) {
+      oriented.push_back({bodies.size(), static_cast<std::size_t>(before->orientation),
+                          parent.R_ZL.cast<double>(), (joint.R_PK * R_KZ).cast<double>()});
+    }
     places[k + 1].body = static_cast<int>(bodies.size());
     places[k + 1].R_ZL = R_KZ.transpose();
     bodies.push_back(carriedBody(joint, parent, R_KZ));

@@ -23,6 +23,13 @@ struct WeldedBodies {
   std::vector<MomentumBody> bodies;
   std::vector<int> joints;  ///< by body: index of its joint in Mechanism::joints(); -1: the root
   std::vector<LinkPlace> places;
+  /// A body that turns on from an orientation of the motion: R_PZ = before R(orientation) after.
+  struct Oriented {
+    std::size_t body = 0;
+    std::size_t orientation = 0;
+    Eigen::Matrix3d before, after;
+  };
+  std::vector<Oriented> oriented;
 };
 
 }  // namespace virtual_work_dynamics
