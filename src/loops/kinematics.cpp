@@ -19,7 +19,8 @@ LoopKinematics::LoopKinematics(const Mechanism& mechanism, const Scene& scene)
     : LoopKinematics(mechanism, makeConditions(mechanism, scene)) {}
 
 LoopKinematics::LoopKinematics(const Mechanism& mechanism, ConditionSets sets)
-    : sets_(std::move(sets)),
+    : kernel_(&loopKernelFor(chosenInstructionSet()).one),
+      sets_(std::move(sets)),
       state_(mechanism),
       values_(countOf(sets_), static_cast<Eigen::Index>(mechanism.coordinates().size()),
               sets_.size()),
@@ -92,12 +93,11 @@ void LoopKinematics::setVelocity(const Eigen::VectorXd& qd) {
 void LoopKinematics::addColumns(const Eigen::VectorXd& rates, Eigen::VectorXd& sums) const {
   for (std::size_t s = 0; s < sets_.size(); ++s) {
     const Eigen::Index first = firstOf(s), count = firstOf(s + 1) - first;
-    double* sum = sums.data() + first;
-    for (const int coordinate : sets_[s]->coordinates()) {
-      const double* column = values_.A.col(coordinate).data() + first;
-      const double rate = rates[coordinate];
-      for (Eigen::Index i = 0; i < count; ++i) sum[i] += column[i] * rate;
-    }
+    const std::vector<int>& coordinates = sets_[s]->coordinates();
+    kernel_->addColumns(coordinates.data(), static_cast<int>(coordinates.size()),
+                        static_cast<int>(count), values_.A.data() + first,
+                        static_cast<std::size_t>(values_.A.rows()), rates.data(),
+                        sums.data() + first);
   }
 }
 

@@ -132,6 +132,7 @@ class LoopKinematics {
   void setVelocity(const Eigen::VectorXd& qd);
   void addColumns(const Eigen::VectorXd& rates, Eigen::VectorXd& sums) const;
 
+  const LoopFunctions* kernel_;
   ConditionSets sets_;
   std::vector<const ClosureConditions*> closures_;  // the first of sets_
   std::vector<const Condition*> conditions_;

@@ -1,0 +1,413 @@
+#pragma once
+
+#include "algebra/kernel/front_kernel.h"
+#include "base/number_choices.h"
+
+namespace virtual_work_dynamics {
+namespace {  // see front_kernel.h
+
+// Remainders of columns after the reflections of a front count as rounding up to this fraction of
+// the longest column.
+constexpr double kRoundingFraction = 16 * 2.220446049250313e-16;
+// Squares of lengths below this are too close to underflow for a reflection.
+constexpr double kLeastSquare = 1e-280;
+
+// Chunks that begin at entry kRowChunk - i have zeros in their first i rows, or a one in row i only.
+static_assert(kRowChunk == 4, "as these tables");
+constexpr double kStep[] = {0, 0, 0, 0, 1, 1, 1, 1};
+constexpr double kUnit[] = {0, 0, 0, 0, 1, 0, 0, 0};
+
+/// The numbers of one factorization: T is a number of the matrix, C a chunk of a column, which is
+/// several rows of one matrix, or one row of several.
+template <typename T, typename C>
+struct Fronts {
+  static constexpr int kLanes = LanesOf<T>::value;
+  static constexpr int kChunk = static_cast<int>(sizeof(C) / sizeof(T));
+
+  VWD_INLINE static T total(const T& x) { return x; }
+  template <typename Chunk>
+  VWD_INLINE static T total(const Chunk& x) {
+    return sumOfLanes(x);
+  }
+  VWD_INLINE static C chunk(const T* from) {
+    if constexpr (kChunk > 1) {
+      return load<C>(from);
+    } else {
+      return *from;
+    }
+  }
+  VWD_INLINE static void put(T* to, const C& value) {
+    if constexpr (kChunk > 1) {
+      store(to, value);
+    } else {
+      *to = value;
+    }
+  }
+
+  /// One front with its numbers.
+  struct Front {
+    const FrontShape& shape;
+    FrontState& state;
+    int* stairs;
+    T *entries, *reflections, *factors, *reciprocals, *z;
+
+    VWD_INLINE Front(const FrontsView& view, const FrontsMemory& memory, int f)
+        : shape(view.fronts[f]), state(memory.states[f]), stairs(memory.stairs + shape.stairs) {
+      T* const numbers = reinterpret_cast<T*>(memory.numbers);
+      entries = numbers + shape.entries;
+      reflections = numbers + shape.reflections;
+      factors = numbers + shape.factors;
+      reciprocals = numbers + shape.reciprocals;
+      z = numbers + shape.z;
+    }
+    VWD_INLINE T* column(int j) const { return entries + j * shape.most_rows; }
+    VWD_INLINE T* reflection(int step) const { return reflections + step * shape.most_rows; }
+    /// Rows that are computed with; the last ones may be empty.
+    VWD_INLINE int rows() const { return kChunk > 1 ? shape.most_rows : state.rows; }
+    VWD_INLINE int remaining() const { return state.steps - shape.pivots; }
+  };
+
+  /// The first row of the chunk that has a row.
+  VWD_INLINE static int chunkWith(int row) { return row / kChunk * kChunk; }
+
+  VWD_INLINE static T dot(const T* a, const T* b, int from, int rows) {
+    C sum = chunk(a + from) * chunk(b + from);
+    for (int i = from + kChunk; i < rows; i += kChunk) sum = mulAdd(chunk(a + i), chunk(b + i), sum);
+    return total(sum);
+  }
+  VWD_INLINE static void subtract(const T& factor, const T* what, T* of, int from, int rows) {
+    const C times(factor);
+    for (int i = from; i < rows; i += kChunk) {
+      put(of + i, subMul(chunk(of + i), times, chunk(what + i)));
+    }
+  }
+
+  /// Takes in the entries of blocks and of earlier fronts.
+  static void assemble(const FrontsView& view, const FrontsMemory& memory,
+                       const double* const* entries, const Front& front, T* lengths) {
+    const FrontShape& shape = front.shape;
+    const int size = shape.most_rows * shape.width;
+    const C zero(0.0);
+    for (int i = 0; i < size; i += kChunk) put(front.entries + i, zero);
+    int row = 0;
+    for (int b = shape.blocks_begin; b < shape.blocks_end; ++b) {
+      const BlockRows& block = view.blocks[b];
+      for (int k = block.columns_begin; k < block.columns_end; ++k) {
+        const BlockColumn& column = view.block_columns[k];
+        const double* from = entries[block.block] + column.from * block.rows * kLanes;
+        T* const to = front.column(column.to) + row;
+        T sum = lengths[column.column];
+        for (int i = 0; i < block.rows; ++i, from += kLanes) {
+          const T value = load<T>(from);
+          to[i] = value;
+          sum = mulAdd(value, value, sum);
+        }
+        lengths[column.column] = sum;
+      }
+      row += block.rows;
+    }
+    for (int c = shape.children_begin; c < shape.children_end; ++c) {
+      const Front child(view, memory, view.children[c].front);
+      const int* const places = view.places + view.children[c].places;
+      child.state.in_parent = row;
+      for (int step = child.shape.pivots; step < child.state.steps; ++step, ++row) {
+        for (int j = child.stairs[step]; j < child.shape.width; ++j) {
+          front.column(places[j - child.shape.pivots])[row] = child.column(j)[step];
+        }
+      }
+    }
+    front.state.rows = row;
+    front.state.steps = 0;
+  }
+
+  /// Copies what a column has from row `step` on into the reflection of that step.
+  /// @returns its squared length
+  VWD_INLINE static T startReflection(const Front& front, int step, int column, int rows) {
+    const T* const from = front.column(column);
+    T* const v = front.reflection(step);
+    int i = chunkWith(step);
+    C sum(0.0);
+    if constexpr (kChunk > 1) {
+      for (int above = 0; above < i; above += kChunk) put(v + above, sum);
+      const C part = load<C>(kStep + kRowChunk - (step - i)) * chunk(from + i);
+      put(v + i, part);
+      sum = part * part;
+      i += kChunk;
+    }
+    for (; i < rows; i += kChunk) {
+      const C part = chunk(from + i);
+      put(v + i, part);
+      sum = mulAdd(part, part, sum);
+    }
+    return total(sum);
+  }
+
+  /// Reflects with 1 - factor v v^T, which makes of the column that startReflection() was told its
+  /// length in row `step`. Rows above are those of R already.
+  VWD_INLINE static void reflect(const Front& front, int step, int column, const T& square,
+                                 int rows) {
+    T* const head = front.column(column) + step;
+    T* const v = front.reflection(step);
+    const int from = chunkWith(step);
+    const T diagonal = awayFrom(*head, squareRoot(square));
+    const T factor = T(1.0) / subMul(square, diagonal, *head);
+    if constexpr (kChunk > 1) {
+      put(v + from, subMul(chunk(v + from), C(diagonal), load<C>(kUnit + kRowChunk - (step - from))));
+    } else {
+      v[step] = *head - diagonal;
+    }
+    *head = diagonal;
+    front.stairs[step] = column;
+    front.factors[step] = factor;
+    for (int j = column + 1; j < front.shape.width; ++j) {
+      T* const other = front.column(j);
+      subtract(factor * dot(v, other, from, rows), v, other, from, rows);
+    }
+    ++front.state.steps;
+  }
+
+  VWD_INLINE static Factorized eliminate(const Front& front, int rows) {
+    const FrontShape& shape = front.shape;
+    if (shape.pivots > front.state.rows) return Factorized::kDependent;
+    for (int step = 0; step < shape.pivots; ++step) {
+      const T square = startReflection(front, step, step, rows);
+      if (lanesAbove(square, T(kLeastSquare)) < kLanes) return Factorized::kDependent;
+      reflect(front, step, step, square, rows);
+      front.reciprocals[step] = T(1.0) / front.column(step)[step];
+    }
+    return compress(front, rows);
+  }
+
+  /// Reflects the rows below the pivots into as few rows as their entries allow; the other rows then
+  /// have no entries.
+  VWD_INLINE static Factorized compress(const Front& front, int rows) {
+    const FrontShape& shape = front.shape;
+    if (shape.width == shape.pivots) return Factorized::kWhole;
+    T longest = T(0.0);
+    for (int j = shape.pivots; j < shape.width; ++j) {
+      longest = largerOf(dot(front.column(j), front.column(j), 0, rows), longest);
+    }
+    const T nothing =
+        largerOf(kRoundingFraction * kRoundingFraction * longest, T(kLeastSquare));
+    for (int j = shape.pivots; j < shape.width && front.state.steps < front.state.rows; ++j) {
+      const T square = startReflection(front, front.state.steps, j, rows);
+      const int above = lanesAbove(square, nothing);
+      if (above == 0) continue;
+      if (above < kLanes) return Factorized::kDivided;
+      reflect(front, front.state.steps, j, square, rows);
+    }
+    return Factorized::kWhole;
+  }
+
+  static Factorized factorize(const FrontsView& view, const double* const* entries, double size,
+                              const FrontsMemory& memory, double* condition) {
+    T* const lengths = reinterpret_cast<T*>(memory.numbers) + view.lengths;
+    for (int j = 0; j < view.column_count; ++j) lengths[j] = T(0.0);
+    for (int f = 0; f < view.front_count; ++f) {
+      const Front front(view, memory, f);
+      assemble(view, memory, entries, front, lengths);
+      const Factorized done = eliminateBySize(front);
+      if (done != Factorized::kWhole) return done;
+    }
+    T longest = T(size * size);
+    for (int j = 0; j < view.column_count; ++j) longest = largerOf(lengths[j], longest);
+    store(condition, estimateCondition(view, memory, longest));
+    return Factorized::kWhole;
+  }
+
+  /// Small fronts have loops of constant length.
+  VWD_INLINE static Factorized eliminateBySize(const Front& front) {
+    if (kChunk > 1) {
+      if (front.rows() == kRowChunk) return eliminate(front, kRowChunk);
+      if (front.rows() == 2 * kRowChunk) return eliminate(front, 2 * kRowChunk);
+    }
+    return eliminate(front, front.rows());
+  }
+
+  /// Estimates |R^-1| by |R^-1 (R^-T d)| / |R^-T d|, where d = +-1 with the signs that make each
+  /// entry of R^-T d large as it is computed; returns it times the root of a square.
+  static T estimateCondition(const FrontsView& view, const FrontsMemory& memory, const T& square) {
+    T* const numbers = reinterpret_cast<T*>(memory.numbers);
+    T* const sums = numbers + view.sums;
+    T* const solution = numbers + view.solution;
+    for (int j = 0; j < view.column_count; ++j) sums[j] = T(0.0);
+    T before = T(0.0), after = T(0.0);
+    for (int f = 0; f < view.front_count; ++f) {
+      const Front front(view, memory, f);
+      const int* const columns = view.columns + front.shape.columns;
+      T* const z = front.z;
+      for (int k = 0; k < front.shape.pivots; ++k) {
+        const T* const entries = front.column(k);
+        T sum = sums[columns[k]];
+        for (int i = 0; i < k; ++i) sum = mulAdd(entries[i], z[i], sum);
+        z[k] = (awayFrom(sum, T(1.0)) - sum) * front.reciprocals[k];
+        before = mulAdd(z[k], z[k], before);
+      }
+      for (int j = front.shape.pivots; j < front.shape.width; ++j) {
+        const T* const entries = front.column(j);
+        T sum = sums[columns[j]];
+        for (int i = 0; i < front.shape.pivots; ++i) sum = mulAdd(entries[i], z[i], sum);
+        sums[columns[j]] = sum;
+      }
+    }
+    for (int f = view.front_count; f-- > 0;) backSubstitute(view, Front(view, memory, f), solution);
+    for (int f = 0; f < view.front_count; ++f) {
+      const FrontShape& shape = view.fronts[f];
+      for (int k = 0; k < shape.pivots; ++k) {
+        const T value = solution[view.columns[shape.columns + k]];
+        after = mulAdd(value, value, after);
+      }
+    }
+    return wherePositive(before, squareRoot(square * after / before), T(1.0));
+  }
+
+  /// Solves the part of R u = z that belongs to a front; called from the last front to the first.
+  VWD_INLINE static void backSubstitute(const FrontsView& view, const Front& front, T* solution) {
+    const int* const columns = view.columns + front.shape.columns;
+    T* const z = front.z;
+    for (int j = front.shape.pivots; j < front.shape.width; ++j) {
+      const T value = solution[columns[j]];
+      const T* const entries = front.column(j);
+      for (int k = 0; k < front.shape.pivots; ++k) z[k] = subMul(z[k], value, entries[k]);
+    }
+    for (int k = front.shape.pivots; k-- > 0;) {
+      const T* const entries = front.column(k);
+      const T value = z[k] * front.reciprocals[k];
+      solution[columns[k]] = value;
+      for (int i = 0; i < k; ++i) z[i] = subMul(z[i], value, entries[i]);
+    }
+  }
+
+  VWD_INLINE static void reflectVector(const Front& front, int step) {
+    const T* const v = front.reflection(step);
+    const int from = chunkWith(step), rows = front.rows();
+    subtract(front.factors[step] * dot(v, front.z, from, rows), v, front.z, from, rows);
+  }
+  VWD_INLINE static void applyQ(const Front& front) {
+    for (int step = front.state.steps; step-- > 0;) reflectVector(front, step);
+  }
+  VWD_INLINE static void applyQTransposed(const Front& front) {
+    for (int step = 0; step < front.state.steps; ++step) reflectVector(front, step);
+  }
+
+  static void reflectBack(const FrontsView& view, const FrontsMemory& memory, int f) {
+    applyQ(Front(view, memory, f));
+  }
+
+  static void leastNorm(const FrontsView& view, const FrontsMemory& memory, const double* b,
+                        double* x) {
+    T* const sums = reinterpret_cast<T*>(memory.numbers) + view.sums;
+    for (int j = 0; j < view.column_count; ++j) sums[j] = load<T>(b + j * kLanes);
+    for (int f = 0; f < view.front_count; ++f) {
+      const Front front(view, memory, f);
+      const int* const columns = view.columns + front.shape.columns;
+      T* const z = front.z;
+      for (int k = 0; k < front.shape.pivots; ++k) {  // R^T y = b
+        const T* const entries = front.column(k);
+        T sum = sums[columns[k]];
+        for (int i = 0; i < k; ++i) sum = subMul(sum, entries[i], z[i]);
+        z[k] = sum * front.reciprocals[k];
+      }
+      for (int j = front.shape.pivots; j < front.shape.width; ++j) {
+        const T* const entries = front.column(j);
+        T sum = sums[columns[j]];
+        for (int i = 0; i < front.shape.pivots; ++i) sum = subMul(sum, entries[i], z[i]);
+        sums[columns[j]] = sum;
+      }
+    }
+    for (int f = view.front_count; f-- > 0;) {
+      const Front front(view, memory, f);
+      for (int i = front.state.steps; i < front.rows(); ++i) front.z[i] = T(0.0);
+      applyQ(front);
+      scatter(view, memory, front, x);
+    }
+  }
+
+  /// Hands the rows of a front on to its blocks' entries of x and to its children.
+  VWD_INLINE static void scatter(const FrontsView& view, const FrontsMemory& memory,
+                                 const Front& front, double* x) {
+    const T* z = front.z;
+    for (int b = front.shape.blocks_begin; b < front.shape.blocks_end; ++b) {
+      double* to = x + view.blocks[b].first * kLanes;
+      for (int i = view.blocks[b].rows; i > 0; --i, to += kLanes) store(to, *z++);
+    }
+    for (int c = front.shape.children_begin; c < front.shape.children_end; ++c) {
+      const Front child(view, memory, view.children[c].front);
+      for (int i = 0; i < child.remaining(); ++i) child.z[child.shape.pivots + i] = *z++;
+    }
+  }
+
+  static void leastSquares(const FrontsView& view, const FrontsMemory& memory, const double* r,
+                           double* u) {
+    for (int f = 0; f < view.front_count; ++f) {
+      const Front front(view, memory, f);
+      int row = 0;
+      for (int b = front.shape.blocks_begin; b < front.shape.blocks_end; ++b) {
+        const double* from = r + view.blocks[b].first * kLanes;
+        for (int i = view.blocks[b].rows; i > 0; --i, from += kLanes) {
+          front.z[row++] = load<T>(from);
+        }
+      }
+      for (int c = front.shape.children_begin; c < front.shape.children_end; ++c) {
+        const Front child(view, memory, view.children[c].front);
+        for (int i = 0; i < child.remaining(); ++i) {
+          front.z[row++] = child.z[child.shape.pivots + i];
+        }
+      }
+      for (; row < front.rows(); ++row) front.z[row] = T(0.0);
+      applyQTransposed(front);
+    }
+    T* const solution = reinterpret_cast<T*>(memory.numbers) + view.solution;
+    for (int f = view.front_count; f-- > 0;) {
+      const Front front(view, memory, f);
+      backSubstitute(view, front, solution);
+      for (int k = 0; k < front.shape.pivots; ++k) {
+        const int column = view.columns[front.shape.columns + k];
+        store(u + column * kLanes, solution[column]);
+      }
+    }
+  }
+
+  /// Goes from the row's front to the last one that its part reaches.
+  static void nullSquare(const FrontsView& view, const FrontsMemory& memory, int f, int row,
+                         double* to) {
+    T square = T(0.0);
+    {
+      const Front front(view, memory, f);
+      for (int i = 0; i < front.rows(); ++i) front.z[i] = T(0.0);
+      front.z[row] = T(1.0);
+    }
+    for (;;) {
+      const Front front(view, memory, f);
+      applyQTransposed(front);
+      for (int i = front.state.steps; i < front.state.rows; ++i) {
+        square = mulAdd(front.z[i], front.z[i], square);
+      }
+      if (front.shape.parent == f || front.remaining() == 0) break;
+      const Front next(view, memory, front.shape.parent);
+      for (int i = 0; i < next.rows(); ++i) next.z[i] = T(0.0);
+      for (int i = 0; i < front.remaining(); ++i) {
+        next.z[front.state.in_parent + i] = front.z[front.shape.pivots + i];
+      }
+      f = front.shape.parent;
+    }
+    store(to, square);
+  }
+
+  static constexpr FrontFunctions functions() {
+    return {factorize, leastNorm, leastSquares, nullSquare, reflectBack};
+  }
+};
+
+/// Packs of kWidth matrices, and single matrices kRows rows at a time.
+template <int kWidth, int kRows>
+const FrontKernel* frontKernel() {
+  using Lanes = Pack<double, kWidth>;
+  static constexpr FrontKernel kKernel = {kWidth,
+                                          Fronts<double, Pack<double, kRows>>::functions(),
+                                          Fronts<Lanes, Lanes>::functions()};
+  return &kKernel;
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics
