@@ -28,12 +28,25 @@ FrontLayout::FrontLayout(const std::vector<RowBlock>& blocks, int columns)
     rows += static_cast<int>(block.rows);
   }
   first_.push_back(rows);
-  places_of_rows_.resize(static_cast<std::size_t>(rows));
+  for (const RowBlock& block : blocks_) {
+    orders_.push_back(size(row_order_));
+    const auto isZero = [&](int i) {
+      return std::binary_search(block.zeros.begin(), block.zeros.end(), i);
+    };
+    for (const bool zero : {false, true}) {
+      for (int i = 0; i < static_cast<int>(block.rows); ++i) {
+        if (isZero(i) == zero) row_order_.push_back(i);
+      }
+      if (!zero) kept_.push_back(size(row_order_) - orders_.back());
+    }
+  }
+  places_of_rows_.assign(static_cast<std::size_t>(rows), {-1, 0});
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     int row = 0;
     for (const std::size_t b : fronts_[f].blocks) {
-      for (int i = first_[b]; i < first_[b + 1]; ++i) {
-        places_of_rows_[static_cast<std::size_t>(i)] = {static_cast<int>(f), row++};
+      for (int i = 0; i < kept_[b]; ++i) {
+        const int at = first_[b] + row_order_[static_cast<std::size_t>(orders_[b] + i)];
+        places_of_rows_[static_cast<std::size_t>(at)] = {static_cast<int>(f), row++};
       }
     }
   }
@@ -61,8 +74,9 @@ void FrontLayout::addBlock(std::size_t block, const std::vector<int>& columns) {
     if (!present_[static_cast<std::size_t>(column)]) continue;
     block_columns_.push_back({j, local_[static_cast<std::size_t>(column)], column});
   }
-  block_rows_.push_back({static_cast<int>(block), static_cast<int>(blocks_[block].rows),
-                         first_[block], begin, count(block_columns_)});
+  block_rows_.push_back({static_cast<int>(block), kept_[block],
+                         static_cast<int>(blocks_[block].rows), orders_[block], first_[block],
+                         begin, count(block_columns_)});
 }
 
 void FrontLayout::arrange() {
@@ -91,7 +105,7 @@ void FrontLayout::arrange() {
     shape.blocks_begin = count(block_rows_);
     for (const std::size_t b : front.blocks) {
       addBlock(b, blocks_[b].columns);
-      rows += static_cast<int>(blocks_[b].rows);
+      rows += kept_[b];
     }
     shape.blocks_end = count(block_rows_);
     shape.children_begin = count(children_);
@@ -119,9 +133,9 @@ void FrontLayout::arrange() {
     shape.z = deal(most_rows);
     shapes_.push_back(shape);
   }
-  view_ = {shapes_.data(), block_rows_.data(), block_columns_.data(), children_.data(),
-           places_.data(), columns_.data(),    count(shapes_),        count(present_),
-           0,              0,                  0};
+  view_ = {shapes_.data(),   block_rows_.data(), block_columns_.data(), row_order_.data(),
+           children_.data(), places_.data(),     columns_.data(),       count(shapes_),
+           count(present_),  0,                  0,                     0};
   view_.lengths = deal(present_.size());
   view_.sums = deal(present_.size());
   view_.solution = deal(present_.size());

@@ -29,7 +29,8 @@ class FrontLayout {
   std::size_t rows() const { return places_of_rows_.size(); }
   /// The first row of a block; rows() for one more than there are.
   int firstOf(std::size_t block) const { return first_[block]; }
-  /// The front that takes in a row of the matrix, and as which of its rows.
+  /// The front that takes in a row of the matrix, and as which of its rows; front -1 where the row
+  /// has no entries in any matrix.
   struct RowPlace {
     int front, row;
   };
@@ -56,6 +57,8 @@ class FrontLayout {
   std::vector<FrontShape> shapes_;
   std::vector<BlockRows> block_rows_;
   std::vector<BlockColumn> block_columns_;
+  std::vector<int> row_order_;       // of all blocks, see BlockRows::order
+  std::vector<int> orders_, kept_;  // by block: where its order begins, and its rows with entries
   std::vector<ChildRows> children_;
   std::vector<int> places_, columns_;
   std::vector<int> local_;  // of a front being arranged: its column for a column of the matrix

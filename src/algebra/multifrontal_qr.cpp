@@ -28,10 +28,6 @@ MultifrontalQr::MultifrontalQr(const std::vector<RowBlock>& blocks, int columns)
   open_.reserve(states_.size());
 }
 
-FrontsMemory MultifrontalQr::memory() {
-  return {static_cast<double*>(numbers_.get()), states_.data(), stairs_.data()};
-}
-
 bool MultifrontalQr::factorize(double worst_condition, double size) {
   condition_ = std::numeric_limits<double>::infinity();
   null_rows_listed_ = false;
@@ -45,17 +41,9 @@ double MultifrontalQr::sureCondition(double rank_tolerance) {
   return std::min(kWorstCondition, kFarFromTolerance / rank_tolerance);
 }
 
-void MultifrontalQr::leastNorm(const Vector& b, Eigen::Ref<Eigen::VectorXd> x) {
-  kernel_->one.leastNorm(layout_.view(), memory(), b.data(), x.data());
-}
-
-void MultifrontalQr::leastSquares(const Vector& r, Eigen::Ref<Eigen::VectorXd> u) {
-  if (layout_.presentColumns() < columns()) u.setZero();
-  kernel_->one.leastSquares(layout_.view(), memory(), r.data(), u.data());
-}
-
 double MultifrontalQr::nullSquare(Eigen::Index row) {
   const FrontLayout::RowPlace& place = layout_.placeOf(static_cast<std::size_t>(row));
+  if (place.front < 0) return 1;
   double square;
   kernel_->one.nullSquare(layout_.view(), memory(), place.front, place.row, &square);
   return square;
@@ -65,8 +53,12 @@ void MultifrontalQr::listNullRows() {
   if (null_rows_listed_) return;
   null_rows_listed_ = true;
   null_rows_.clear();
-  for (std::size_t f = 0; f < states_.size(); ++f) {
-    for (int row = states_[f].steps; row < states_[f].rows; ++row) null_rows_.push_back({f, row});
+  for (int row = 0; row < static_cast<int>(rows()); ++row) {
+    if (layout_.placeOf(static_cast<std::size_t>(row)).front < 0) null_rows_.push_back({-1, row});
+  }
+  for (int f = 0; f < layout_.view().front_count; ++f) {
+    const FrontState& state = states_[static_cast<std::size_t>(f)];
+    for (int row = state.steps; row < state.rows; ++row) null_rows_.push_back({f, row});
   }
 }
 
@@ -80,20 +72,31 @@ void MultifrontalQr::startVector(std::size_t front) {
   open_.push_back(front);
 }
 
+void MultifrontalQr::setUnitVector(int row, Eigen::Ref<Eigen::VectorXd> x) {
+  std::size_t block = 0;
+  while (firstOf(block + 1) <= row) ++block;
+  x.segment(firstOf(block), firstOf(block + 1) - firstOf(block)).setZero();
+  x[row] = 1;
+  touched_.push_back(block);
+}
+
 void MultifrontalQr::nullVector(std::size_t i, Eigen::Ref<Eigen::VectorXd> x) {
   listNullRows();
   touched_.clear();
   open_.clear();
-  startVector(null_rows_[i].front);
-  zOf(null_rows_[i].front)[null_rows_[i].row] = 1;
+  const NullRow& null_row = null_rows_[i];
+  if (null_row.front < 0) return setUnitVector(null_row.row, x);
+  startVector(static_cast<std::size_t>(null_row.front));
+  zOf(static_cast<std::size_t>(null_row.front))[null_row.row] = 1;
   while (!open_.empty()) {
     const std::size_t f = open_.back();
     open_.pop_back();
     kernel_->one.reflectBack(layout_.view(), memory(), static_cast<int>(f));
     const double* z = zOf(f);
     for (const std::size_t b : layout_.fronts()[f].blocks) {
-      std::copy_n(z, layout_.blocks()[b].rows, x.data() + layout_.firstOf(b));
-      z += layout_.blocks()[b].rows;
+      for (Eigen::Index row = firstOf(b); row < firstOf(b + 1); ++row) {
+        x[row] = layout_.placeOf(static_cast<std::size_t>(row)).front < 0 ? 0 : *z++;
+      }
       touched_.push_back(b);
     }
     for (const std::size_t child : layout_.fronts()[f].children) {

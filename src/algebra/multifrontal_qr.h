@@ -16,8 +16,6 @@ namespace virtual_work_dynamics {
 /// tell a lower rank; RankFactorization does. Allocates in its constructor only.
 class MultifrontalQr {
  public:
-  using Vector = Eigen::Ref<const Eigen::VectorXd>;
-
   MultifrontalQr(const std::vector<RowBlock>& blocks, int columns);
 
   const FrontLayout& layout() const { return layout_; }
@@ -51,10 +49,16 @@ class MultifrontalQr {
   /// returned false. Infinite when columns are dependent.
   double condition() const { return condition_; }
 
-  /// Computes the x of least norm with M^T x = b; b has an entry for each column.
-  void leastNorm(const Vector& b, Eigen::Ref<Eigen::VectorXd> x);
-  /// Computes the u for which |M u - r| is least; its entries for absent columns are zero.
-  void leastSquares(const Vector& r, Eigen::Ref<Eigen::VectorXd> u);
+  /// Computes the x of least norm with M^T x = b.
+  /// @param b columns() numbers. @param x receives rows() numbers
+  void leastNorm(const double* b, double* x) {
+    kernel_->one.leastNorm(layout_.view(), memory(), b, x);
+  }
+  /// Computes the u for which |M u - r| is least; its entries for absent columns are not set.
+  /// @param r rows() numbers. @param u receives columns() numbers
+  void leastSquares(const double* r, double* u) {
+    kernel_->one.leastSquares(layout_.view(), memory(), r, u);
+  }
 
   /// Number of vectors in an orthonormal basis of the null space, M^T x = 0.
   std::size_t nullity() const {
@@ -70,13 +74,16 @@ class MultifrontalQr {
   const std::vector<std::size_t>& touched() const { return touched_; }
 
  private:
+  /// A row of a front, or where that is -1 a row of the matrix that has no entries.
   struct NullRow {
-    std::size_t front;
-    int row;
+    int front, row;
   };
 
-  FrontsMemory memory();
+  FrontsMemory memory() {
+    return {static_cast<double*>(numbers_.get()), states_.data(), stairs_.data()};
+  }
   void listNullRows();
+  void setUnitVector(int row, Eigen::Ref<Eigen::VectorXd> x);
   double* zOf(std::size_t front);
   void startVector(std::size_t front);
 

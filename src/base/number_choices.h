@@ -18,7 +18,7 @@ VWD_INLINE double squareRoot(const double& x) {
 }
 #if defined(__AVX512F__)
 VWD_INLINE Pack<double, 8> squareRoot(const Pack<double, 8>& x) {
-  return Pack<double, 8>(_mm512_sqrt_pd(x.v));
+  return Pack<double, 8>(_mm512_maskz_sqrt_pd(0xff, x.v));  // of all lanes: see GCC bug 105593
 }
 #elif defined(__AVX2__)
 VWD_INLINE Pack<double, 4> squareRoot(const Pack<double, 4>& x) {

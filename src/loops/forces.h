@@ -116,6 +116,13 @@ class LoopForces {
   const std::vector<bool> all_;  // coordinates
   LeastNorms norms_;
   Eigen::VectorXd load_, gathered_;
+  /// How the rows of a set become those of qr_.
+  struct Entries {
+    std::vector<ScaledColumn> columns;
+    std::vector<double> units;  // of its multipliers
+  };
+  std::vector<Entries> entries_;  // by set
+  const LoopFunctions* kernel_;
   bool bears_ = true;  // whether the load is in the range of B
   Eigen::Index redundant_constraints_ = 0;
   Eigen::Index direction_count_ = 0;

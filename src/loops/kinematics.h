@@ -34,6 +34,9 @@ class LoopKinematics {
   const Condition& condition(Eigen::Index i) const {
     return *conditions_[static_cast<std::size_t>(i)];
   }
+  /// The rows of a set as kernels see them, and their entries.
+  const RowsShape& rowsOf(std::size_t set) const { return rows_[set]; }
+  const double* entriesOf(std::size_t set) const { return values_.A.data() + first_[set]; }
   /// Conditions [firstOf(s), firstOf(s + 1)) are those of set s.
   Eigen::Index firstOf(std::size_t set) const { return first_[set]; }
 
@@ -74,6 +77,19 @@ class LoopKinematics {
     double lengths, directions;
   };
   Norms normsOf(std::size_t set, const Eigen::VectorXd& conditions) const;
+  /// The larger of the two for a closure.
+  struct LargerNorm {
+    double plain;
+    double relative;  ///< with lengths divided by a length
+  };
+  /// @param share one over that length
+  LargerNorm largerNormOf(std::size_t closure, const Eigen::VectorXd& conditions,
+                          double share) const {
+    LargerNorm norm;
+    kernel_->norms(rows_[closure], lengths_[closure], share, conditions.data() + first_[closure],
+                   &norm.plain);
+    return norm;
+  }
 
   /// Wrench of a multiplier of one; zero where the condition is not a closure's.
   const ClosureWrench& unitWrench(Eigen::Index condition) const {
@@ -127,16 +143,17 @@ class LoopKinematics {
   Twist childTwist(std::size_t c) const;
 
  private:
-  ConditionRows rowsOf(std::size_t set) { return {values_, set, first_[set]}; }
+  ConditionRows valuesOf(std::size_t set) { return {values_, set, first_[set]}; }
   void subtractConstants();
   void setVelocity(const Eigen::VectorXd& qd);
-  void addColumns(const Eigen::VectorXd& rates, Eigen::VectorXd& sums) const;
 
   const LoopFunctions* kernel_;
   ConditionSets sets_;
   std::vector<const ClosureConditions*> closures_;  // the first of sets_
   std::vector<const Condition*> conditions_;
   std::vector<Eigen::Index> first_;
+  std::vector<RowsShape> rows_;  // by set; they point to coordinates of sets_
+  std::vector<int> lengths_;     // by set: how many of its conditions, the first, are lengths
   bool drives_ = false;
   std::vector<Eigen::Index> adopting_;  // conditions that adopt a constant
   bool adopted_ = false;

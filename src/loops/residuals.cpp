@@ -20,9 +20,10 @@ void LoopResiduals::set(LoopKinematics& kinematics, const Motion& motion) {
   for (std::size_t c = 0; c < values_.size(); ++c) {
     const auto set = [&](double ClosureResidual::*level, const Eigen::VectorXd& conditions,
                          double scale) {
-      const LoopKinematics::Norms norms = kinematics.normsOf(c, conditions);
-      values_[c].*level = std::max(norms.lengths, norms.directions);
-      relative_[c].*level = std::max(norms.lengths / length_, norms.directions) / scale;
+      const LoopKinematics::LargerNorm norm =
+          kinematics.largerNormOf(c, conditions, 1 / length_);
+      values_[c].*level = norm.plain;
+      relative_[c].*level = norm.relative / scale;
     };
     set(&ClosureResidual::position, kinematics.phi(), 1);
     set(&ClosureResidual::velocity, kinematics.rates(), rate);

@@ -22,7 +22,8 @@ vwd_core(
   residuals.cpp
   spring_reach.cpp
   unborne_loads.cpp
-  unknowns.cpp)
+  unknowns.cpp
+  zero_rows.cpp)
 
 vwd_core_vectors(
   kernel/avx2.cpp

@@ -118,7 +118,7 @@ TEST(MultifrontalQr, SolutionOfTheTransposeIsTheOneOfLeastNorm) {
     Eigen::VectorXd b(tried.M.cols()), x(tried.M.rows());
     for (Eigen::Index j = 0; j < b.size(); ++j) b[j] = tried.random.real();
     for (Eigen::Index j = 0; j < b.size(); ++j) b[j] *= tried.present[std::size_t(j)];
-    tried.qr.leastNorm(b, x);
+    tried.qr.leastNorm(b.data(), x.data());
     const Eigen::VectorXd expected = tried.M.transpose().completeOrthogonalDecomposition().solve(b);
     EXPECT_LE((x - expected).norm(), kRounding * tried.condition * expected.norm());
   });
@@ -128,7 +128,8 @@ TEST(MultifrontalQr, SolvesLeastSquares) {
   forRandomMatrices([](const Case& tried) {
     Eigen::VectorXd r(tried.M.rows()), u(tried.M.cols());
     for (Eigen::Index i = 0; i < r.size(); ++i) r[i] = tried.random.real();
-    tried.qr.leastSquares(r, u);
+    u.setZero();
+    tried.qr.leastSquares(r.data(), u.data());
     const Eigen::VectorXd expected = tried.M.completeOrthogonalDecomposition().solve(r);
     const double largest = tried.condition * (expected.norm() + r.norm() / tried.M.norm());
     EXPECT_LE((u - expected).norm(), kRounding * tried.condition * largest);

@@ -20,7 +20,9 @@ struct BlockColumn {
 /// A block that a front takes in.
 struct BlockRows {
   int block;
-  int rows;
+  int rows;                       ///< that can have entries
+  int height;                     ///< number of all its rows
+  int order;                      ///< in FrontsView::row_order: the former, then the others
   int first;                      ///< its first row in the matrix
   int columns_begin, columns_end;  ///< of FrontsView::block_columns
 };
@@ -56,6 +58,7 @@ struct FrontsView {
   const FrontShape* fronts;
   const BlockRows* blocks;
   const BlockColumn* block_columns;
+  const int* row_order;
   const ChildRows* children;
   const int* places;
   const int* columns;

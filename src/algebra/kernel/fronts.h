@@ -94,11 +94,12 @@ struct Fronts {
       const BlockRows& block = view.blocks[b];
       for (int k = block.columns_begin; k < block.columns_end; ++k) {
         const BlockColumn& column = view.block_columns[k];
-        const double* from = entries[block.block] + column.from * block.rows * kLanes;
+        const double* const from = entries[block.block] + column.from * block.height * kLanes;
+        const int* const order = view.row_order + block.order;
         T* const to = front.column(column.to) + row;
         T sum = lengths[column.column];
-        for (int i = 0; i < block.rows; ++i, from += kLanes) {
-          const T value = load<T>(from);
+        for (int i = 0; i < block.rows; ++i) {
+          const T value = load<T>(from + order[i] * kLanes);
           to[i] = value;
           sum = mulAdd(value, value, sum);
         }
@@ -328,8 +329,11 @@ struct Fronts {
                                  const Front& front, double* x) {
     const T* z = front.z;
     for (int b = front.shape.blocks_begin; b < front.shape.blocks_end; ++b) {
-      double* to = x + view.blocks[b].first * kLanes;
-      for (int i = view.blocks[b].rows; i > 0; --i, to += kLanes) store(to, *z++);
+      const BlockRows& block = view.blocks[b];
+      double* const to = x + block.first * kLanes;
+      const int* const order = view.row_order + block.order;
+      for (int i = 0; i < block.rows; ++i) store(to + order[i] * kLanes, *z++);
+      for (int i = block.rows; i < block.height; ++i) store(to + order[i] * kLanes, T(0.0));
     }
     for (int c = front.shape.children_begin; c < front.shape.children_end; ++c) {
       const Front child(view, memory, view.children[c].front);
@@ -343,10 +347,10 @@ struct Fronts {
       const Front front(view, memory, f);
       int row = 0;
       for (int b = front.shape.blocks_begin; b < front.shape.blocks_end; ++b) {
-        const double* from = r + view.blocks[b].first * kLanes;
-        for (int i = view.blocks[b].rows; i > 0; --i, from += kLanes) {
-          front.z[row++] = load<T>(from);
-        }
+        const BlockRows& block = view.blocks[b];
+        const double* const from = r + block.first * kLanes;
+        const int* const order = view.row_order + block.order;
+        for (int i = 0; i < block.rows; ++i) front.z[row++] = load<T>(from + order[i] * kLanes);
       }
       for (int c = front.shape.children_begin; c < front.shape.children_end; ++c) {
         const Front child(view, memory, view.children[c].front);

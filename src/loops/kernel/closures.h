@@ -1,5 +1,6 @@
 #pragma once
 
+#include "loops/kernel/conditions.h"
 #include "loops/kernel/links.h"
 
 namespace virtual_work_dynamics {
@@ -149,29 +150,18 @@ void moveClosure(const ClosureShape& shape, const double* link_numbers,
   }
 }
 
-template <typename T>
-void addColumns(const int* coordinates, int count, int rows, const double* A_numbers,
-                std::size_t A_stride, const double* u_numbers, double* sum_numbers) {
-  const T* const A = reinterpret_cast<const T*>(A_numbers);
-  const T* const u = reinterpret_cast<const T*>(u_numbers);
-  T* const sums = reinterpret_cast<T*>(sum_numbers);
-  for (int k = 0; k < count; ++k) {
-    const T* const column = A + static_cast<std::size_t>(coordinates[k]) * A_stride;
-    const T rate = u[coordinates[k]];
-    for (int i = 0; i < rows; ++i) sums[i] = mulAdd(column[i], rate, sums[i]);
-  }
+template <int kWidth, typename T>
+constexpr LoopFunctions loopFunctions() {
+  return {placeLinks<kWidth, T>, moveLinks<T>,    placeClosure<T>, moveClosure<T>, addColumns<T>,
+          addMotion<T>,          scaleColumns<T>, norms<T>,        sumWrenches<T>};
 }
 
 /// @param kWidth samples of a pack, and angles of one sample side by side
 template <int kWidth>
 const LoopKernel* loopKernel() {
   using Samples = Pack<double, kWidth>;
-  static constexpr LoopKernel kKernel = {
-      kWidth,
-      {placeLinks<kWidth, double>, moveLinks<double>, placeClosure<double>, moveClosure<double>,
-       addColumns<double>},
-      {placeLinks<kWidth, Samples>, moveLinks<Samples>, placeClosure<Samples>,
-       moveClosure<Samples>, addColumns<Samples>}};
+  static constexpr LoopKernel kKernel = {kWidth, loopFunctions<kWidth, double>(),
+                                         loopFunctions<kWidth, Samples>()};
   return &kKernel;
 }
 

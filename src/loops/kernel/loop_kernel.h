@@ -98,6 +98,25 @@ struct ClosureNumbers {
   double* turning;  ///< Ad qd
 };
 
+/// The rows of a set of conditions in the Jacobian.
+struct RowsShape {
+  const int* coordinates;  ///< that have entries in them
+  int coordinate_count, rows;
+  std::size_t A_stride;  ///< from one column to the next
+};
+
+/// Columns of a set's rows that are copied with other units.
+struct ScaledColumn {
+  int coordinate;
+  int place;  ///< of the column among the copies
+  double factor;
+};
+struct ScaledColumns {
+  const ScaledColumn* columns;
+  int count;
+  int height;  ///< from one copy to the next
+};
+
 struct LoopFunctions {
   /// Sets R, o and z of all links but the root.
   /// @param angles room for twice as many numbers as there are angles and kMostAngleLanes
@@ -108,9 +127,22 @@ struct LoopFunctions {
   void (*placeClosure)(const ClosureShape&, const double* links, const ClosureNumbers&);
   /// Sets turning.
   void (*moveClosure)(const ClosureShape&, const double* links, const ClosureNumbers&);
-  /// Adds A u for some rows and coordinates to sums.
-  void (*addColumns)(const int* coordinates, int count, int rows, const double* A,
-                     std::size_t A_stride, const double* u, double* sums);
+  // In what follows A points to the first row of a set.
+  /// Adds A u to sums.
+  void (*addColumns)(const RowsShape&, const double* A, const double* u, double* sums);
+  /// Adds A qd to rates and A qdd to accelerations.
+  void (*addMotion)(const RowsShape&, const double* A, const double* qd, const double* qdd,
+                    double* rates, double* accelerations);
+  /// Copies columns of A, each entry times the factors of its row and column.
+  void (*scaleColumns)(const RowsShape&, const ScaledColumns&, const double* row_factors,
+                       const double* A, double* to);
+  /// Finds the larger of the norms of the first `lengths` of a set's values and of the others:
+  /// first as they are, then with the former times a factor.
+  void (*norms)(const RowsShape&, int lengths, double length_factor, const double* values,
+                double* sizes);
+  /// Sums the wrenches of a closure's multipliers x, in units of their own, to six numbers.
+  void (*sumWrenches)(const ClosureShape&, const double* units, const double* x,
+                      const double* wrenches, double* sum);
 };
 
 struct LoopKernel {
