@@ -10,6 +10,7 @@ namespace virtual_work_dynamics {
 struct RowBlock {
   Eigen::Index rows;
   std::vector<int> columns;  ///< each once
+  std::vector<int> zeros;    ///< those of the rows, ascending, that have no entries in any matrix
 };
 
 /// One step of an elimination by blocks: the rows it takes in, and the columns that have no entry

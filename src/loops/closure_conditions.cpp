@@ -84,101 +84,69 @@ std::shared_ptr<const ConditionSet> makeSet(const Mechanism& mechanism, const Cl
     throw SceneError(placeOf(closure) + ": no joint moves " + inQuotes(closure.child.link) +
                      " relative to " + inQuotes(closure.parent.link));
   }
-  return std::make_shared<ClosureConditions>(closure, parent, child, path, coordinates);
+  return std::make_shared<ClosureConditions>(mechanism, closure, parent, child, path, coordinates);
+}
+
+FrameShape shapeOf(const Frame& frame) {
+  FrameShape shape{};
+  shape.link = frame.link;
+  shape.parallel = frame.R_LF == Eigen::Matrix3d::Identity();
+  Eigen::Map<Eigen::Matrix3d>{shape.R_LF} = frame.R_LF;
+  Eigen::Map<Eigen::Vector3d>{shape.p_LoFo_L} = frame.p_LoFo_L;
+  return shape;
+}
+
+DemandShape shapeOf(const ClosureDemand& demand) {
+  const DemandShape::Kind kind = demand.kind == Kind::kAlong    ? DemandShape::Kind::kAlong
+                                 : demand.kind == Kind::kNormal ? DemandShape::Kind::kNormal
+                                                                : DemandShape::Kind::kDistance;
+  return {kind, demand.a, demand.b};
+}
+
+std::vector<StepShape> stepsOf(const Mechanism& mechanism, const std::vector<PathStep>& path) {
+  std::vector<StepShape> steps;
+  for (const PathStep& step : path) {
+    const Joint& joint = mechanism.joint(step.joint);
+    if (joint.coordinate < 0) continue;
+    const bool starts = std::none_of(steps.begin(), steps.end(), [&](const StepShape& before) {
+      return before.coordinate == joint.coordinate;
+    });
+    steps.push_back({step.joint + 1, joint.coordinate, unitOf(joint) == Unit::kMetre, starts,
+                     step.sign * static_cast<double>(joint.multiplier)});
+  }
+  return steps;
 }
 
 }  // namespace
 
-ClosureConditions::ClosureConditions(const Closure& closure, const Frame& parent,
-                                     const Frame& child, std::vector<PathStep> path,
-                                     std::vector<int> coordinates)
+ClosureConditions::ClosureConditions(const Mechanism& mechanism, const Closure& closure,
+                                     const Frame& parent, const Frame& child,
+                                     std::vector<PathStep> path, std::vector<int> coordinates)
     : ConditionSet(placeOf(closure), rowsOf(closure), std::move(coordinates)),
       traits_(traitsOf(closure.type)),
+      kernel_(&loopKernelFor(chosenInstructionSet()).one),
       parent_(parent),
       child_(child),
       path_(std::move(path)),
       given_length_(closure.length),
-      length_(closure.length.value_or(0)) {}
+      steps_(stepsOf(mechanism, path_)),
+      shape_{shapeOf(parent),
+             shapeOf(child),
+             steps_.data(),
+             static_cast<int>(steps_.size()),
+             traits_.conditions,
+             {},
+             closure.length.value_or(0)} {
+  std::transform(traits_.demands.begin(), traits_.demands.end(), shape_.demands,
+                 [](const ClosureDemand& demand) { return shapeOf(demand); });
+}
 
 void ClosureConditions::setPosition(const LoopState& state, ConditionRows rows) const {
-  FramePair& frames = rows.frames();
-  frames.R_P.noalias() = state.links.axesOf(parent_.link) * parent_.R_LF;
-  frames.R_C.noalias() = state.links.axesOf(child_.link) * child_.R_LF;
-  frames.Po = state.links.originOf(parent_);
-  frames.Co = state.links.originOf(child_);
-  setValues(frames, rows);
-  setJacobian(state.links, frames.Co, rows);
+  kernel_->placeClosure(shape_, state.links.numbers(), rows.numbers());
 }
 
-// Sets conditions and the wrenches of unit multipliers.
-void ClosureConditions::setValues(const FramePair& frames, ConditionRows& rows) const {
-  const Eigen::Vector3d r = frames.Co - frames.Po;  // (2.1)
-  const ClosureDemand* demands = traits_.demands.data();
-  ClosureWrench* wrenches = &rows.unitWrench(0);
-  for (int i = 0; i < traits_.conditions; ++i) {
-    const ClosureDemand& demand = demands[i];
-    ClosureWrench& wrench = wrenches[i];
-    if (demand.kind == Kind::kDistance) {
-      const double distance = r.norm();
-      rows.phi(i) = distance - length_;  // (3.3)
-      wrench.force = distance > 0 ? (r / distance).eval() : r;
-    } else if (demand.kind == Kind::kAlong) {
-      wrench.force = frames.R_P.col(demand.a);
-      rows.phi(i) = wrench.force.dot(r);  // (3.3)
-    } else {
-      const auto a = frames.R_P.col(demand.a), b = frames.R_C.col(demand.b);
-      rows.phi(i) = a.dot(b);  // (3.3)
-      wrench.moment = b.cross(a);
-    }
-  }
-}
-
-// A row of A is the generalized force of the wrench that a multiplier of one exerts: (3.3),
-// dPhi/dq.
-void ClosureConditions::setJacobian(const LinkKinematics& links, const Eigen::Vector3d& Co,
-                                    ConditionRows& rows) const {
-  for (const int coordinate : coordinates()) {
-    std::fill_n(rows.column(coordinate), traits_.conditions, 0.0);
-  }
-  const ClosureDemand* demands = traits_.demands.data();
-  const ClosureWrench* wrenches = &rows.unitWrench(0);
-  for (const PathStep& step : path_) {
-    const int coordinate = links.coordinateOf(step);
-    if (coordinate < 0) continue;
-    const LinkKinematics::Displacement moved = links.movedBy(step, Co);
-    double* column = rows.column(coordinate);
-    for (int i = 0; i < traits_.conditions; ++i) {
-      column[i] += demands[i].kind == Kind::kNormal ? wrenches[i].moment.dot(moved.turn)
-                                                    : wrenches[i].force.dot(moved.origin);
-    }
-  }
-}
-
-// The second derivatives are those that an observer on P sees, who moves with the parent's link.
 void ClosureConditions::setMotion(const LoopState& state, ConditionRows rows) const {
-  const FramePair& frames = rows.frames();
-  const LinkKinematics::PointMotion P = state.links.motionAt(parent_.link, frames.Po);
-  const LinkKinematics::PointMotion C = state.links.motionAt(child_.link, frames.Co);
-  const Eigen::Vector3d r = frames.Co - frames.Po, carried = P.w.cross(r);
-  const Eigen::Vector3d v = C.v - P.v - carried;  // seen from P
-  const Eigen::Vector3d a = C.a - P.a - P.alpha.cross(r) - P.w.cross(carried) - 2 * P.w.cross(v);
-  const Eigen::Vector3d w = C.w - P.w, alpha = C.alpha - P.alpha - P.w.cross(C.w);
-  const ClosureWrench* wrenches = &rows.unitWrench(0);
-  for (int i = 0; i < traits_.conditions; ++i) {
-    const ClosureDemand& demand = traits_.demands[static_cast<std::size_t>(i)];
-    const ClosureWrench& wrench = wrenches[i];
-    if (demand.kind == Kind::kDistance) {
-      const double distance = r.norm(), rate = wrench.force.dot(v);
-      rows.turning(i) =
-          distance > 0 ? (v.dot(v) - rate * rate) / distance + wrench.force.dot(a) : 0;
-    } else if (demand.kind == Kind::kAlong) {
-      rows.turning(i) = wrench.force.dot(a);
-    } else {
-      const auto normal = frames.R_P.col(demand.a), other = frames.R_C.col(demand.b);
-      rows.turning(i) =
-          wrench.moment.dot(alpha) + w.dot(normal) * w.dot(other) - w.dot(w) * normal.dot(other);
-    }
-  }
+  kernel_->moveClosure(shape_, state.links.numbers(), rows.numbers());
 }
 
 double ClosureConditions::freePosition(const FramePair& frames) const {

@@ -21,8 +21,8 @@ class ClosureConditions : public ConditionSet {
 
   /// @param path the joints from the parent's link to the child's
   /// @param coordinates those that move these joints, ascending
-  ClosureConditions(const Closure& closure, const Frame& parent, const Frame& child,
-                    std::vector<PathStep> path, std::vector<int> coordinates);
+  ClosureConditions(const Mechanism& mechanism, const Closure& closure, const Frame& parent,
+                    const Frame& child, std::vector<PathStep> path, std::vector<int> coordinates);
 
   void setPosition(const LoopState& state, ConditionRows rows) const override;
   void setMotion(const LoopState& state, ConditionRows rows) const override;
@@ -34,6 +34,8 @@ class ClosureConditions : public ConditionSet {
   const Frame& child() const { return child_; }
   /// Joints between the links, fixed ones included; a positive step moves the child's link.
   const std::vector<PathStep>& path() const { return path_; }
+  /// As kernels see it.
+  const ClosureShape& shape() const { return shape_; }
 
   /// Unit of the free motion; radian where there is none.
   Unit freeUnit() const { return traits_.free_axis.value_or(Unit::kRadian); }
@@ -49,15 +51,13 @@ class ClosureConditions : public ConditionSet {
   bool reversed(const FramePair& frames) const;
 
  private:
-  void setValues(const FramePair& frames, ConditionRows& rows) const;
-  void setJacobian(const LinkKinematics& links, const Eigen::Vector3d& Co,
-                   ConditionRows& rows) const;
-
   const ClosureTypeTraits& traits_;
+  const LoopFunctions* kernel_;
   Frame parent_, child_;
   std::vector<PathStep> path_;
   std::optional<double> given_length_;
-  double length_;
+  std::vector<StepShape> steps_;
+  ClosureShape shape_;
 };
 
 /// The coordinates that move the links of a path relative to each other, ascending.

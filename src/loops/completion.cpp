@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "loops/condition_sizes.h"
+#include "loops/zero_rows.h"
 
 namespace virtual_work_dynamics {
 
@@ -58,10 +59,14 @@ Eigen::Index mostConditions(const std::vector<LoopGroup>& groups,
   return most;
 }
 
-std::vector<RowBlock> conditionBlocks(const LoopGroup& group, const LoopKinematics& kinematics) {
+std::vector<RowBlock> conditionBlocks(const Mechanism& mechanism, const LoopGroup& group,
+                                      const LoopKinematics& kinematics) {
+  const std::vector<bool> zero = zeroRows(mechanism, kinematics);
   std::vector<RowBlock> blocks;
   for (std::size_t local = 0; local < group.sets.size(); ++local) {
-    blocks.push_back({conditionsOf(kinematics, group.sets[local]), group.moved[local]});
+    const std::size_t set = group.sets[local];
+    blocks.push_back(
+        {conditionsOf(kinematics, set), group.moved[local], zeroRowsOf(kinematics, set, zero)});
   }
   return blocks;
 }
@@ -88,7 +93,7 @@ constexpr LoopCompletion::Search LoopCompletion::kFromCloseBy;
 LoopCompletion::System::System(const Mechanism& mechanism, const LoopKinematics& kinematics,
                                const LoopGroup& own, double rank_tolerance, double length)
     : group(own),
-      qr(conditionBlocks(own, kinematics), static_cast<int>(own.coordinates.size())),
+      qr(conditionBlocks(mechanism, own, kinematics), static_cast<int>(own.coordinates.size())),
       rank(sizesOf(mechanism, kinematics, own, length, rank_tolerance), qr.columns(),
            rank_tolerance),
       wanted(own.coordinates.size()) {}
@@ -96,7 +101,8 @@ LoopCompletion::System::System(const Mechanism& mechanism, const LoopKinematics&
 LoopCompletion::LoopCompletion(const Mechanism& mechanism, const LoopKinematics& kinematics,
                                const std::vector<LoopGroup>& groups, double rank_tolerance,
                                double length)
-    : rank_tolerance_(rank_tolerance),
+    : kernel_(&loopKernelFor(chosenInstructionSet()).one),
+      rank_tolerance_(rank_tolerance),
       length_(length),
       row_scales_(kinematics.conditions()),
       in_loop_(mechanism.coordinates().size()),
@@ -119,9 +125,12 @@ LoopCompletion::LoopCompletion(const Mechanism& mechanism, const LoopKinematics&
     for (const int i : group.coordinates) in_loop_[static_cast<std::size_t>(i)] = true;
   }
   for (System& system : systems_) {
-    std::size_t most = 0;
-    for (const std::vector<int>& moved : system.group.moved) most += moved.size();
-    system.entries.reserve(most);
+    system.found.reserve(system.group.coordinates.size());
+    for (const std::vector<int>& moved : system.group.moved) {
+      system.entries.emplace_back();
+      system.entries.back().columns.reserve(moved.size());
+      system.entries.back().places.reserve(moved.size());
+    }
   }
   given_.assign(in_loop_.size(), true);
   want(std::vector<bool>(in_loop_.size(), false));
@@ -135,10 +144,6 @@ std::vector<LoopGroup> LoopCompletion::groups() const {
   return groups;
 }
 
-double LoopCompletion::columnScale(int coordinate) const {
-  return column_scales_[static_cast<std::size_t>(coordinate)];
-}
-
 // Makes the coordinates that are not given those to be found.
 void LoopCompletion::want(const std::vector<bool>& given) {
   if (given_ == given) return;
@@ -149,13 +154,20 @@ void LoopCompletion::want(const std::vector<bool>& given) {
       system.wanted[i] = !given[static_cast<std::size_t>(group.coordinates[i])];
     }
     system.qr.setPresent(system.wanted);
-    system.entries.clear();
+    system.found.clear();
+    for (std::size_t i = 0; i < group.coordinates.size(); ++i) {
+      if (system.wanted[i]) system.found.push_back(static_cast<int>(i));
+    }
     for (std::size_t local = 0; local < group.sets.size(); ++local) {
+      System::Entries& entries = system.entries[local];
+      entries.columns.clear();
+      entries.places.clear();
       for (std::size_t k = 0; k < group.moved[local].size(); ++k) {
         const int place = group.moved[local][k];
         if (!system.wanted[static_cast<std::size_t>(place)]) continue;
-        system.entries.push_back({local, static_cast<Eigen::Index>(k), place,
-                                  group.coordinates[static_cast<std::size_t>(place)]});
+        const int coordinate = group.coordinates[static_cast<std::size_t>(place)];
+        entries.columns.push_back({coordinate, static_cast<int>(k), columnScale(coordinate)});
+        entries.places.push_back(place);
       }
     }
   }
@@ -164,14 +176,14 @@ void LoopCompletion::want(const std::vector<bool>& given) {
 void LoopCompletion::setEntries(const LoopKinematics& kinematics,
                                 const Eigen::VectorXd& row_scales) {
   for (System& system : systems_) {
-    for (const System::Entry& entry : system.entries) {
-      const Eigen::Index first = kinematics.firstOf(system.group.sets[entry.local]);
-      Eigen::MatrixXd& entries = system.qr.entriesOf(entry.local);
-      const double* from = kinematics.jacobian().col(entry.coordinate).data() + first;
-      const double* row_scale = row_scales.data() + first;
-      double* to = entries.col(entry.column).data();
-      const double scale = columnScale(entry.coordinate);
-      for (Eigen::Index i = 0; i < entries.rows(); ++i) to[i] = row_scale[i] * from[i] * scale;
+    for (std::size_t local = 0; local < system.entries.size(); ++local) {
+      const std::size_t set = system.group.sets[local];
+      const std::vector<ScaledColumn>& columns = system.entries[local].columns;
+      Eigen::MatrixXd& entries = system.qr.entriesOf(local);
+      kernel_->scaleColumns(
+          kinematics.rowsOf(set),
+          {columns.data(), static_cast<int>(columns.size()), static_cast<int>(entries.rows())},
+          row_scales.data() + kinematics.firstOf(set), kinematics.entriesOf(set), entries.data());
     }
   }
 }
@@ -229,43 +241,50 @@ void LoopCompletion::setRight(const LoopKinematics& kinematics, const System& sy
   }
 }
 
-// Sets found_, by the group's coordinates, with zero for given ones. Returns false when the
+// Sets found_, by the group's coordinates, for those that are not given. Returns false when the
 // conditions do not determine them well.
 bool LoopCompletion::solve(System& system) {
   auto found = found_.head(system.qr.columns());
-  const auto right = right_.head(system.qr.rows());
   if (system.sound) {
-    system.qr.leastSquares(right, found);
+    system.qr.leastSquares(right_.data(), found_.data());
     return true;
   }
   system.rank.decide(system.qr, system.wanted);
-  system.rank.solve(right, found);
+  system.rank.solve(right_.head(system.qr.rows()), found);
   return system.rank.rank() == system.rank.columns() && system.rank.condition() <= kSharpest;
 }
 
 // Finds the largest violation of a condition by what solve() found.
 double LoopCompletion::misses(const System& system) {
   const MultifrontalQr& qr = system.qr;
-  auto misses = misses_.head(qr.rows());
-  misses = -right_.head(qr.rows());
-  for (const System::Entry& entry : system.entries) {
-    const Eigen::MatrixXd& entries = qr.entriesOf(entry.local);
-    const double* column = entries.col(entry.column).data();
-    double* sum = misses_.data() + qr.firstOf(entry.local);
-    const double factor = found_[entry.place];
-    for (Eigen::Index i = 0; i < entries.rows(); ++i) sum[i] += factor * column[i];
+  const Eigen::Index rows = qr.rows();
+  double* const misses = misses_.data();
+  for (Eigen::Index i = 0; i < rows; ++i) misses[i] = -right_[i];
+  for (std::size_t local = 0; local < system.entries.size(); ++local) {
+    const System::Entries& own = system.entries[local];
+    const Eigen::MatrixXd& entries = qr.entriesOf(local);
+    double* const sums = misses + qr.firstOf(local);
+    for (std::size_t k = 0; k < own.columns.size(); ++k) {
+      const double* const column = entries.data() + own.columns[k].place * entries.rows();
+      const double factor = found_[own.places[k]];
+      for (Eigen::Index i = 0; i < entries.rows(); ++i) sums[i] += factor * column[i];
+    }
   }
-  return misses.cwiseAbs().maxCoeff();
+  double most = 0, sum = 0;
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    most = std::max(most, std::abs(misses[i]));
+    sum += std::abs(misses[i]);
+  }
+  return std::isfinite(sum) ? most : std::numeric_limits<double>::infinity();
 }
 
 // Corrects what solve() found by the factorization of a position close by. Returns false when that
 // does not suffice.
 bool LoopCompletion::refine(System& system) {
-  const Eigen::Index columns = system.qr.columns();
   const double enough = kRefined * right_.head(system.qr.rows()).cwiseAbs().maxCoeff();
   if (misses(system) <= enough) return true;
-  system.qr.leastSquares(misses_.head(system.qr.rows()), refined_.head(columns));
-  found_.head(columns) -= refined_.head(columns);
+  system.qr.leastSquares(misses_.data(), refined_.data());
+  for (const int place : system.found) found_[place] -= refined_[place];
   return misses(system) <= enough;
 }
 
@@ -302,11 +321,12 @@ void LoopCompletion::setStep(const LoopKinematics& kinematics) {
   for (System& system : systems_) {
     setRight(kinematics, system, kinematics.phi());
     solve(system);
-    const double longest = found_.head(system.qr.columns()).cwiseAbs().maxCoeff();
+    double longest = 0;
+    for (const int place : system.found) longest = std::max(longest, std::abs(found_[place]));
     const double damping = longest > kLongestStep ? kLongestStep / longest : 1;
-    for (std::size_t i = 0; i < system.group.coordinates.size(); ++i) {
-      const int coordinate = system.group.coordinates[i];
-      step_[coordinate] = damping * columnScale(coordinate) * found_[static_cast<Eigen::Index>(i)];
+    for (const int place : system.found) {
+      const int coordinate = system.group.coordinates[static_cast<std::size_t>(place)];
+      step_[coordinate] = damping * columnScale(coordinate) * found_[place];
     }
     step_length_ = std::max(step_length_, damping * longest);
   }
@@ -366,10 +386,9 @@ bool LoopCompletion::solveRates(const LoopKinematics& kinematics, const Eigen::V
     setRight(kinematics, system, rates);
     if (!solve(system)) return false;
     if (close_by_ ? !refine(system) : !(misses(system) <= kConsistent * size)) return false;
-    for (std::size_t i = 0; i < system.group.coordinates.size(); ++i) {
-      if (!system.wanted[i]) continue;
-      const int coordinate = system.group.coordinates[i];
-      unknown[coordinate] = columnScale(coordinate) * found_[static_cast<Eigen::Index>(i)];
+    for (const int place : system.found) {
+      const int coordinate = system.group.coordinates[static_cast<std::size_t>(place)];
+      unknown[coordinate] = columnScale(coordinate) * found_[place];
     }
   }
   return true;

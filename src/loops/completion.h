@@ -73,15 +73,14 @@ class LoopCompletion {
     MultifrontalQr qr;  // of the columns to be found
     LoopRank rank;      // of these columns, where qr is no factorization
     std::vector<bool> wanted;
-    /// A coordinate to be found that the rows of a set have entries for.
-    struct Entry {
-      std::size_t local;    ///< the set, as the group counts them
-      Eigen::Index column;  ///< of its entries
-      int place;            ///< of the coordinate in the group
-      int coordinate;
+    /// Coordinates to be found that the rows of a set have entries for.
+    struct Entries {
+      std::vector<ScaledColumn> columns;
+      std::vector<int> places;  ///< of these coordinates in the group
     };
-    std::vector<Entry> entries;
-    bool sound = false;  // whether qr is a factorization
+    std::vector<Entries> entries;  ///< by set, as the group counts them
+    std::vector<int> found;        ///< places of all coordinates to be found
+    bool sound = false;            // whether qr is a factorization
   };
   void want(const std::vector<bool>& given);
   // Rows whose scale is zero count as absent.
@@ -99,9 +98,12 @@ class LoopCompletion {
   bool solveRates(const LoopKinematics& kinematics, const Eigen::VectorXd& rates, double size,
                   Eigen::VectorXd& unknown);
   bool findRates(LoopKinematics& kinematics, Motion& motion);
-  double columnScale(int coordinate) const;
+  double columnScale(int coordinate) const {
+    return column_scales_[static_cast<std::size_t>(coordinate)];
+  }
 
   std::vector<System> systems_;
+  const LoopFunctions* kernel_;
   std::vector<bool> given_;  // by coordinate; those of want()
   double rank_tolerance_;
   double length_;

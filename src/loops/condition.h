@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "loops/closure_wrench.h"
+#include "loops/kernel/loop_kernel.h"
 #include "loops/link_kinematics.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
@@ -40,11 +41,14 @@ struct LoopState {
   Motion driven;    ///< numbers that conditions drive by, see Given; empty where none does
 };
 
-/// The frames that a closure joins, in root axes.
+/// The frames that a closure joins, in root axes; in the order of FrameNumber.
 struct FramePair {
   Eigen::Matrix3d R_P = Eigen::Matrix3d::Identity(), R_C = R_P;
   Eigen::Vector3d Po = Eigen::Vector3d::Zero(), Co = Po;  ///< m
 };
+
+static_assert(sizeof(FramePair) == kFrameNumbers * sizeof(double), "plain numbers");
+static_assert(sizeof(ClosureWrench) == kWrenchNumbers * sizeof(double), "plain numbers");
 
 /// Values of all conditions; each set writes its own entries.
 struct ConditionValues {
@@ -74,6 +78,15 @@ class ConditionRows {
     return values_.unit_wrenches[static_cast<std::size_t>(first_ + i)];
   }
   FramePair& frames() { return values_.frames[set_]; }
+  /// All of them for a kernel.
+  ClosureNumbers numbers() {
+    return {values_.phi.data() + first_,
+            values_.A.data() + first_,
+            static_cast<std::size_t>(values_.A.rows()),
+            unitWrench(0).force.data(),
+            frames().R_P.data(),
+            values_.turning.data() + first_};
+  }
 
  private:
   ConditionValues& values_;

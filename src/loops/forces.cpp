@@ -69,19 +69,30 @@ LoopForces::LoopForces(const Mechanism& mechanism, const LoopKinematics& kinemat
       unknowns_(mechanism, kinematics, scene, group, length),
       rank_tolerance_(scene.rank_tolerance),
       length_(length),
-      qr_(unknowns_.rowBlocks(), static_cast<int>(group.coordinates.size())),
+      qr_(unknowns_.rowBlocks(mechanism, kinematics), static_cast<int>(group.coordinates.size())),
       rank_(sizesOf(mechanism, kinematics, group, unknowns_, length, rank_tolerance_),
             qr_.columns(), rank_tolerance_),
       all_(group.coordinates.size(), true),
       norms_(unknowns(), mostCosts(group, unknowns())),
       load_(coordinates()),
       gathered_(scene.start.size()),
+      kernel_(&loopKernelFor(chosenInstructionSet()).one),
       directions_(unknowns(), unknowns() + coordinates() + passages(group)) {
   turns_.reserve(static_cast<std::size_t>(passages(group)));
   addCosts(scene);
   for (std::size_t j = 0; j < unknowns_.effort_rows.size(); ++j) {
     const std::size_t row = static_cast<std::size_t>(unknowns_.effort_rows[j]);
     qr_.entriesOf(j)(0, 0) = unknowns_.efforts[j].unit / unknowns_.row_units[row];
+  }
+  for (const LoopUnknowns::OfSet& own : unknowns_.of_sets) {
+    Entries entries;
+    for (std::size_t k = 0; k < own.coordinates.size(); ++k) {
+      const std::size_t row = static_cast<std::size_t>(own.coordinates[k]);
+      entries.columns.push_back(
+          {group_.coordinates[row], static_cast<int>(k), 1 / unknowns_.row_units[row]});
+    }
+    for (const LoopUnknowns::Column& column : own.columns) entries.units.push_back(column.unit);
+    entries_.push_back(std::move(entries));
   }
   for (State* state : {&solution_, &change_}) {
     state->x.setZero(unknowns());
@@ -119,19 +130,17 @@ void LoopForces::addCosts(const LoopScene& scene) {
 void LoopForces::setEntries() {
   for (std::size_t local = 0; local < unknowns_.of_sets.size(); ++local) {
     const LoopUnknowns::OfSet& own = unknowns_.of_sets[local];
-    const Eigen::Index first = kinematics_.firstOf(own.set), multipliers = own.multipliers();
+    const Entries& scaled = entries_[local];
     Eigen::MatrixXd& entries = qr_.entriesOf(unknowns_.effort_rows.size() + local);
-    if (own.effort >= 0) gatherForce(own, kinematics_.unitEffort(own.set));
-    for (std::size_t k = 0; k < own.coordinates.size(); ++k) {
-      const std::size_t row = static_cast<std::size_t>(own.coordinates[k]);
-      const int i = group_.coordinates[row];
-      const double* column = kinematics_.jacobian().col(i).data() + first;
-      double* to = entries.col(index(k)).data();
-      const double share = 1 / unknowns_.row_units[row];
-      for (Eigen::Index j = 0; j < multipliers; ++j) {
-        to[j] = own.columns[std::size_t(j)].unit * column[j] * share;  // (3.1), a_ik
-      }
-      if (own.effort >= 0) to[multipliers] = own.columns.back().unit * gathered_[i] * share;
+    kernel_->scaleColumns(kinematics_.rowsOf(own.set),  // (3.1), a_ik
+                          {scaled.columns.data(), static_cast<int>(scaled.columns.size()),
+                           static_cast<int>(entries.rows())},
+                          scaled.units.data(), kinematics_.entriesOf(own.set), entries.data());
+    if (own.effort < 0) continue;
+    gatherForce(own, kinematics_.unitEffort(own.set));
+    for (const ScaledColumn& column : scaled.columns) {
+      entries(own.multipliers(), column.place) =
+          own.columns.back().unit * gathered_[column.coordinate] * column.factor;
     }
   }
 }
@@ -174,7 +183,7 @@ void LoopForces::solve(const Eigen::VectorXd& tree_effort,
   turns_.clear();
   change_.shift.setZero();
   if (sound_) {
-    qr_.leastNorm(load_, solution_.x);
+    qr_.leastNorm(load_.data(), solution_.x.data());
     direction_count_ = index(qr_.nullity());
   } else {
     direction_count_ = rank_.changes();
@@ -234,10 +243,14 @@ void LoopForces::choose(const std::vector<Wrench>& tree_reactions) {
   norms_.finish(solution_.x);
 }
 
+bool LoopForces::isUnique(double null_square) {
+  return null_square <= kNoEffort * kNoEffort;
+}
+
 // Whether efforts are the same in all solutions, as nothing in the null space moves them.
 bool LoopForces::effortsAreUnique() {
   const auto unique = [&](const LoopUnknowns::Effort& effort) {
-    return qr_.nullSquare(effort.unknown) <= kNoEffort * kNoEffort;
+    return isUnique(qr_.nullSquare(effort.unknown));
   };
   return std::all_of(unknowns_.efforts.begin(), unknowns_.efforts.end(), unique);
 }
@@ -348,19 +361,13 @@ void LoopForces::setClosures(State& state) const {
     const LoopUnknowns::OfSet& own = unknowns_.of_sets[local];
     const double* x = state.x.data() + own.first;
     ClosureWrench& sum = state.closures[local];
-    sum = {};
-    for (const LoopUnknowns::Column& column : own.columns) {
-      const double multiplier = *x++ * column.unit;
-      if (column.condition < 0) {
-        const ClosureWrench effort = kinematics_.unitEffort(own.set);
-        sum.force += multiplier * effort.force;
-        sum.moment += multiplier * effort.moment;
-        continue;
-      }
-      const ClosureWrench& unit = kinematics_.unitWrench(column.condition);
-      sum.force += multiplier * unit.force;
-      sum.moment += multiplier * unit.moment;
-    }
+    kernel_->sumWrenches(kinematics_.closure(own.set).shape(), entries_[local].units.data(), x,
+                         kinematics_.unitWrench(kinematics_.firstOf(own.set)).force.data(),
+                         sum.force.data());
+    if (own.effort < 0) continue;
+    const double effort = x[own.multipliers()] * own.columns.back().unit;
+    activePart(kinematics_.closure(own.set).freeUnit(), sum) +=
+        effort * kinematics_.freeAxis(own.set);
   }
 }
 

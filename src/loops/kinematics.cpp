@@ -19,7 +19,8 @@ LoopKinematics::LoopKinematics(const Mechanism& mechanism, const Scene& scene)
     : LoopKinematics(mechanism, makeConditions(mechanism, scene)) {}
 
 LoopKinematics::LoopKinematics(const Mechanism& mechanism, ConditionSets sets)
-    : sets_(std::move(sets)),
+    : kernel_(&loopKernelFor(chosenInstructionSet()).one),
+      sets_(std::move(sets)),
       state_(mechanism),
       values_(countOf(sets_), static_cast<Eigen::Index>(mechanism.coordinates().size()),
               sets_.size()),
@@ -30,11 +31,17 @@ LoopKinematics::LoopKinematics(const Mechanism& mechanism, ConditionSets sets)
       closures_.push_back(closure);
     }
     first_.push_back(static_cast<Eigen::Index>(conditions_.size()));
+    const std::vector<int>& coordinates = set->coordinates();
+    rows_.push_back({coordinates.data(), static_cast<int>(coordinates.size()),
+                     static_cast<int>(set->conditions().size()),
+                     static_cast<std::size_t>(values_.A.rows())});
+    lengths_.push_back(0);
     for (const Condition& condition : set->conditions()) {
       if (condition.adopts_constant) {
         adopting_.push_back(static_cast<Eigen::Index>(conditions_.size()));
       }
       drives_ = drives_ || condition.drives;
+      if (condition.unit == Unit::kMetre) ++lengths_.back();
       conditions_.push_back(&condition);
     }
   }
@@ -57,7 +64,7 @@ void LoopKinematics::setPosition(const Eigen::VectorXd& q) {
   moving_ = false;
   state_.q = q;
   state_.links.setPosition(q);
-  for (std::size_t s = 0; s < sets_.size(); ++s) sets_[s]->setPosition(state_, rowsOf(s));
+  for (std::size_t s = 0; s < sets_.size(); ++s) sets_[s]->setPosition(state_, valuesOf(s));
   if (!adopting_.empty()) subtractConstants();
 }
 
@@ -75,6 +82,18 @@ void LoopKinematics::subtractConstants() {
   }
 }
 
+void LoopKinematics::takeSample(const PackedSample& packed, bool whole) {
+  placed_ = false;  // neither q nor the Jacobian are taken
+  const auto take = [&](const double* from, std::size_t count, double* to) {
+    for (std::size_t i = 0; i < count; ++i) to[i] = from[i * packed.width + packed.sample];
+  };
+  take(packed.frames, kFrameNumbers * closures_.size(), values_.frames.front().R_P.data());
+  if (!whole) return;
+  take(packed.links, kLinkNumbers * state_.links.count(), state_.links.numbers());
+  take(packed.wrenches, kWrenchNumbers * values_.unit_wrenches.size(),
+       values_.unit_wrenches.front().force.data());
+}
+
 void LoopKinematics::adoptConstants() {
   adopted_ = true;
   placed_ = false;  // values_ are no longer those of the position
@@ -85,34 +104,26 @@ void LoopKinematics::setVelocity(const Eigen::VectorXd& qd) {
   moving_ = true;
   state_.qd = qd;
   state_.links.setVelocity(qd);
-  for (std::size_t s = 0; s < sets_.size(); ++s) sets_[s]->setMotion(state_, rowsOf(s));
-}
-
-// Adds A rates, of which the rows of a set have entries for its coordinates only.
-void LoopKinematics::addColumns(const Eigen::VectorXd& rates, Eigen::VectorXd& sums) const {
-  for (std::size_t s = 0; s < sets_.size(); ++s) {
-    const Eigen::Index first = firstOf(s), count = firstOf(s + 1) - first;
-    double* sum = sums.data() + first;
-    for (const int coordinate : sets_[s]->coordinates()) {
-      const double* column = values_.A.col(coordinate).data() + first;
-      const double rate = rates[coordinate];
-      for (Eigen::Index i = 0; i < count; ++i) sum[i] += column[i] * rate;
-    }
-  }
+  for (std::size_t s = 0; s < sets_.size(); ++s) sets_[s]->setMotion(state_, valuesOf(s));
 }
 
 void LoopKinematics::setRates(const Eigen::VectorXd& qd) {
   if (drives_) setVelocity(qd);
   rates_ = values_.b;
-  addColumns(qd, rates_);  // (3.2)
+  for (std::size_t s = 0; s < sets_.size(); ++s) {
+    kernel_->addColumns(rows_[s], entriesOf(s), qd.data(), rates_.data() + first_[s]);  // (3.2)
+  }
 }
 
 void LoopKinematics::setMotion(const Motion& motion) {
   setVelocity(motion.qd);
   rates_ = values_.b;
-  addColumns(motion.qd, rates_);  // (3.2)
-  accelerations_ = values_.turning + values_.bd;
-  addColumns(motion.qdd, accelerations_);
+  accelerations_ = values_.turning;
+  if (drives_) accelerations_ += values_.bd;
+  for (std::size_t s = 0; s < sets_.size(); ++s) {
+    kernel_->addMotion(rows_[s], entriesOf(s), motion.qd.data(), motion.qdd.data(),
+                       rates_.data() + first_[s], accelerations_.data() + first_[s]);  // (3.2)
+  }
 }
 
 ClosureWrench LoopKinematics::unitEffort(std::size_t closure) const {

@@ -34,6 +34,9 @@ class LoopKinematics {
   const Condition& condition(Eigen::Index i) const {
     return *conditions_[static_cast<std::size_t>(i)];
   }
+  /// The rows of a set as kernels see them, and their entries.
+  const RowsShape& rowsOf(std::size_t set) const { return rows_[set]; }
+  const double* entriesOf(std::size_t set) const { return values_.A.data() + first_[set]; }
   /// Conditions [firstOf(s), firstOf(s + 1)) are those of set s.
   Eigen::Index firstOf(std::size_t set) const { return first_[set]; }
 
@@ -78,6 +81,13 @@ class LoopKinematics {
     double lengths, directions;
   };
   Norms normsOf(std::size_t set, const Eigen::VectorXd& conditions) const;
+  /// Finds the larger of the two for a closure: as they are, and with lengths divided by a length.
+  /// @param share one over that length. @param norms receives two numbers
+  void findNorms(std::size_t closure, const Eigen::VectorXd& conditions, double share,
+                 double* norms) const {
+    kernel_->norms(rows_[closure], lengths_[closure], share, conditions.data() + first_[closure],
+                   norms);
+  }
 
   /// Wrench of a multiplier of one; zero where the condition is not a closure's.
   const ClosureWrench& unitWrench(Eigen::Index condition) const {
@@ -107,6 +117,17 @@ class LoopKinematics {
     sum.moment -= sign * (wrench.moment + lever.cross(wrench.force));
   }
 
+  /// How many of a set's conditions, its first, are lengths.
+  int lengthsOf(std::size_t set) const { return lengths_[set]; }
+  /// A sample among those of a pack, of which `width` neighbouring numbers belong together.
+  struct PackedSample {
+    const double *links, *wrenches, *frames;
+    std::size_t width, sample;
+  };
+  /// Takes over the frames of closures.
+  /// @param whole links and wrenches of unit multipliers, too
+  void takeSample(const PackedSample& packed, bool whole);
+
   const LinkKinematics& links() const { return state_.links; }
   const Eigen::Matrix3d& axesOf(int link) const { return links().axesOf(link); }
   const Eigen::Vector3d& originOf(int link) const { return links().originOf(link); }
@@ -131,15 +152,17 @@ class LoopKinematics {
   Twist childTwist(std::size_t c) const;
 
  private:
-  ConditionRows rowsOf(std::size_t set) { return {values_, set, first_[set]}; }
+  ConditionRows valuesOf(std::size_t set) { return {values_, set, first_[set]}; }
   void subtractConstants();
   void setVelocity(const Eigen::VectorXd& qd);
-  void addColumns(const Eigen::VectorXd& rates, Eigen::VectorXd& sums) const;
 
+  const LoopFunctions* kernel_;
   ConditionSets sets_;
   std::vector<const ClosureConditions*> closures_;  // the first of sets_
   std::vector<const Condition*> conditions_;
   std::vector<Eigen::Index> first_;
+  std::vector<RowsShape> rows_;  // by set; they point to coordinates of sets_
+  std::vector<int> lengths_;     // by set: how many of its conditions, the first, are lengths
   bool drives_ = false;
   std::vector<Eigen::Index> adopting_;  // conditions that adopt a constant
   bool adopted_ = false;

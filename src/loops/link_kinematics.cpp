@@ -16,39 +16,63 @@ std::vector<bool> carriersOf(const Mechanism& mechanism, int link) {
   return carries;
 }
 
-}  // namespace
-
-// The matrices of a turning joint come from Rodrigues' formula.
-LinkKinematics::JointConstants LinkKinematics::constantsOf(const Joint& joint) {
-  const auto& axis = joint.axis_K;
-  JointConstants constants;
-  constants.parent_link = joint.parent_link;
-  constants.coordinate = joint.coordinate;
-  constants.slides = virtual_work_dynamics::unitOf(joint) == Unit::kMetre;
-  constants.multiplier = static_cast<double>(joint.multiplier);
-  constants.offset = static_cast<double>(joint.offset);
-  constants.p_PoKo_P = joint.p_PoKo_P.cast<double>();
-  constants.axis_P = (joint.R_PK * axis).cast<double>();
-  constants.still = joint.R_PK.cast<double>();
-  constants.across = constants.turned = Eigen::Matrix3d::Zero();
-  if (constants.slides || joint.coordinate < 0) return constants;
-  const auto along = (joint.R_PK * axis * axis.transpose()).eval();
-  constants.still = along.cast<double>();
-  constants.across = (joint.R_PK - along).cast<double>();
-  for (int i = 0; i < 3; ++i) {
-    const auto unit = decltype(joint.R_PK)::Identity().col(i).eval();
-    constants.turned.col(i) = (joint.R_PK * axis.cross(unit)).cast<double>();
-  }
-  return constants;
+template <typename Derived>
+void copyTo(double* to, const Eigen::MatrixBase<Derived>& from) {
+  Eigen::Map<Eigen::Matrix<double, 3, Derived::ColsAtCompileTime>>{to} =
+      from.template cast<double>();
 }
 
-LinkKinematics::LinkKinematics(const Mechanism& mechanism) : links_(mechanism.links().size()) {
-  for (const Joint& joint : mechanism.joints()) {
-    if (joint.type == JointType::kOriented) {
-      oriented_.push_back({joints_.size(), joint.R_PK.cast<double>()});
-    }
-    joints_.push_back(constantsOf(joint));
+// The matrices of a turning joint come from Rodrigues' formula.
+JointShape shapeOf(const Joint& joint) {
+  const auto& axis = joint.axis_K;
+  JointShape shape{};
+  shape.kind = joint.coordinate < 0            ? JointKind::kFixed
+               : unitOf(joint) == Unit::kMetre ? JointKind::kSlides
+                                               : JointKind::kTurnsObliquely;
+  shape.parent = joint.parent_link;
+  shape.coordinate = joint.coordinate;
+  shape.angle = -1;
+  shape.multiplier = static_cast<double>(joint.multiplier);
+  shape.offset = static_cast<double>(joint.offset);
+  copyTo(shape.p_PoKo_P, joint.p_PoKo_P);
+  copyTo(shape.axis_P, (joint.R_PK * axis));
+  copyTo(shape.still, joint.R_PK);
+  if (shape.kind != JointKind::kTurnsObliquely) return shape;
+  const auto along = (joint.R_PK * axis * axis.transpose()).eval();
+  copyTo(shape.still, along);
+  copyTo(shape.across, (joint.R_PK - along));
+  for (int i = 0; i < 3; ++i) {
+    const auto unit = decltype(joint.R_PK)::Identity().col(i).eval();
+    copyTo(shape.turned + 3 * i, (joint.R_PK * axis.cross(unit)));
   }
+  if (joint.R_PK != decltype(joint.R_PK)::Identity()) return shape;
+  for (int i = 0; i < 3; ++i) {
+    if (axis[i] != 1 && axis[i] != -1) continue;
+    shape.kind = JointKind::kTurnsPlainly;
+    shape.axis = i;
+    shape.sign = static_cast<double>(axis[i]);
+  }
+  return shape;
+}
+
+}  // namespace
+
+LinkKinematics::LinkKinematics(const Mechanism& mechanism)
+    : kernel_(&loopKernelFor(chosenInstructionSet()).one), links_(mechanism.links().size()) {
+  for (const Joint& joint : mechanism.joints()) addJoint(joint);
+  turns_.resize(2 * (angles_.size() + kMostAngleLanes));
+}
+
+void LinkKinematics::addJoint(const Joint& joint) {
+  if (joint.type == JointType::kOriented) {
+    oriented_.push_back({joints_.size(), joint.R_PK.cast<double>()});
+  }
+  JointShape shape = shapeOf(joint);
+  if (shape.kind == JointKind::kTurnsPlainly || shape.kind == JointKind::kTurnsObliquely) {
+    shape.angle = static_cast<int>(angles_.size());
+    angles_.push_back({shape.coordinate, shape.multiplier, shape.offset});
+  }
+  joints_.push_back(shape);
 }
 
 bool LinkKinematics::setOrientations(const std::vector<Eigen::Quaterniond>& orientations) {
@@ -59,57 +83,18 @@ bool LinkKinematics::setOrientations(const std::vector<Eigen::Quaterniond>& orie
         orientations.empty() ? Eigen::Quaterniond::Identity() : orientations[i];
     if (own.orientation.coeffs() == next.coeffs()) continue;
     own.orientation = next;
-    joints_[own.joint].still.noalias() = own.R_PK * next.toRotationMatrix();
+    copyTo(joints_[own.joint].still, own.R_PK * next.toRotationMatrix());
     changes = true;
   }
   return changes;
 }
 
 void LinkKinematics::setPosition(const Eigen::VectorXd& q) {
-  for (std::size_t k = 0; k < joints_.size(); ++k) {
-    const JointConstants& joint = joints_[k];
-    const LinkState& parent = links_[static_cast<std::size_t>(joint.parent_link)];
-    LinkState& link = links_[k + 1];
-    link.o = parent.o + parent.R * joint.p_PoKo_P;
-    link.z.noalias() = parent.R * joint.axis_P;
-    if (joint.coordinate < 0) {
-      link.R.noalias() = parent.R * joint.still;
-      continue;
-    }
-    const double position = joint.multiplier * q[joint.coordinate] + joint.offset;
-    if (joint.slides) {
-      link.R.noalias() = parent.R * joint.still;
-      link.o += position * link.z;
-    } else {
-      const Eigen::Matrix3d R_PL =
-          joint.still + std::cos(position) * joint.across + std::sin(position) * joint.turned;
-      link.R.noalias() = parent.R * R_PL;
-    }
-  }
+  kernel_->placeLinks(view(), q.data(), turns_.data(), links_.front().R.data());
 }
 
 void LinkKinematics::setVelocity(const Eigen::VectorXd& qd) {
-  for (std::size_t k = 0; k < joints_.size(); ++k) moveLink(k, qd);
-}
-
-void LinkKinematics::moveLink(std::size_t k, const Eigen::VectorXd& qd) {
-  const JointConstants& joint = joints_[k];
-  const LinkState& parent = links_[static_cast<std::size_t>(joint.parent_link)];
-  LinkState& link = links_[k + 1];
-  const Eigen::Vector3d r = link.o - parent.o, turned = parent.w.cross(r);
-  link.w = parent.w;
-  link.alpha = parent.alpha;
-  link.v = parent.v + turned;                                          // (2.6)
-  link.a = parent.a + parent.alpha.cross(r) + parent.w.cross(turned);  // (2.7)
-  if (joint.coordinate < 0) return;
-  const Eigen::Vector3d rate = joint.multiplier * qd[joint.coordinate] * link.z;
-  if (joint.slides) {
-    link.v += rate;                      // (2.6)
-    link.a += 2 * parent.w.cross(rate);  // (2.7)
-  } else {
-    link.w += rate;                      // (2.5)
-    link.alpha += parent.w.cross(rate);  // (2.7)
-  }
+  kernel_->moveLinks(view(), qd.data(), links_.front().R.data());
 }
 
 LinkKinematics::PointMotion LinkKinematics::motionAt(int link, const Eigen::Vector3d& point) const {
@@ -123,7 +108,7 @@ LinkKinematics::Displacement LinkKinematics::displacementBy(const PathStep& step
                                                             const Eigen::Vector3d& at,
                                                             double length) const {
   const LinkState& link = links_[static_cast<std::size_t>(step.joint) + 1];
-  if (joints_[static_cast<std::size_t>(step.joint)].slides) {
+  if (joints_[static_cast<std::size_t>(step.joint)].kind == JointKind::kSlides) {
     return {Eigen::Vector3d::Zero(), step.sign * length * link.z};
   }
   return {step.sign * link.z, step.sign * link.z.cross(at - link.o)};

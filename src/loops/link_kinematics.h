@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "loops/closure_wrench.h"
+#include "loops/kernel/loop_kernel.h"
 #include "virtual_work_dynamics/mechanism.h"
 
 namespace virtual_work_dynamics {
@@ -63,7 +64,8 @@ class LinkKinematics {
   }
   /// What the position of a joint that moves measures.
   Unit unitOf(int joint) const {
-    return joints_[static_cast<std::size_t>(joint)].slides ? Unit::kMetre : Unit::kRadian;
+    return joints_[static_cast<std::size_t>(joint)].kind == JointKind::kSlides ? Unit::kMetre
+                                                                               : Unit::kRadian;
   }
   /// How a step of a joint displaces the second link relative to the first: by a unit angle, or by
   /// a slide of `length`.
@@ -75,38 +77,43 @@ class LinkKinematics {
   /// How the coordinate that moves the joint moves the second link relative to the first: per unit
   /// of the coordinate, the turn and the displacement of a point of the second link.
   Displacement movedBy(const PathStep& step, const Eigen::Vector3d& at) const {
-    const JointConstants& joint = joints_[static_cast<std::size_t>(step.joint)];
+    const JointShape& joint = joints_[static_cast<std::size_t>(step.joint)];
     const LinkState& link = links_[static_cast<std::size_t>(step.joint) + 1];
     const Eigen::Vector3d along = step.sign * joint.multiplier * link.z;
-    if (joint.slides) return {Eigen::Vector3d::Zero(), along};
+    if (joint.kind == JointKind::kSlides) return {Eigen::Vector3d::Zero(), along};
     return {along, along.cross(at - link.o)};
   }
 
+  /// As kernels see the joints, and the numbers of the links.
+  LinksView view() const {
+    return {joints_.data(), angles_.data(), static_cast<int>(joints_.size()),
+            static_cast<int>(angles_.size())};
+  }
+  const double* numbers() const { return links_.front().R.data(); }
+  double* numbers() { return links_.front().R.data(); }
+  std::size_t count() const { return links_.size(); }
+
  private:
-  struct JointConstants {
-    int parent_link, coordinate;
-    bool slides;
-    double multiplier, offset;
-    Eigen::Vector3d p_PoKo_P, axis_P;
-    // Of the child's axes in the parent's: still + cos(angle) across + sin(angle) turned.
-    Eigen::Matrix3d still, across, turned;
-  };
-  /// A joint that holds an orientation of the motion: `still` is R_PK with it.
+  /// A joint that holds an orientation of the motion: its `still` is R_PK with it.
   struct Oriented {
     std::size_t joint;
     Eigen::Matrix3d R_PK;
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   };
-  static JointConstants constantsOf(const Joint& joint);
+  /// In the order of LinkNumber.
   struct LinkState {
     Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
     Eigen::Vector3d o = Eigen::Vector3d::Zero();
     Eigen::Vector3d z = Eigen::Vector3d::Zero();  // axis of its joint
     Eigen::Vector3d v = Eigen::Vector3d::Zero(), w = v, a = v, alpha = v;
   };
-  void moveLink(std::size_t k, const Eigen::VectorXd& qd);
+  static_assert(sizeof(LinkState) == kLinkNumbers * sizeof(double), "plain numbers");
+  void addJoint(const Joint& joint);
 
-  std::vector<JointConstants> joints_;
+  const LoopFunctions* kernel_;
+  std::vector<JointShape> joints_;
+  std::vector<AngleShape> angles_;  // of joints that turn
+  std::vector<double> turns_;       // cosines and sines of these angles
   std::vector<Oriented> oriented_;  // by orientation
   std::vector<LinkState> links_;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loops/zero_rows.h"
+
 namespace virtual_work_dynamics {
 
 LoopUnknowns::LoopUnknowns(const Mechanism& mechanism, const LoopKinematics& kinematics,
@@ -36,11 +38,14 @@ LoopUnknowns::LoopUnknowns(const Mechanism& mechanism, const LoopKinematics& kin
   }
 }
 
-std::vector<RowBlock> LoopUnknowns::rowBlocks() const {
+std::vector<RowBlock> LoopUnknowns::rowBlocks(const Mechanism& mechanism,
+                                              const LoopKinematics& kinematics) const {
+  const std::vector<bool> zero = zeroRows(mechanism, kinematics);
   std::vector<RowBlock> blocks;
-  for (const int row : effort_rows) blocks.push_back({1, {row}});
+  for (const int row : effort_rows) blocks.push_back({1, {row}, {}});
   for (const OfSet& own : of_sets) {
-    blocks.push_back({static_cast<Eigen::Index>(own.columns.size()), own.coordinates});
+    blocks.push_back({static_cast<Eigen::Index>(own.columns.size()), own.coordinates,
+                      zeroRowsOf(kinematics, own.set, zero)});
   }
   return blocks;
 }

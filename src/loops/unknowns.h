@@ -51,7 +51,8 @@ struct LoopUnknowns {
 
   /// Blocks of the transpose of B: one of a single entry for each actuated coordinate, then one for
   /// each set.
-  std::vector<RowBlock> rowBlocks() const;
+  std::vector<RowBlock> rowBlocks(const Mechanism& mechanism,
+                                  const LoopKinematics& kinematics) const;
 };
 
 }  // namespace virtual_work_dynamics

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/number.h"
 #include "tree/kernel/kernel.h"
-#include "tree/kernel/number.h"
 
 namespace virtual_work_dynamics {
 namespace {  // see kernel.h

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tree/kernel/number.h"
+#include "base/number.h"
 
 namespace virtual_work_dynamics {
 namespace {  // see kernel.h

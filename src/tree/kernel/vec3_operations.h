@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "tree/kernel/number.h"
+#include "base/number.h"
 #include "tree/vec3.h"
 
 namespace virtual_work_dynamics {

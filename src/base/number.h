@@ -26,7 +26,7 @@
 #endif
 
 namespace virtual_work_dynamics {
-namespace {  // see kernel.h
+namespace {  // see tree/kernel/kernel.h
 
 // Number types of the recursion need +, -, unary -, *, and the operations below. They are fused
 // where the instruction set has them, and nowhere else: kernels are built with contraction off, so

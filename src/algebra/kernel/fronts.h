@@ -1,0 +1,303 @@
+#pragma once
+
+#include "algebra/kernel/front_kernel.h"
+#include "base/number_choices.h"
+
+namespace virtual_work_dynamics {
+namespace {  // see front_kernel.h
+
+// Remainders of columns after the reflections of a front count as rounding up to this fraction of
+// the longest column.
+constexpr double kRoundingFraction = 16 * 2.220446049250313e-16;
+// Squares of lengths below this are too close to underflow for a reflection.
+constexpr double kLeastSquare = 1e-280;
+
+// Chunks that begin at entry kRowChunk - i have zeros in their first i rows, or a one in row i
+// only.
+static_assert(kRowChunk == 4, "as these tables");
+constexpr double kStep[] = {0, 0, 0, 0, 1, 1, 1, 1};
+constexpr double kUnit[] = {0, 0, 0, 0, 1, 0, 0, 0};
+
+/// The numbers of one factorization: T is a number of the matrix, C a chunk of a column, which is
+/// several rows of one matrix, or one row of several.
+/// @param kSums how many rows at a time one matrix has: with several, too, sums are made of as many
+///   parts, so that both agree bit for bit
+template <typename T, typename C, int kSums>
+struct Fronts {
+  static constexpr int kLanes = LanesOf<T>::value;
+  static constexpr int kChunk = static_cast<int>(sizeof(C) / sizeof(T));
+
+  VWD_INLINE static T total(const T& x) { return x; }
+  template <typename Chunk>
+  VWD_INLINE static T total(const Chunk& x) {
+    return sumOfLanes(x);
+  }
+  VWD_INLINE static C chunk(const T* from) {
+    if constexpr (kChunk > 1) {
+      return load<C>(from);
+    } else {
+      return *from;
+    }
+  }
+  VWD_INLINE static void put(T* to, const C& value) {
+    if constexpr (kChunk > 1) {
+      store(to, value);
+    } else {
+      *to = value;
+    }
+  }
+
+  /// One front with its numbers.
+  struct Front {
+    const FrontShape& shape;
+    FrontState& state;
+    int* stairs;
+    T *entries, *reflections, *factors, *reciprocals, *z;
+
+    VWD_INLINE Front(const FrontsView& view, const FrontsMemory& memory, int f)
+        : shape(view.fronts[f]), state(memory.states[f]), stairs(memory.stairs + shape.stairs) {
+      T* const numbers = reinterpret_cast<T*>(memory.numbers);
+      entries = numbers + shape.entries;
+      reflections = numbers + shape.reflections;
+      factors = numbers + shape.factors;
+      reciprocals = numbers + shape.reciprocals;
+      z = numbers + shape.z;
+    }
+    VWD_INLINE T* column(int j) const { return entries + j * shape.most_rows; }
+    VWD_INLINE T* reflection(int step) const { return reflections + step * shape.most_rows; }
+    /// Rows that are computed with; the last ones may be empty.
+    VWD_INLINE int rows() const { return kChunk > 1 ? shape.most_rows : state.rows; }
+    VWD_INLINE int remaining() const { return state.steps - shape.pivots; }
+  };
+
+  /// The first row of the chunk that has a row.
+  VWD_INLINE static int chunkWith(int row) { return row / kChunk * kChunk; }
+
+  VWD_INLINE static T dot(const T* a, const T* b, int from, int rows) {
+    if constexpr (kChunk > 1) {
+      C sum = chunk(a + from) * chunk(b + from);
+      for (int i = from + kChunk; i < rows; i += kChunk) {
+        sum = mulAdd(chunk(a + i), chunk(b + i), sum);
+      }
+      return total(sum);
+    } else {
+      const T zero(0.0);
+      T sums[kSums];
+      for (T& sum : sums) sum = zero;
+      const int first_end = from / kSums * kSums + kSums;
+      int i = from;
+      for (; i < rows && i < first_end; ++i) sums[i % kSums] = a[i] * b[i];
+      for (; i < rows; ++i) sums[i % kSums] = mulAdd(a[i], b[i], sums[i % kSums]);
+      if constexpr (kSums == 2) return sums[0] + sums[1];
+      return (sums[0] + sums[2 % kSums]) + (sums[1] + sums[3 % kSums]);
+    }
+  }
+  VWD_INLINE static void subtract(const T& factor, const T* what, T* of, int from, int rows) {
+    const C times(factor);
+    for (int i = from; i < rows; i += kChunk) {
+      put(of + i, subMul(chunk(of + i), times, chunk(what + i)));
+    }
+  }
+
+  /// Takes in the entries of blocks and of earlier fronts.
+  static void assemble(const FrontsView& view, const FrontsMemory& memory,
+                       const double* const* entries, const Front& front, T* lengths) {
+    const FrontShape& shape = front.shape;
+    const int size = shape.most_rows * shape.width;
+    const C zero(0.0);
+    for (int i = 0; i < size; i += kChunk) put(front.entries + i, zero);
+    int row = 0;
+    for (int b = shape.blocks_begin; b < shape.blocks_end; ++b) {
+      const BlockRows& block = view.blocks[b];
+      for (int k = block.columns_begin; k < block.columns_end; ++k) {
+        const BlockColumn& column = view.block_columns[k];
+        const double* const from = entries[block.block] + column.from * block.height * kLanes;
+        const int* const order = view.row_order + block.order;
+        T* const to = front.column(column.to) + row;
+        T sum = lengths[column.column];
+        for (int i = 0; i < block.rows; ++i) {
+          const T value = load<T>(from + order[i] * kLanes);
+          to[i] = value;
+          sum = mulAdd(value, value, sum);
+        }
+        lengths[column.column] = sum;
+      }
+      row += block.rows;
+    }
+    for (int c = shape.children_begin; c < shape.children_end; ++c) {
+      const Front child(view, memory, view.children[c].front);
+      const int* const places = view.places + view.children[c].places;
+      child.state.in_parent = row;
+      for (int step = child.shape.pivots; step < child.state.steps; ++step, ++row) {
+        for (int j = child.stairs[step]; j < child.shape.width; ++j) {
+          front.column(places[j - child.shape.pivots])[row] = child.column(j)[step];
+        }
+      }
+    }
+    front.state.rows = row;
+    front.state.steps = 0;
+  }
+
+  /// Copies what a column has from row `step` on into the reflection of that step.
+  /// @returns its squared length
+  VWD_INLINE static T startReflection(const Front& front, int step, int column, int rows) {
+    const T* const from = front.column(column);
+    T* const v = front.reflection(step);
+    int i = chunkWith(step);
+    if constexpr (kChunk > 1) {
+      C sum(0.0);
+      for (int above = 0; above < i; above += kChunk) put(v + above, sum);
+      const C first = load<C>(kStep + kRowChunk - (step - i)) * chunk(from + i);
+      put(v + i, first);
+      sum = first * first;
+      for (i += kChunk; i < rows; i += kChunk) {
+        const C part = chunk(from + i);
+        put(v + i, part);
+        sum = mulAdd(part, part, sum);
+      }
+      return total(sum);
+    } else {
+      for (; i < rows; ++i) v[i] = from[i];
+      return dot(v, v, step, rows);
+    }
+  }
+
+  /// Reflects with 1 - factor v v^T, which makes of the column that startReflection() was told its
+  /// length in row `step`. Rows above are those of R already.
+  VWD_INLINE static void reflect(const Front& front, int step, int column, const T& square,
+                                 int rows) {
+    T* const head = front.column(column) + step;
+    T* const v = front.reflection(step);
+    const int from = chunkWith(step);
+    const T diagonal = awayFrom(*head, squareRoot(square));
+    const T factor = T(1.0) / subMul(square, diagonal, *head);
+    if constexpr (kChunk > 1) {
+      put(v + from,
+          subMul(chunk(v + from), C(diagonal), load<C>(kUnit + kRowChunk - (step - from))));
+    } else {
+      v[step] = *head - diagonal;
+    }
+    *head = diagonal;
+    front.stairs[step] = column;
+    front.factors[step] = factor;
+    for (int j = column + 1; j < front.shape.width; ++j) {
+      T* const other = front.column(j);
+      subtract(factor * dot(v, other, from, rows), v, other, from, rows);
+    }
+    ++front.state.steps;
+  }
+
+  VWD_INLINE static Factorized eliminate(const Front& front, int rows) {
+    const FrontShape& shape = front.shape;
+    if (shape.pivots > front.state.rows) return Factorized::kDependent;
+    for (int step = 0; step < shape.pivots; ++step) {
+      const T square = startReflection(front, step, step, rows);
+      if (lanesAbove(square, T(kLeastSquare)) < kLanes) return Factorized::kDependent;
+      reflect(front, step, step, square, rows);
+      front.reciprocals[step] = T(1.0) / front.column(step)[step];
+    }
+    return compress(front, rows);
+  }
+
+  /// Reflects the rows below the pivots into as few rows as their entries allow; the other rows
+  /// then have no entries.
+  VWD_INLINE static Factorized compress(const Front& front, int rows) {
+    const FrontShape& shape = front.shape;
+    if (shape.width == shape.pivots) return Factorized::kWhole;
+    T longest = T(0.0);
+    for (int j = shape.pivots; j < shape.width; ++j) {
+      longest = largerOf(dot(front.column(j), front.column(j), 0, rows), longest);
+    }
+    const T nothing = largerOf(kRoundingFraction * kRoundingFraction * longest, T(kLeastSquare));
+    for (int j = shape.pivots; j < shape.width && front.state.steps < front.state.rows; ++j) {
+      const T square = startReflection(front, front.state.steps, j, rows);
+      const int above = lanesAbove(square, nothing);
+      if (above == 0) continue;
+      if (above < kLanes) return Factorized::kDivided;
+      reflect(front, front.state.steps, j, square, rows);
+    }
+    return Factorized::kWhole;
+  }
+
+  static Factorized factorize(const FrontsView& view, const double* const* entries, double size,
+                              const FrontsMemory& memory, double* condition) {
+    T* const lengths = reinterpret_cast<T*>(memory.numbers) + view.lengths;
+    for (int j = 0; j < view.column_count; ++j) lengths[j] = T(0.0);
+    for (int f = 0; f < view.front_count; ++f) {
+      const Front front(view, memory, f);
+      assemble(view, memory, entries, front, lengths);
+      const Factorized done = eliminateBySize(front);
+      if (done != Factorized::kWhole) return done;
+    }
+    T longest = T(size * size);
+    for (int j = 0; j < view.column_count; ++j) longest = largerOf(lengths[j], longest);
+    store(condition, estimateCondition(view, memory, longest));
+    return Factorized::kWhole;
+  }
+
+  /// Small fronts have loops of constant length.
+  VWD_INLINE static Factorized eliminateBySize(const Front& front) {
+    if (kChunk > 1) {
+      if (front.rows() == kRowChunk) return eliminate(front, kRowChunk);
+      if (front.rows() == 2 * kRowChunk) return eliminate(front, 2 * kRowChunk);
+    }
+    return eliminate(front, front.rows());
+  }
+
+  /// Estimates |R^-1| by |R^-1 (R^-T d)| / |R^-T d|, where d = +-1 with the signs that make each
+  /// entry of R^-T d large as it is computed; returns it times the root of a square.
+  static T estimateCondition(const FrontsView& view, const FrontsMemory& memory, const T& square) {
+    T* const numbers = reinterpret_cast<T*>(memory.numbers);
+    T* const sums = numbers + view.sums;
+    T* const solution = numbers + view.solution;
+    for (int j = 0; j < view.column_count; ++j) sums[j] = T(0.0);
+    T before = T(0.0), after = T(0.0);
+    for (int f = 0; f < view.front_count; ++f) {
+      const Front front(view, memory, f);
+      const int* const columns = view.columns + front.shape.columns;
+      T* const z = front.z;
+      for (int k = 0; k < front.shape.pivots; ++k) {
+        const T* const entries = front.column(k);
+        T sum = sums[columns[k]];
+        for (int i = 0; i < k; ++i) sum = mulAdd(entries[i], z[i], sum);
+        z[k] = (awayFrom(sum, T(1.0)) - sum) * front.reciprocals[k];
+        before = mulAdd(z[k], z[k], before);
+      }
+      for (int j = front.shape.pivots; j < front.shape.width; ++j) {
+        const T* const entries = front.column(j);
+        T sum = sums[columns[j]];
+        for (int i = 0; i < front.shape.pivots; ++i) sum = mulAdd(entries[i], z[i], sum);
+        sums[columns[j]] = sum;
+      }
+    }
+    for (int f = view.front_count; f-- > 0;) backSubstitute(view, Front(view, memory, f), solution);
+    for (int f = 0; f < view.front_count; ++f) {
+      const FrontShape& shape = view.fronts[f];
+      for (int k = 0; k < shape.pivots; ++k) {
+        const T value = solution[view.columns[shape.columns + k]];
+        after = mulAdd(value, value, after);
+      }
+    }
+    return wherePositive(before, squareRoot(square * after / before), T(1.0));
+  }
+
+  /// Solves the part of R u = z that belongs to a front; called from the last front to the first.
+  VWD_INLINE static void backSubstitute(const FrontsView& view, const Front& front, T* solution) {
+    const int* const columns = view.columns + front.shape.columns;
+    T* const z = front.z;
+    for (int j = front.shape.pivots; j < front.shape.width; ++j) {
+      const T value = solution[columns[j]];
+      const T* const entries = front.column(j);
+      for (int k = 0; k < front.shape.pivots; ++k) z[k] = subMul(z[k], value, entries[k]);
+    }
+    for (int k = front.shape.pivots; k-- > 0;) {
+      const T* const entries = front.column(k);
+      const T value = z[k] * front.reciprocals[k];
+      solution[columns[k]] = value;
+      for (int i = 0; i < k; ++i) z[i] = subMul(z[i], value, entries[i]);
+    }
+  }
+};
+
+}  // namespace
+}  // namespace virtual_work_dynamics
