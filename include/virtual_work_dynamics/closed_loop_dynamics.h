@@ -120,6 +120,8 @@ class ClosedLoopDynamics {
 
  private:
   friend class Dynamics;
+  friend class LoopRows;
+  friend class SamplePack;
   struct Impl;
   void requireGiven(const std::vector<bool>& given) const;
   std::unique_ptr<GivenLoops> givenLoops(const Given& given) const;
@@ -140,6 +142,7 @@ class ClosedLoopDynamics::Workspace {
 
  private:
   friend class ClosedLoopDynamics;
+  friend class LoopRows;
   struct Impl;
   explicit Workspace(const ClosedLoopDynamics::Impl& plan);
   LoopSolvers& solversOf(const ClosedLoopDynamics::Impl& plan);

@@ -133,9 +133,18 @@ void FrontLayout::arrange() {
     shape.z = deal(most_rows);
     shapes_.push_back(shape);
   }
-  view_ = {shapes_.data(),   block_rows_.data(), block_columns_.data(), row_order_.data(),
-           children_.data(), places_.data(),     columns_.data(),       count(shapes_),
-           count(present_),  0,                  0,                     0};
+  view_ = {shapes_.data(),
+           block_rows_.data(),
+           block_columns_.data(),
+           row_order_.data(),
+           children_.data(),
+           places_.data(),
+           columns_.data(),
+           count(shapes_),
+           count(present_),
+           0,
+           0,
+           0};
   view_.lengths = deal(present_.size());
   view_.sums = deal(present_.size());
   view_.solution = deal(present_.size());

@@ -57,7 +57,7 @@ class FrontLayout {
   std::vector<FrontShape> shapes_;
   std::vector<BlockRows> block_rows_;
   std::vector<BlockColumn> block_columns_;
-  std::vector<int> row_order_;       // of all blocks, see BlockRows::order
+  std::vector<int> row_order_;      // of all blocks, see BlockRows::order
   std::vector<int> orders_, kept_;  // by block: where its order begins, and its rows with entries
   std::vector<ChildRows> children_;
   std::vector<int> places_, columns_;

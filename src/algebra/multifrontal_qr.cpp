@@ -32,13 +32,24 @@ bool MultifrontalQr::factorize(double worst_condition, double size) {
   condition_ = std::numeric_limits<double>::infinity();
   null_rows_listed_ = false;
   for (std::size_t b = 0; b < entries_.size(); ++b) entries_data_[b] = entries_[b].data();
-  const Factorized done = kernel_->one.factorize(layout_.view(), entries_data_.data(), size,
-                                                 memory(), &condition_);
+  const Factorized done =
+      kernel_->one.factorize(layout_.view(), entries_data_.data(), size, memory(), &condition_);
   return done == Factorized::kWhole && condition_ <= worst_condition;
 }
 
 double MultifrontalQr::sureCondition(double rank_tolerance) {
   return std::min(kWorstCondition, kFarFromTolerance / rank_tolerance);
+}
+
+void MultifrontalQr::take(const double* numbers, const FrontState* states, const int* stairs,
+                          double condition, std::size_t width, std::size_t which, bool whole) {
+  condition_ = condition;
+  null_rows_listed_ = false;
+  if (!whole) return;
+  double* const own = static_cast<double*>(numbers_.get());
+  for (std::size_t i = 0; i < layout_.numbers(); ++i) own[i] = numbers[i * width + which];
+  std::copy_n(states, states_.size(), states_.data());
+  std::copy_n(stairs, layout_.stairs(), stairs_.data());
 }
 
 double MultifrontalQr::nullSquare(Eigen::Index row) {

@@ -60,6 +60,12 @@ class MultifrontalQr {
     kernel_->one.leastSquares(layout_.view(), memory(), r, u);
   }
 
+  /// Takes over a factorization of the same layout from a pack of them that were made side by side.
+  /// @param numbers of all of them; `width` neighbouring ones belong together
+  /// @param whole what null vectors need, too; else only the condition
+  void take(const double* numbers, const FrontState* states, const int* stairs, double condition,
+            std::size_t width, std::size_t which, bool whole);
+
   /// Number of vectors in an orthonormal basis of the null space, M^T x = 0.
   std::size_t nullity() const {
     return layout_.rows() - static_cast<std::size_t>(layout_.presentColumns());

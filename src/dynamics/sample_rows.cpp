@@ -6,6 +6,7 @@
 
 #include "base/worker_threads.h"
 #include "dynamics/compiled_dynamics.h"
+#include "loops/loop_rows.h"
 #include "scene/input_checks.h"
 #include "tree/sample_block.h"
 #include "virtual_work_dynamics/error.h"
@@ -23,11 +24,8 @@ struct SampleRows::Chain {
 struct SampleRows::Loops {
   Loops(const ClosedLoopDynamics& of, std::size_t applied, std::size_t capacity, int threads)
       : dynamics(of), wrenches(applied), workers(threads) {
-    for (int i = 0; i < threads; ++i) {
-      workspaces.push_back(dynamics.makeWorkspace());
-      motions.emplace_back(dynamics.coordinates());
-    }
-    results.assign(capacity, workspaces.front().results());
+    for (int i = 0; i < threads; ++i) rows.emplace_back(dynamics);
+    results.assign(capacity, rows.front().results());
   }
 
   void compute(const MotionTable& table, std::size_t first, std::size_t count, const Load* loads) {
@@ -64,25 +62,17 @@ struct SampleRows::Loops {
 
   void computeShare(const MotionTable& table, std::size_t first, std::size_t count,
                     const Load* loads, std::size_t thread) {
-    const std::size_t threads = workspaces.size();
-    const std::size_t end = count * (thread + 1) / threads;
-    for (std::size_t i = count * thread / threads; i < end; ++i) {
-      takeRow(table, first + i, motions[thread]);
-      if (loads) {
-        dynamics.compute(motions[thread], loads[i], workspaces[thread]);
-      } else {
-        dynamics.compute(motions[thread], workspaces[thread]);
-      }
-      results[i] = workspaces[thread].results();
-    }
+    const std::size_t begin = count * thread / rows.size();
+    const std::size_t end = count * (thread + 1) / rows.size();
+    rows[thread].compute(table, first + begin, end - begin, loads ? loads + begin : nullptr,
+                         results.data() + begin);
   }
 
   const ClosedLoopDynamics& dynamics;
   const std::size_t wrenches;  // of a load
   WorkerThreads workers;
-  std::vector<ClosedLoopDynamics::Workspace> workspaces;  // by thread
-  std::vector<Motion> motions;                            // by thread
-  std::vector<Results> results;                           // by row
+  std::vector<LoopRows> rows;    // by thread
+  std::vector<Results> results;  // by row
   std::size_t computed = 0;
 };
 
@@ -121,15 +111,6 @@ const Results& SampleRows::read(std::size_t index) {
                       std::to_string(loops_->computed));
   }
   return loops_->results[index];
-}
-
-void takeRow(const MotionTable& table, std::size_t row, Motion& motion) {
-  if (!table.roots.empty()) motion.root = table.roots[row];
-  if (motion.q.size() == 0) return;  // a table without columns has no rows
-  const auto index = static_cast<Eigen::Index>(row);
-  motion.q = table.positions.row(index);
-  motion.qd = table.velocities.row(index);
-  motion.qdd = table.accelerations.row(index);
 }
 
 void takeCovariance(const MotionTable& table, std::size_t row, MotionCovariance& covariance) {

@@ -3,15 +3,17 @@
 #include <cstddef>
 #include <memory>
 
+#include "loops/loop_rows.h"  // takeRow()
 #include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/motion_covariance.h"
 #include "virtual_work_dynamics/motion_table.h"
 
 namespace virtual_work_dynamics {
 
-/// Computes rows of a MotionTable a block at a time and hands the results out row by row: in an
-/// open chain several samples in each vector instruction, with closed loops one after the other, in
-/// both cases divided among threads.
+/// Computes rows of a MotionTable a block at a time and hands the results out row by row: several
+/// samples in each vector instruction, divided among threads. With closed loops, samples whose rank
+/// is in doubt are computed one after the other; so are those with springs between points, actuated
+/// closures or a policy that weighs reactions.
 class SampleRows {
  public:
   /// @param dynamics must outlive it.
@@ -43,10 +45,6 @@ class SampleRows {
   std::unique_ptr<Chain> chain_;  // exactly one of the two is set
   std::unique_ptr<Loops> loops_;
 };
-
-/// Copies row `row` of a table of all coordinates, with velocities and accelerations, into
-/// `motion`. Does not allocate when `motion` has the lengths already.
-void takeRow(const MotionTable& table, std::size_t row, Motion& motion);
 
 /// Copies the covariances of row `row` of a table that has them into `covariance`, which has the
 /// length already.

@@ -52,11 +52,28 @@ ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compil
 void ClosedLoopDynamics::Workspace::Impl::compute(const Motion& motion, const Load& load) {
   solvers.kinematics.setPosition(motion.q);
   solvers.residuals.set(solvers.kinematics, plan.static_motion ? rest_ : motion);
+  pushed_ = &tree_;
   push(motion, load);
+  for (LoopForces& group : solvers.forces) {
+    group.setPosition();
+    group.solve(tree_.effort(), tree_reactions_);
+  }
+  report();
+}
+
+void ClosedLoopDynamics::Workspace::Impl::finish(const Load& load,
+                                                 const virtual_work_dynamics::Workspace& tree) {
+  std::copy(load.wrenches.begin(), load.wrenches.end(), load_.wrenches.begin());
+  pushed_ = &tree;
+  report();
+}
+
+// Makes results of solutions (3.1).
+void ClosedLoopDynamics::Workspace::Impl::report() {
   results.loops.residuals = solvers.residuals.values();
   results.loops.relative_residuals = solvers.residuals.relative();
   setActuatedClosures();
-  solve();
+  collect();
   react();
   setDeterminacy();
   if (plan.request.determinacy || results.singular()) setDetermined();
@@ -99,15 +116,13 @@ void ClosedLoopDynamics::Workspace::Impl::setActuatedClosures() {
   }
 }
 
-// Solves (3.1) for motions that are known: S^T tau + A^T lambda = tau_tree.
-void ClosedLoopDynamics::Workspace::Impl::solve() {
+// Efforts and closures' wrenches, which satisfy S^T tau + A^T lambda = tau_tree.
+void ClosedLoopDynamics::Workspace::Impl::collect() {
   for (std::size_t i = 0; i < plan.loops.actuated.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    results.effort[row] = plan.loops.actuated[i] ? tree_.effort()[row] : 0;
+    results.effort[row] = plan.loops.actuated[i] ? pushed_->effort()[row] : 0;
   }
-  for (LoopForces& group : solvers.forces) {
-    group.setPosition();
-    group.solve(tree_.effort(), tree_reactions_);
+  for (const LoopForces& group : solvers.forces) {
     const LoopForces::State& solution = group.solution();
     for (const LoopUnknowns::Effort& actuator : group.efforts()) {
       results.effort[static_cast<Eigen::Index>(actuator.index)] =
@@ -133,10 +148,10 @@ void ClosedLoopDynamics::Workspace::Impl::react() {
     load[child + 1] = {-wrench.force, -(wrench.moment + lever.cross(wrench.force))};
   }
   if (!plan.reacts) return;
-  child_axes_.setValues(kinematics, tree_.childAxes(), closures_, results.child_axes);
-  root_axes_.setValues(kinematics, tree_.rootAxes(), closures_, results.root_axes);
-  if (plan.request.poses) root_axes_.setPoses(kinematics, tree_.poses(), results.poses);
-  if (plan.request.twists) root_axes_.setTwists(kinematics, tree_.twists(), results.twists);
+  child_axes_.setValues(kinematics, pushed_->childAxes(), closures_, results.child_axes);
+  root_axes_.setValues(kinematics, pushed_->rootAxes(), closures_, results.root_axes);
+  if (plan.request.poses) root_axes_.setPoses(kinematics, pushed_->poses(), results.poses);
+  if (plan.request.twists) root_axes_.setTwists(kinematics, pushed_->twists(), results.twists);
 }
 
 void ClosedLoopDynamics::Workspace::Impl::setDetermined() {

@@ -130,8 +130,13 @@ ClosureConditions::ClosureConditions(const Mechanism& mechanism, const Closure& 
       path_(std::move(path)),
       given_length_(closure.length),
       steps_(stepsOf(mechanism, path_)),
-      shape_{shapeOf(parent), shapeOf(child), steps_.data(), static_cast<int>(steps_.size()),
-             traits_.conditions, {}, closure.length.value_or(0)} {
+      shape_{shapeOf(parent),
+             shapeOf(child),
+             steps_.data(),
+             static_cast<int>(steps_.size()),
+             traits_.conditions,
+             {},
+             closure.length.value_or(0)} {
   std::transform(traits_.demands.begin(), traits_.demands.end(), shape_.demands,
                  [](const ClosureDemand& demand) { return shapeOf(demand); });
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "loops/completion.h"
@@ -87,6 +88,14 @@ struct ClosedLoopDynamics::Workspace::Impl {
   explicit Impl(const ClosedLoopDynamics::Impl& compiled);
 
   void compute(const Motion& motion, const Load& load);
+  /// Finishes a sample whose solutions the solvers have, with efforts and reactions of the open
+  /// tree and a load without springs.
+  void finish(const Load& load, const virtual_work_dynamics::Workspace& tree);
+  /// Exchanges the results for others of this plan, whatever sample these are of.
+  void exchange(Results& others) {
+    std::swap(results, others);
+    all_exist_ = false;
+  }
   /// Sets the flags and the ranks below, of the sample computed last.
   void setDetermined();
   void setRanks();
@@ -105,7 +114,8 @@ struct ClosedLoopDynamics::Workspace::Impl {
 
  private:
   void push(const Motion& motion, const Load& load);
-  void solve();
+  void report();
+  void collect();
   void react();
   void setActuatedClosures();
   void publishFlags();
@@ -114,6 +124,7 @@ struct ClosedLoopDynamics::Workspace::Impl {
   void setDeterminacy();
 
   virtual_work_dynamics::Workspace tree_;
+  const virtual_work_dynamics::Workspace* pushed_ = &tree_;  // of the sample
   std::optional<virtual_work_dynamics::Workspace> weighed_;
   LoopReactions child_axes_, root_axes_;
   Load load_;                            // without closures

@@ -65,8 +65,8 @@ std::vector<RowBlock> conditionBlocks(const Mechanism& mechanism, const LoopGrou
   std::vector<RowBlock> blocks;
   for (std::size_t local = 0; local < group.sets.size(); ++local) {
     const std::size_t set = group.sets[local];
-    blocks.push_back({conditionsOf(kinematics, set), group.moved[local],
-                      zeroRowsOf(kinematics, set, zero)});
+    blocks.push_back(
+        {conditionsOf(kinematics, set), group.moved[local], zeroRowsOf(kinematics, set, zero)});
   }
   return blocks;
 }
@@ -180,11 +180,10 @@ void LoopCompletion::setEntries(const LoopKinematics& kinematics,
       const std::size_t set = system.group.sets[local];
       const std::vector<ScaledColumn>& columns = system.entries[local].columns;
       Eigen::MatrixXd& entries = system.qr.entriesOf(local);
-      kernel_->scaleColumns(kinematics.rowsOf(set),
-                            {columns.data(), static_cast<int>(columns.size()),
-                             static_cast<int>(entries.rows())},
-                            row_scales.data() + kinematics.firstOf(set),
-                            kinematics.entriesOf(set), entries.data());
+      kernel_->scaleColumns(
+          kinematics.rowsOf(set),
+          {columns.data(), static_cast<int>(columns.size()), static_cast<int>(entries.rows())},
+          row_scales.data() + kinematics.firstOf(set), kinematics.entriesOf(set), entries.data());
     }
   }
 }

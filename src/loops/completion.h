@@ -80,7 +80,7 @@ class LoopCompletion {
     };
     std::vector<Entries> entries;  ///< by set, as the group counts them
     std::vector<int> found;        ///< places of all coordinates to be found
-    bool sound = false;  // whether qr is a factorization
+    bool sound = false;            // whether qr is a factorization
   };
   void want(const std::vector<bool>& given);
   // Rows whose scale is zero count as absent.

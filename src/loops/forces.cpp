@@ -243,10 +243,14 @@ void LoopForces::choose(const std::vector<Wrench>& tree_reactions) {
   norms_.finish(solution_.x);
 }
 
+bool LoopForces::isUnique(double null_square) {
+  return null_square <= kNoEffort * kNoEffort;
+}
+
 // Whether efforts are the same in all solutions, as nothing in the null space moves them.
 bool LoopForces::effortsAreUnique() {
   const auto unique = [&](const LoopUnknowns::Effort& effort) {
-    return qr_.nullSquare(effort.unknown) <= kNoEffort * kNoEffort;
+    return isUnique(qr_.nullSquare(effort.unknown));
   };
   return std::all_of(unknowns_.efforts.begin(), unknowns_.efforts.end(), unique);
 }

@@ -80,6 +80,34 @@ class LoopForces {
 
   const std::vector<LoopUnknowns::Effort>& efforts() const { return unknowns_.efforts; }
 
+  // For samples side by side; see SamplePack.
+  const MultifrontalQr& factorization() const { return qr_; }
+  double largestSize() const { return rank_.largestSize(); }
+  double sureCondition() const { return MultifrontalQr::sureCondition(rank_tolerance_); }
+  /// Number of blocks of the factorization before those of the sets.
+  std::size_t effortBlocks() const { return unknowns_.effort_rows.size(); }
+  double rowUnit(std::size_t row) const { return unknowns_.row_units[row]; }
+  /// Of a set: how its rows become those of its block, the units of its unknowns, and the first.
+  ScaledColumns columnsOf(std::size_t local) const {
+    const std::vector<ScaledColumn>& columns = entries_[local].columns;
+    return {columns.data(), static_cast<int>(columns.size()),
+            static_cast<int>(entries_[local].units.size())};
+  }
+  const double* unitsOf(std::size_t local) const { return entries_[local].units.data(); }
+  Eigen::Index firstUnknownOf(std::size_t local) const { return unknowns_.of_sets[local].first; }
+  /// Whether an effort with this part in the null space is the same in all solutions.
+  static bool isUnique(double null_square);
+  /// A solution among those of a pack, of which `width` neighbouring numbers belong together.
+  struct PackedSolution {
+    const double *x, *closures, *condition, *numbers;
+    const FrontState* states;
+    const int* stairs;
+    std::size_t width, sample;
+  };
+  /// Takes over a solution that leaves no choice.
+  /// @param whole the factorization, too, which direction() needs
+  void takeSample(const PackedSolution& packed, bool whole);
+
   /// What a state adds to the wrench of a crossed joint, about the joint's origin, in root axes.
   ClosureWrench jointWrench(const LoopGroup::CrossedJoint& joint, const State& state) const;
 

@@ -82,6 +82,18 @@ void LoopKinematics::subtractConstants() {
   }
 }
 
+void LoopKinematics::takeSample(const PackedSample& packed, bool whole) {
+  placed_ = false;  // neither q nor the Jacobian are taken
+  const auto take = [&](const double* from, std::size_t count, double* to) {
+    for (std::size_t i = 0; i < count; ++i) to[i] = from[i * packed.width + packed.sample];
+  };
+  take(packed.frames, kFrameNumbers * closures_.size(), values_.frames.front().R_P.data());
+  if (!whole) return;
+  take(packed.links, kLinkNumbers * state_.links.count(), state_.links.numbers());
+  take(packed.wrenches, kWrenchNumbers * values_.unit_wrenches.size(),
+       values_.unit_wrenches.front().force.data());
+}
+
 void LoopKinematics::adoptConstants() {
   adopted_ = true;
   placed_ = false;  // values_ are no longer those of the position

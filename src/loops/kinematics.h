@@ -77,18 +77,12 @@ class LoopKinematics {
     double lengths, directions;
   };
   Norms normsOf(std::size_t set, const Eigen::VectorXd& conditions) const;
-  /// The larger of the two for a closure.
-  struct LargerNorm {
-    double plain;
-    double relative;  ///< with lengths divided by a length
-  };
-  /// @param share one over that length
-  LargerNorm largerNormOf(std::size_t closure, const Eigen::VectorXd& conditions,
-                          double share) const {
-    LargerNorm norm;
+  /// Finds the larger of the two for a closure: as they are, and with lengths divided by a length.
+  /// @param share one over that length. @param norms receives two numbers
+  void findNorms(std::size_t closure, const Eigen::VectorXd& conditions, double share,
+                 double* norms) const {
     kernel_->norms(rows_[closure], lengths_[closure], share, conditions.data() + first_[closure],
-                   &norm.plain);
-    return norm;
+                   norms);
   }
 
   /// Wrench of a multiplier of one; zero where the condition is not a closure's.
@@ -118,6 +112,17 @@ class LoopKinematics {
     sum.force -= sign * wrench.force;
     sum.moment -= sign * (wrench.moment + lever.cross(wrench.force));
   }
+
+  /// How many of a set's conditions, its first, are lengths.
+  int lengthsOf(std::size_t set) const { return lengths_[set]; }
+  /// A sample among those of a pack, of which `width` neighbouring numbers belong together.
+  struct PackedSample {
+    const double *links, *wrenches, *frames;
+    std::size_t width, sample;
+  };
+  /// Takes over the frames of closures.
+  /// @param whole links and wrenches of unit multipliers, too
+  void takeSample(const PackedSample& packed, bool whole);
 
   const LinkKinematics& links() const { return state_.links; }
   const Eigen::Matrix3d& axesOf(int link) const { return links().axesOf(link); }

@@ -26,7 +26,7 @@ void copyTo(double* to, const Eigen::MatrixBase<Derived>& from) {
 JointShape shapeOf(const Joint& joint) {
   const auto& axis = joint.axis_K;
   JointShape shape{};
-  shape.kind = joint.coordinate < 0                ? JointKind::kFixed
+  shape.kind = joint.coordinate < 0            ? JointKind::kFixed
                : unitOf(joint) == Unit::kMetre ? JointKind::kSlides
                                                : JointKind::kTurnsObliquely;
   shape.parent = joint.parent_link;

@@ -82,6 +82,8 @@ class LinkKinematics {
             static_cast<int>(angles_.size())};
   }
   const double* numbers() const { return links_.front().R.data(); }
+  double* numbers() { return links_.front().R.data(); }
+  std::size_t count() const { return links_.size(); }
 
  private:
   /// In the order of LinkNumber.

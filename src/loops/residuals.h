@@ -18,6 +18,9 @@ class LoopResiduals {
 
   /// Computes the residuals of a motion at the position of `kinematics`.
   void set(LoopKinematics& kinematics, const Motion& motion);
+  /// Sets those of a motion from norms that were found already.
+  /// @param norms by closure, by level: plain and relative, `stride` numbers apart
+  void setFromNorms(const Motion& motion, const double* norms, std::size_t stride);
 
   const std::vector<ClosureResidual>& values() const { return values_; }
   const std::vector<ClosureResidual>& relative() const { return relative_; }
@@ -27,6 +30,7 @@ class LoopResiduals {
 
   std::vector<double> scales_;  // by coordinate: 1 or the length
   double length_;
+  std::vector<double> norms_;
   std::vector<ClosureResidual> values_, relative_;
 };
 

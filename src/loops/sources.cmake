@@ -15,11 +15,13 @@ vwd_core(
   kernel/loop_kernel_choice.cpp
   kinematics.cpp
   link_kinematics.cpp
+  loop_rows.cpp
   nearest_closing.cpp
   point_springs.cpp
   rank.cpp
   reactions.cpp
   residuals.cpp
+  sample_pack.cpp
   spring_reach.cpp
   unborne_loads.cpp
   unknowns.cpp

@@ -91,11 +91,10 @@ void SampleBlock::compute(const MotionTable& table, std::size_t first, std::size
                         ", needed are " + std::to_string(first + count) + " x " +
                         std::to_string(coordinates));
     }
+    double* const to = impl.input(i);
     for (std::size_t c = 0; c < coordinates; ++c) {
       const double* const column = source.col(static_cast<Eigen::Index>(c)).data() + first;
-      for (std::size_t row = 0; row < count; ++row) {
-        impl.input(i)[row * coordinates + c] = column[row];
-      }
+      for (std::size_t row = 0; row < count; ++row) to[row * coordinates + c] = column[row];
     }
   }
   impl.takeRoots(table, first, count);

@@ -36,21 +36,26 @@ class RandomBlocks {
       for (int i = number(0, 3); i > 0; --i) {
         some.insert(std::min(columns - 1, first + number(0, number(0, 9) == 0 ? columns : 4)));
       }
-      blocks.push_back({number(1, 6), {some.begin(), some.end()}});
+      RowBlock block{number(1, 6), {some.begin(), some.end()}, {}};
+      for (int row = 0; row < block.rows; ++row) {
+        if (number(0, 3) == 0) block.zeros.push_back(row);
+      }
+      blocks.push_back(block);
     }
     for (int column = 0; column < columns; ++column) {
-      if (number(0, 2) == 0) blocks.push_back({1, {column}});
+      if (number(0, 2) == 0) blocks.push_back({1, {column}, {}});
     }
     std::shuffle(blocks.begin(), blocks.end(), random_);
     return blocks;
   }
 
   // Fills entries with a rank that can be less than the number of rows.
-  void fill(Eigen::MatrixXd& entries) {
+  void fill(Eigen::MatrixXd& entries, const std::vector<int>& zeros) {
     const auto any = [&]() { return real(); };
     const Eigen::Index rank = number(1, static_cast<int>(entries.rows()));
     const Eigen::MatrixXd left = Eigen::MatrixXd::NullaryExpr(entries.rows(), rank, any);
     entries = left * Eigen::MatrixXd::NullaryExpr(rank, entries.cols(), any);
+    for (const int row : zeros) entries.row(row).setZero();
   }
 
  private:
@@ -88,7 +93,9 @@ int forRandomMatrices(Check&& check) {
     const std::vector<RowBlock> blocks = random.blocks(columns);
     MultifrontalQr qr(blocks, columns);
     for (int filling = 0; filling < 3; ++filling) {
-      for (std::size_t b = 0; b < qr.blocks(); ++b) random.fill(qr.entriesOf(b));
+      for (std::size_t b = 0; b < qr.blocks(); ++b) {
+        random.fill(qr.entriesOf(b), blocks[b].zeros);
+      }
       std::vector<bool> present;
       for (int j = 0; j < columns; ++j) present.push_back(filling == 0 || random.number(0, 2) > 0);
       qr.setPresent(present);
@@ -168,8 +175,8 @@ TEST(MultifrontalQr, NullVectorsAreOrthonormalAndComplete) {
 // Rows that say the same are found in their block, not at the end of the chain.
 TEST(MultifrontalQr, NullVectorsOfABlockStayInIt) {
   constexpr int kLoops = 20;
-  std::vector<RowBlock> blocks{{1, {0}}};
-  for (int i = 0; i < kLoops; ++i) blocks.push_back({5, {2 * i, 2 * i + 1, 2 * i + 2}});
+  std::vector<RowBlock> blocks{{1, {0}, {}}};
+  for (int i = 0; i < kLoops; ++i) blocks.push_back({5, {2 * i, 2 * i + 1, 2 * i + 2}, {}});
   MultifrontalQr qr(blocks, 2 * kLoops + 1);
   RandomBlocks random(3);
   qr.entriesOf(0)(0, 0) = 1;
@@ -190,8 +197,64 @@ TEST(MultifrontalQr, NullVectorsOfABlockStayInIt) {
   }
 }
 
+// Matrices side by side: what is found of each is, to the last bit, what is found of it alone.
+TEST(MultifrontalQr, PacksAgreeWithSingleMatrices) {
+  const FrontKernel& kernel = frontKernelFor(chosenInstructionSet());
+  const std::size_t width = static_cast<std::size_t>(kernel.width);
+  RandomBlocks random(5);
+  int compared = 0;
+  for (int round = 0; round < 100; ++round) {
+    const int columns = random.number(1, 12);
+    const std::vector<RowBlock> blocks = random.blocks(columns);
+    MultifrontalQr qr(blocks, columns);
+    const FrontLayout& layout = qr.layout();
+    std::vector<std::vector<double>> packed(blocks.size());
+    Eigen::MatrixXd right(columns, kernel.width), expected(qr.rows(), kernel.width);
+    std::vector<double> conditions;
+    bool all = true;
+    for (std::size_t i = 0; i < width; ++i) {
+      for (std::size_t b = 0; b < blocks.size(); ++b) {
+        Eigen::MatrixXd& entries = qr.entriesOf(b);
+        entries = Eigen::MatrixXd::NullaryExpr(entries.rows(), entries.cols(),
+                                               [&] { return random.real(); });
+        for (const int row : blocks[b].zeros) entries.row(row).setZero();
+        packed[b].resize(static_cast<std::size_t>(entries.size()) * width);
+        for (Eigen::Index k = 0; k < entries.size(); ++k) {
+          packed[b][static_cast<std::size_t>(k) * width + i] = entries.data()[k];
+        }
+      }
+      const auto at = static_cast<Eigen::Index>(i);
+      for (int j = 0; j < columns; ++j) right(j, at) = random.real();
+      all = qr.factorize(kAnyCondition) && all;
+      conditions.push_back(qr.condition());
+      if (all) qr.leastNorm(right.col(at).data(), expected.col(at).data());
+    }
+    if (!all) continue;
+    std::vector<const double*> entries;
+    for (const std::vector<double>& block : packed) entries.push_back(block.data());
+    const AlignedMemory numbers(layout.numbers() * width * sizeof(double));
+    std::vector<FrontState> states(layout.fronts().size());
+    std::vector<int> stairs(layout.stairs());
+    const FrontsMemory memory{static_cast<double*>(numbers.get()), states.data(), stairs.data()};
+    std::vector<double> found(width), x(layout.rows() * width);
+    ASSERT_EQ(kernel.pack.factorize(layout.view(), entries.data(), 0, memory, found.data()),
+              Factorized::kWhole);
+    EXPECT_EQ(found, conditions);
+    const Eigen::MatrixXd b = right.transpose();
+    kernel.pack.leastNorm(layout.view(), memory, b.data(), x.data());
+    for (Eigen::Index row = 0; row < qr.rows(); ++row) {
+      for (std::size_t i = 0; i < width; ++i) {
+        EXPECT_EQ(x[static_cast<std::size_t>(row) * width + i],
+                  expected(row, static_cast<Eigen::Index>(i)));
+      }
+    }
+    ++compared;
+  }
+  EXPECT_GT(compared, 20);
+}
+
 TEST(MultifrontalQr, DependentColumnsAreNoFactorization) {
-  MultifrontalQr qr({{2, {0, 1}}, {2, {1, 2}}}, 3);
+  MultifrontalQr qr({{2, {0, 1}, {}}, {2, {1, 2}, {}}}, 3);
   qr.entriesOf(0) << 1, 2, 2, 4;
   qr.entriesOf(1) << 1, 3, 2, 7;
   EXPECT_TRUE(qr.factorize(kAnyCondition));

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "four_bar.h"
+#include "loop_examples.h"
 #include "plain_results.h"
 #include "result_differences.h"
 #include "robot_builder.h"
@@ -96,6 +98,42 @@ TEST(SampleRows, AreComputedLikeSingleSamples) {
           EXPECT_EQ(motion.qdd, recorded.motions[first + i].qdd);
           dynamics.compute(motion, expected);
           EXPECT_EQ(differences(rows.read(i), expected.results()), "") << first + i;
+        }
+      }
+    }
+  }
+}
+
+// Loops of every kind of group, without a position in doubt, on a motion that the tables of rows
+// jump about in; with and without flags.
+TEST(SampleRows, LoopsSideBySideAreThoseOfSingleSamples) {
+  for (const char* name :
+       {"four_bar", "slider_crank", "planar_3rrr", "stewart_gough", "spatial_parallelogram"}) {
+    const LoopExample example(name);
+    for (const bool determinacy : {false, true}) {
+      Request request = everythingOf({example.mechanism, example.scene, {}});
+      request.determinacy = determinacy;
+      const Dynamics dynamics(example.mechanism, example.scene, request);
+      Dynamics::Workspace workspace = dynamics.makeWorkspace();
+      std::vector<Motion> motions;
+      for (int n = 0; n < 16; ++n) {
+        Motion motion(dynamics.coordinates());
+        motion.q = dynamics.assembly();
+        for (Eigen::Index i = 0; i < motion.q.size(); ++i) {
+          if (!dynamics.actuated()[static_cast<std::size_t>(i)]) continue;
+          motion.q[i] += 0.01 * std::sin(n + static_cast<double>(i));
+          motion.qd[i] = std::cos(2 * n + static_cast<double>(i));
+          motion.qdd[i] = std::sin(3 * n - static_cast<double>(i));
+        }
+        ASSERT_TRUE(dynamics.complete(motion, workspace)) << name;
+        motions.push_back(motion);
+      }
+      SampleRows rows(dynamics, motions.size());
+      for (int round = 0; round < 2; ++round) {
+        rows.compute(tableOf(motions), 0, motions.size());
+        for (std::size_t i = 0; i < motions.size(); ++i) {
+          dynamics.compute(motions[i], workspace);
+          EXPECT_EQ(differences(rows.read(i), workspace.results()), "") << name << ' ' << i;
         }
       }
     }

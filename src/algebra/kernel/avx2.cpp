@@ -1,6 +1,6 @@
 // Compiled with the instructions it is named after where the compiler has them; see sources.cmake.
 #if defined(__AVX2__)
-#include "algebra/kernel/fronts.h"
+#include "algebra/kernel/front_solutions.h"
 #else
 #include "algebra/kernel/front_kernel.h"
 #endif

@@ -1,4 +1,4 @@
-#include "algebra/kernel/fronts.h"
+#include "algebra/kernel/front_solutions.h"
 
 namespace virtual_work_dynamics {
 

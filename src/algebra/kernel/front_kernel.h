@@ -20,10 +20,10 @@ struct BlockColumn {
 /// A block that a front takes in.
 struct BlockRows {
   int block;
-  int rows;                       ///< that can have entries
-  int height;                     ///< number of all its rows
-  int order;                      ///< in FrontsView::row_order: the former, then the others
-  int first;                      ///< its first row in the matrix
+  int rows;                        ///< that can have entries
+  int height;                      ///< number of all its rows
+  int order;                       ///< in FrontsView::row_order: the former, then the others
+  int first;                       ///< its first row in the matrix
   int columns_begin, columns_end;  ///< of FrontsView::block_columns
 };
 

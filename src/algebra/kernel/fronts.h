@@ -12,14 +12,17 @@ constexpr double kRoundingFraction = 16 * 2.220446049250313e-16;
 // Squares of lengths below this are too close to underflow for a reflection.
 constexpr double kLeastSquare = 1e-280;
 
-// Chunks that begin at entry kRowChunk - i have zeros in their first i rows, or a one in row i only.
+// Chunks that begin at entry kRowChunk - i have zeros in their first i rows, or a one in row i
+// only.
 static_assert(kRowChunk == 4, "as these tables");
 constexpr double kStep[] = {0, 0, 0, 0, 1, 1, 1, 1};
 constexpr double kUnit[] = {0, 0, 0, 0, 1, 0, 0, 0};
 
 /// The numbers of one factorization: T is a number of the matrix, C a chunk of a column, which is
 /// several rows of one matrix, or one row of several.
-template <typename T, typename C>
+/// @param kSums how many rows at a time one matrix has: with several, too, sums are made of as many
+///   parts, so that both agree bit for bit
+template <typename T, typename C, int kSums>
 struct Fronts {
   static constexpr int kLanes = LanesOf<T>::value;
   static constexpr int kChunk = static_cast<int>(sizeof(C) / sizeof(T));
@@ -71,9 +74,23 @@ struct Fronts {
   VWD_INLINE static int chunkWith(int row) { return row / kChunk * kChunk; }
 
   VWD_INLINE static T dot(const T* a, const T* b, int from, int rows) {
-    C sum = chunk(a + from) * chunk(b + from);
-    for (int i = from + kChunk; i < rows; i += kChunk) sum = mulAdd(chunk(a + i), chunk(b + i), sum);
-    return total(sum);
+    if constexpr (kChunk > 1) {
+      C sum = chunk(a + from) * chunk(b + from);
+      for (int i = from + kChunk; i < rows; i += kChunk) {
+        sum = mulAdd(chunk(a + i), chunk(b + i), sum);
+      }
+      return total(sum);
+    } else {
+      const T zero(0.0);
+      T sums[kSums];
+      for (T& sum : sums) sum = zero;
+      const int first_end = from / kSums * kSums + kSums;
+      int i = from;
+      for (; i < rows && i < first_end; ++i) sums[i % kSums] = a[i] * b[i];
+      for (; i < rows; ++i) sums[i % kSums] = mulAdd(a[i], b[i], sums[i % kSums]);
+      if constexpr (kSums == 2) return sums[0] + sums[1];
+      return (sums[0] + sums[2 % kSums]) + (sums[1] + sums[3 % kSums]);
+    }
   }
   VWD_INLINE static void subtract(const T& factor, const T* what, T* of, int from, int rows) {
     const C times(factor);
@@ -127,20 +144,22 @@ struct Fronts {
     const T* const from = front.column(column);
     T* const v = front.reflection(step);
     int i = chunkWith(step);
-    C sum(0.0);
     if constexpr (kChunk > 1) {
+      C sum(0.0);
       for (int above = 0; above < i; above += kChunk) put(v + above, sum);
-      const C part = load<C>(kStep + kRowChunk - (step - i)) * chunk(from + i);
-      put(v + i, part);
-      sum = part * part;
-      i += kChunk;
+      const C first = load<C>(kStep + kRowChunk - (step - i)) * chunk(from + i);
+      put(v + i, first);
+      sum = first * first;
+      for (i += kChunk; i < rows; i += kChunk) {
+        const C part = chunk(from + i);
+        put(v + i, part);
+        sum = mulAdd(part, part, sum);
+      }
+      return total(sum);
+    } else {
+      for (; i < rows; ++i) v[i] = from[i];
+      return dot(v, v, step, rows);
     }
-    for (; i < rows; i += kChunk) {
-      const C part = chunk(from + i);
-      put(v + i, part);
-      sum = mulAdd(part, part, sum);
-    }
-    return total(sum);
   }
 
   /// Reflects with 1 - factor v v^T, which makes of the column that startReflection() was told its
@@ -153,7 +172,8 @@ struct Fronts {
     const T diagonal = awayFrom(*head, squareRoot(square));
     const T factor = T(1.0) / subMul(square, diagonal, *head);
     if constexpr (kChunk > 1) {
-      put(v + from, subMul(chunk(v + from), C(diagonal), load<C>(kUnit + kRowChunk - (step - from))));
+      put(v + from,
+          subMul(chunk(v + from), C(diagonal), load<C>(kUnit + kRowChunk - (step - from))));
     } else {
       v[step] = *head - diagonal;
     }
@@ -179,8 +199,8 @@ struct Fronts {
     return compress(front, rows);
   }
 
-  /// Reflects the rows below the pivots into as few rows as their entries allow; the other rows then
-  /// have no entries.
+  /// Reflects the rows below the pivots into as few rows as their entries allow; the other rows
+  /// then have no entries.
   VWD_INLINE static Factorized compress(const Front& front, int rows) {
     const FrontShape& shape = front.shape;
     if (shape.width == shape.pivots) return Factorized::kWhole;
@@ -188,8 +208,7 @@ struct Fronts {
     for (int j = shape.pivots; j < shape.width; ++j) {
       longest = largerOf(dot(front.column(j), front.column(j), 0, rows), longest);
     }
-    const T nothing =
-        largerOf(kRoundingFraction * kRoundingFraction * longest, T(kLeastSquare));
+    const T nothing = largerOf(kRoundingFraction * kRoundingFraction * longest, T(kLeastSquare));
     for (int j = shape.pivots; j < shape.width && front.state.steps < front.state.rows; ++j) {
       const T square = startReflection(front, front.state.steps, j, rows);
       const int above = lanesAbove(square, nothing);
@@ -278,140 +297,7 @@ struct Fronts {
       for (int i = 0; i < k; ++i) z[i] = subMul(z[i], value, entries[i]);
     }
   }
-
-  VWD_INLINE static void reflectVector(const Front& front, int step) {
-    const T* const v = front.reflection(step);
-    const int from = chunkWith(step), rows = front.rows();
-    subtract(front.factors[step] * dot(v, front.z, from, rows), v, front.z, from, rows);
-  }
-  VWD_INLINE static void applyQ(const Front& front) {
-    for (int step = front.state.steps; step-- > 0;) reflectVector(front, step);
-  }
-  VWD_INLINE static void applyQTransposed(const Front& front) {
-    for (int step = 0; step < front.state.steps; ++step) reflectVector(front, step);
-  }
-
-  static void reflectBack(const FrontsView& view, const FrontsMemory& memory, int f) {
-    applyQ(Front(view, memory, f));
-  }
-
-  static void leastNorm(const FrontsView& view, const FrontsMemory& memory, const double* b,
-                        double* x) {
-    T* const sums = reinterpret_cast<T*>(memory.numbers) + view.sums;
-    for (int j = 0; j < view.column_count; ++j) sums[j] = load<T>(b + j * kLanes);
-    for (int f = 0; f < view.front_count; ++f) {
-      const Front front(view, memory, f);
-      const int* const columns = view.columns + front.shape.columns;
-      T* const z = front.z;
-      for (int k = 0; k < front.shape.pivots; ++k) {  // R^T y = b
-        const T* const entries = front.column(k);
-        T sum = sums[columns[k]];
-        for (int i = 0; i < k; ++i) sum = subMul(sum, entries[i], z[i]);
-        z[k] = sum * front.reciprocals[k];
-      }
-      for (int j = front.shape.pivots; j < front.shape.width; ++j) {
-        const T* const entries = front.column(j);
-        T sum = sums[columns[j]];
-        for (int i = 0; i < front.shape.pivots; ++i) sum = subMul(sum, entries[i], z[i]);
-        sums[columns[j]] = sum;
-      }
-    }
-    for (int f = view.front_count; f-- > 0;) {
-      const Front front(view, memory, f);
-      for (int i = front.state.steps; i < front.rows(); ++i) front.z[i] = T(0.0);
-      applyQ(front);
-      scatter(view, memory, front, x);
-    }
-  }
-
-  /// Hands the rows of a front on to its blocks' entries of x and to its children.
-  VWD_INLINE static void scatter(const FrontsView& view, const FrontsMemory& memory,
-                                 const Front& front, double* x) {
-    const T* z = front.z;
-    for (int b = front.shape.blocks_begin; b < front.shape.blocks_end; ++b) {
-      const BlockRows& block = view.blocks[b];
-      double* const to = x + block.first * kLanes;
-      const int* const order = view.row_order + block.order;
-      for (int i = 0; i < block.rows; ++i) store(to + order[i] * kLanes, *z++);
-      for (int i = block.rows; i < block.height; ++i) store(to + order[i] * kLanes, T(0.0));
-    }
-    for (int c = front.shape.children_begin; c < front.shape.children_end; ++c) {
-      const Front child(view, memory, view.children[c].front);
-      for (int i = 0; i < child.remaining(); ++i) child.z[child.shape.pivots + i] = *z++;
-    }
-  }
-
-  static void leastSquares(const FrontsView& view, const FrontsMemory& memory, const double* r,
-                           double* u) {
-    for (int f = 0; f < view.front_count; ++f) {
-      const Front front(view, memory, f);
-      int row = 0;
-      for (int b = front.shape.blocks_begin; b < front.shape.blocks_end; ++b) {
-        const BlockRows& block = view.blocks[b];
-        const double* const from = r + block.first * kLanes;
-        const int* const order = view.row_order + block.order;
-        for (int i = 0; i < block.rows; ++i) front.z[row++] = load<T>(from + order[i] * kLanes);
-      }
-      for (int c = front.shape.children_begin; c < front.shape.children_end; ++c) {
-        const Front child(view, memory, view.children[c].front);
-        for (int i = 0; i < child.remaining(); ++i) {
-          front.z[row++] = child.z[child.shape.pivots + i];
-        }
-      }
-      for (; row < front.rows(); ++row) front.z[row] = T(0.0);
-      applyQTransposed(front);
-    }
-    T* const solution = reinterpret_cast<T*>(memory.numbers) + view.solution;
-    for (int f = view.front_count; f-- > 0;) {
-      const Front front(view, memory, f);
-      backSubstitute(view, front, solution);
-      for (int k = 0; k < front.shape.pivots; ++k) {
-        const int column = view.columns[front.shape.columns + k];
-        store(u + column * kLanes, solution[column]);
-      }
-    }
-  }
-
-  /// Goes from the row's front to the last one that its part reaches.
-  static void nullSquare(const FrontsView& view, const FrontsMemory& memory, int f, int row,
-                         double* to) {
-    T square = T(0.0);
-    {
-      const Front front(view, memory, f);
-      for (int i = 0; i < front.rows(); ++i) front.z[i] = T(0.0);
-      front.z[row] = T(1.0);
-    }
-    for (;;) {
-      const Front front(view, memory, f);
-      applyQTransposed(front);
-      for (int i = front.state.steps; i < front.state.rows; ++i) {
-        square = mulAdd(front.z[i], front.z[i], square);
-      }
-      if (front.shape.parent == f || front.remaining() == 0) break;
-      const Front next(view, memory, front.shape.parent);
-      for (int i = 0; i < next.rows(); ++i) next.z[i] = T(0.0);
-      for (int i = 0; i < front.remaining(); ++i) {
-        next.z[front.state.in_parent + i] = front.z[front.shape.pivots + i];
-      }
-      f = front.shape.parent;
-    }
-    store(to, square);
-  }
-
-  static constexpr FrontFunctions functions() {
-    return {factorize, leastNorm, leastSquares, nullSquare, reflectBack};
-  }
 };
-
-/// Packs of kWidth matrices, and single matrices kRows rows at a time.
-template <int kWidth, int kRows>
-const FrontKernel* frontKernel() {
-  using Lanes = Pack<double, kWidth>;
-  static constexpr FrontKernel kKernel = {kWidth,
-                                          Fronts<double, Pack<double, kRows>>::functions(),
-                                          Fronts<Lanes, Lanes>::functions()};
-  return &kKernel;
-}
 
 }  // namespace
 }  // namespace virtual_work_dynamics

@@ -74,8 +74,7 @@ VWD_INLINE void placeColumns(const ClosureShape& shape, const T* links, const T*
 }
 
 template <typename T>
-void placeClosure(const ClosureShape& shape, const double* link_numbers,
-                  const ClosureNumbers& to) {
+void placeClosure(const ClosureShape& shape, const double* link_numbers, const ClosureNumbers& to) {
   const T* const links = reinterpret_cast<const T*>(link_numbers);
   T* const frames = reinterpret_cast<T*>(to.frames);
   T* const wrenches = reinterpret_cast<T*>(to.wrenches);
@@ -122,8 +121,7 @@ VWD_INLINE PointMotion<T> seenFromParent(const ClosureShape& shape, const T* lin
 }
 
 template <typename T>
-void moveClosure(const ClosureShape& shape, const double* link_numbers,
-                 const ClosureNumbers& to) {
+void moveClosure(const ClosureShape& shape, const double* link_numbers, const ClosureNumbers& to) {
   const T* const links = reinterpret_cast<const T*>(link_numbers);
   const T* const frames = reinterpret_cast<const T*>(to.frames);
   const T* const wrenches = reinterpret_cast<const T*>(to.wrenches);
@@ -136,8 +134,7 @@ void moveClosure(const ClosureShape& shape, const double* link_numbers,
       const Vec3<T> r = vectorAt(frames + kFrameCo) - vectorAt(frames + kFramePo);
       const T distance = squareRoot(dot(r, r)), rate = dot(force, seen.v);
       const T across = subMul(dot(seen.v, seen.v), rate, rate);
-      turning[i] =
-          wherePositive(distance, across / distance + dot(force, seen.a), T(0.0));
+      turning[i] = wherePositive(distance, across / distance + dot(force, seen.a), T(0.0));
     } else if (demand.kind == DemandKind::kAlong) {
       turning[i] = dot(force, seen.a);
     } else {

@@ -173,7 +173,7 @@ void moveLinks(const LinksView& view, const double* qd_numbers, double* link_num
       w = vectorAt(parent + kLinkW);
       alpha = vectorAt(parent + kLinkAlpha);
       const Vec3<T> turned = cross(w, r);
-      v = vectorAt(parent + kLinkV) + turned;  // (2.6)
+      v = vectorAt(parent + kLinkV) + turned;                                  // (2.6)
       a = addCross(addCross(vectorAt(parent + kLinkA), alpha, r), w, turned);  // (2.7)
       if (joint.kind == JointKind::kSlides) {
         a = addCross(a, scaled(T(2.0), w), rate);  // (2.7)

@@ -12,8 +12,16 @@ namespace virtual_work_dynamics {
 
 /// Numbers of a link, in root axes: axes R by columns, origin o and axis z of its joint; of the
 /// origin v, w, a and alpha.
-enum LinkNumber { kLinkR = 0, kLinkO = 9, kLinkZ = 12, kLinkV = 15, kLinkW = 18, kLinkA = 21,
-                  kLinkAlpha = 24, kLinkNumbers = 27 };
+enum LinkNumber {
+  kLinkR = 0,
+  kLinkO = 9,
+  kLinkZ = 12,
+  kLinkV = 15,
+  kLinkW = 18,
+  kLinkA = 21,
+  kLinkAlpha = 24,
+  kLinkNumbers = 27
+};
 
 /// Numbers of a closure's frames, see FramePair: axes of P and C by columns, then their origins.
 enum FrameNumber { kFrameP = 0, kFrameC = 9, kFramePo = 18, kFrameCo = 21, kFrameNumbers = 24 };
@@ -59,11 +67,11 @@ constexpr int kMostAngleLanes = 8;
 
 /// A joint on the path of a closure that moves.
 struct StepShape {
-  int link;        ///< that the joint carries
+  int link;  ///< that the joint carries
   int coordinate;
   bool slides;
-  bool starts;     ///< whether it is the first with its coordinate
-  double factor;   ///< of the coordinate's rate, for the child relative to the parent
+  bool starts;    ///< whether it is the first with its coordinate
+  double factor;  ///< of the coordinate's rate, for the child relative to the parent
 };
 
 /// See ClosureDemand.

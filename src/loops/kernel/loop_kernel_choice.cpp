@@ -20,8 +20,7 @@ const LoopKernel* kernelOrNull(InstructionSet instruction_set) {
 }  // namespace
 
 const LoopKernel& loopKernelFor(InstructionSet instruction_set) {
-  const LoopKernel* kernel =
-      isSupported(instruction_set) ? kernelOrNull(instruction_set) : nullptr;
+  const LoopKernel* kernel = isSupported(instruction_set) ? kernelOrNull(instruction_set) : nullptr;
   if (!kernel) {
     throw Error("this machine or build has no " + toString(instruction_set) + " instructions");
   }

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "tree/kernel/kernel.h"
 #include "base/number.h"
+#include "tree/kernel/kernel.h"
 
 namespace virtual_work_dynamics {
 namespace {  // see kernel.h

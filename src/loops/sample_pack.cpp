@@ -1,0 +1,227 @@
+#include "loops/sample_pack.h"
+
+#include <algorithm>
+
+namespace virtual_work_dynamics {
+
+namespace {
+
+constexpr std::size_t kLevels = 3;  // of residuals
+constexpr std::size_t kNorms = 2;   // plain and relative
+
+std::size_t blockNumbers(const MultifrontalQr& qr, std::size_t block) {
+  return static_cast<std::size_t>(qr.entriesOf(block).size());
+}
+
+// Calls take(count) for each array of a group, in the order of SamplePack::Group.
+template <typename Take>
+void visitArrays(const MultifrontalQr& qr, std::size_t closures, std::size_t efforts, Take take) {
+  for (std::size_t b = 0; b < qr.blocks(); ++b) take(blockNumbers(qr, b));
+  take(qr.layout().numbers());
+  take(static_cast<std::size_t>(qr.columns()));
+  take(qr.layout().rows());
+  take(kWrenchNumbers * closures);
+  take(1);
+  take(std::max<std::size_t>(efforts, 1));
+}
+
+}  // namespace
+
+void LoopForces::takeSample(const PackedSolution& packed, bool whole) {
+  const auto number = [&](const double* from, Eigen::Index i) {
+    return from[static_cast<std::size_t>(i) * packed.width + packed.sample];
+  };
+  for (Eigen::Index i = 0; i < unknowns(); ++i) solution_.x[i] = number(packed.x, i);
+  Eigen::Index next = 0;
+  for (ClosureWrench& wrench : solution_.closures) {
+    for (int i = 0; i < 3; ++i) wrench.force[i] = number(packed.closures, next++);
+    for (int i = 0; i < 3; ++i) wrench.moment[i] = number(packed.closures, next++);
+  }
+  qr_.take(packed.numbers, packed.states, packed.stairs, number(packed.condition, 0), packed.width,
+           packed.sample, whole);
+  sound_ = bears_ = true;
+  turns_.clear();
+  change_.shift.setZero();
+  direction_count_ = redundant_constraints_ = static_cast<Eigen::Index>(qr_.nullity());
+}
+
+bool SamplePack::serves(const ClosedLoopDynamics::Impl& plan) {
+  return plan.springs.size() == 0 && plan.actuated_closures.empty() && !plan.weighed_pass &&
+         plan.loops.policy == RedundancyPolicy::kMinimumNorm &&
+         plan.kinematics.sets() == plan.closures && !plan.kinematics.drives();
+}
+
+SamplePack::SamplePack(const ClosedLoopDynamics::Impl& plan, const LoopSolvers& solvers)
+    : plan_(plan),
+      solvers_(solvers),
+      loops_(loopKernelFor(chosenInstructionSet()).pack),
+      fronts_(frontKernelFor(chosenInstructionSet()).pack),
+      width_(static_cast<std::size_t>(loopKernelFor(chosenInstructionSet()).width)),
+      coordinates_(static_cast<std::size_t>(plan.assembly.size())),
+      conditions_(static_cast<std::size_t>(solvers.kinematics.conditions())),
+      links_(plan.mechanism.links().size()),
+      memory_([&] {
+        const LinksView view = solvers.kinematics.links().view();
+        std::size_t count = 4 * coordinates_ + kLinkNumbers * links_ +
+                            2 * static_cast<std::size_t>(view.angle_count + kMostAngleLanes) +
+                            conditions_ * (4 + coordinates_ + kWrenchNumbers) +
+                            plan.closures * (kFrameNumbers + kLevels * kNorms);
+        for (const LoopForces& forces : solvers.forces) {
+          visitArrays(forces.factorization(), forces.group().closures.size(),
+                      forces.efforts().size(), [&](std::size_t size) { count += size; });
+        }
+        return count * width_ * sizeof(double);
+      }()),
+      computed_(width_, false) {
+  std::size_t next = 0;
+  const auto deal = [&](std::size_t count) {
+    double* const here = numbers(next);
+    next += count;
+    return here;
+  };
+  const LinksView view = solvers.kinematics.links().view();
+  for (double** array : {&q_, &qd_, &qdd_, &efforts_}) *array = deal(coordinates_);
+  angles_ = deal(2 * static_cast<std::size_t>(view.angle_count + kMostAngleLanes));
+  link_numbers_ = deal(kLinkNumbers * links_);
+  for (std::size_t i = 0; i < 9; i += 4) {  // the root's axes
+    std::fill_n(link_numbers_ + (kLinkR + i) * width_, width_, 1.0);
+  }
+  for (double** array : {&phi_, &turning_, &rates_, &accelerations_}) *array = deal(conditions_);
+  A_ = deal(conditions_ * coordinates_);
+  wrenches_ = deal(kWrenchNumbers * conditions_);
+  frames_ = deal(kFrameNumbers * plan.closures);
+  norms_ = deal(kLevels * kNorms * plan.closures);
+  for (const LoopForces& forces : solvers.forces) {
+    const MultifrontalQr& qr = forces.factorization();
+    Group group;
+    std::vector<double*> arrays;
+    visitArrays(qr, forces.group().closures.size(), forces.efforts().size(),
+                [&](std::size_t size) { arrays.push_back(deal(size)); });
+    const std::size_t blocks = qr.blocks();
+    group.entries.assign(arrays.begin(), arrays.begin() + static_cast<std::ptrdiff_t>(blocks));
+    group.entries_read.assign(group.entries.begin(), group.entries.end());
+    group.numbers = arrays[blocks];
+    group.load = arrays[blocks + 1];
+    group.x = arrays[blocks + 2];
+    group.closures = arrays[blocks + 3];
+    group.condition = arrays[blocks + 4];
+    group.null_square = arrays[blocks + 5];
+    group.states.resize(qr.layout().fronts().size());
+    group.stairs.resize(qr.layout().stairs());
+    for (std::size_t b = 0; b < forces.effortBlocks(); ++b) {  // these never change
+      std::fill_n(group.entries[b], width_, qr.entriesOf(b)(0, 0));
+    }
+    groups_.push_back(std::move(group));
+  }
+}
+
+void SamplePack::setMotion(std::size_t sample, const Motion& motion) {
+  for (std::size_t i = 0; i < coordinates_; ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    q_[i * width_ + sample] = motion.q[at];
+    if (plan_.static_motion) continue;
+    qd_[i * width_ + sample] = motion.qd[at];
+    qdd_[i * width_ + sample] = motion.qdd[at];
+  }
+}
+
+void SamplePack::setEfforts(std::size_t sample, const Eigen::VectorXd& tree_effort) {
+  for (std::size_t i = 0; i < coordinates_; ++i) {
+    efforts_[i * width_ + sample] = tree_effort[static_cast<Eigen::Index>(i)];
+  }
+}
+
+void SamplePack::compute() {
+  std::fill(computed_.begin(), computed_.end(), true);
+  placeAndMove();
+  for (std::size_t g = 0; g < groups_.size(); ++g) solve(solvers_.forces[g], groups_[g]);
+}
+
+// Positions, velocities and accelerations of links and conditions, and how far these are violated.
+void SamplePack::placeAndMove() {
+  const LoopKinematics& kinematics = solvers_.kinematics;
+  loops_.placeLinks(kinematics.links().view(), q_, angles_, link_numbers_);
+  loops_.moveLinks(kinematics.links().view(), qd_, link_numbers_);
+  std::fill_n(rates_, conditions_ * width_, 0.0);
+  for (std::size_t c = 0; c < plan_.closures; ++c) {
+    const ClosureShape& shape = kinematics.closure(c).shape();
+    const RowsShape& rows = kinematics.rowsOf(c);
+    const std::size_t first = static_cast<std::size_t>(kinematics.firstOf(c)) * width_;
+    loops_.placeClosure(shape, link_numbers_,
+                        {phi_ + first, A_ + first, conditions_, wrenches_ + kWrenchNumbers * first,
+                         frames_ + kFrameNumbers * c * width_, turning_ + first});
+    loops_.moveClosure(shape, link_numbers_,
+                       {phi_ + first, A_ + first, conditions_, wrenches_ + kWrenchNumbers * first,
+                        frames_ + kFrameNumbers * c * width_, turning_ + first});
+    std::copy_n(turning_ + first, static_cast<std::size_t>(rows.rows) * width_,
+                accelerations_ + first);
+    loops_.addMotion(rows, A_ + first, qd_, qdd_, rates_ + first, accelerations_ + first);
+    double* norms = norms_ + kLevels * kNorms * c * width_;
+    for (const double* values : {phi_, rates_, accelerations_}) {
+      loops_.norms(rows, kinematics.lengthsOf(c), 1 / plan_.length, values + first, norms);
+      norms += kNorms * width_;
+    }
+  }
+}
+
+void SamplePack::solve(const LoopForces& forces, Group& group) {
+  const MultifrontalQr& qr = forces.factorization();
+  const LoopKinematics& kinematics = solvers_.kinematics;
+  for (std::size_t local = 0; local < forces.group().sets.size(); ++local) {
+    const std::size_t set = forces.group().sets[local];
+    const std::size_t first = static_cast<std::size_t>(kinematics.firstOf(set)) * width_;
+    const std::size_t block = forces.effortBlocks() + local;
+    loops_.scaleColumns(kinematics.rowsOf(set), forces.columnsOf(local), forces.unitsOf(local),
+                        A_ + first, group.entries[block]);
+  }
+  const FrontsView& view = qr.layout().view();
+  const FrontsMemory memory{group.numbers, group.states.data(), group.stairs.data()};
+  const Factorized done = fronts_.factorize(view, group.entries_read.data(), forces.largestSize(),
+                                            memory, group.condition);
+  if (done != Factorized::kWhole) {
+    std::fill(computed_.begin(), computed_.end(), false);
+    return;
+  }
+  const std::vector<int>& coordinates = forces.group().coordinates;
+  for (std::size_t row = 0; row < coordinates.size(); ++row) {
+    const double* const effort = efforts_ + static_cast<std::size_t>(coordinates[row]) * width_;
+    const double unit = forces.rowUnit(row);
+    for (std::size_t j = 0; j < width_; ++j) group.load[row * width_ + j] = effort[j] / unit;
+  }
+  fronts_.leastNorm(view, memory, group.load, group.x);
+  const std::size_t efforts = qr.nullity() > 0 ? forces.efforts().size() : 0;
+  for (std::size_t i = 0; i < efforts; ++i) {
+    const FrontLayout::RowPlace& place =
+        qr.layout().placeOf(static_cast<std::size_t>(forces.efforts()[i].unknown));
+    fronts_.nullSquare(view, memory, place.front, place.row, group.null_square + i * width_);
+  }
+  for (std::size_t j = 0; j < width_; ++j) {
+    bool sure = group.condition[j] <= forces.sureCondition();
+    for (std::size_t i = 0; i < efforts; ++i) {
+      sure = sure && LoopForces::isUnique(group.null_square[i * width_ + j]);
+    }
+    if (!sure) computed_[j] = false;
+  }
+  for (std::size_t c = 0; c < forces.group().closures.size(); ++c) {
+    const std::size_t closure = forces.group().closures[c];
+    const std::size_t first = static_cast<std::size_t>(kinematics.firstOf(closure)) * width_;
+    loops_.sumWrenches(kinematics.closure(closure).shape(), forces.unitsOf(c),
+                       group.x + static_cast<std::size_t>(forces.firstUnknownOf(c)) * width_,
+                       wrenches_ + kWrenchNumbers * first,
+                       group.closures + kWrenchNumbers * c * width_);
+  }
+}
+
+void SamplePack::take(std::size_t sample, const Motion& motion, bool whole,
+                      LoopSolvers& solvers) const {
+  solvers.kinematics.takeSample({link_numbers_, wrenches_, frames_, width_, sample}, whole);
+  solvers.residuals.setFromNorms(motion, norms_ + sample, width_);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Group& group = groups_[g];
+    solvers.forces[g].takeSample({group.x, group.closures, group.condition, group.numbers,
+                                  group.states.data(), group.stairs.data(), width_, sample},
+                                 whole);
+  }
+}
+
+}  // namespace virtual_work_dynamics
