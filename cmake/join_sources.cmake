@@ -9,6 +9,10 @@ function(vwd_join target)
   if(VWD_JOIN_SOURCES)
     set_target_properties(${target} PROPERTIES
       UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${vwd_joined_at_once})
+    # GCC warns of members from unnamed namespaces where these are not the compiled file's own.
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+    endif()
   endif()
 endfunction()
 

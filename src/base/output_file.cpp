@@ -23,7 +23,7 @@ namespace {
 constexpr std::array<int, 17> kEndingSignals{SIGHUP,  SIGINT,  SIGQUIT, SIGILL,  SIGTRAP,  SIGABRT,
                                              SIGBUS,  SIGFPE,  SIGUSR1, SIGSEGV, SIGUSR2,  SIGPIPE,
                                              SIGALRM, SIGTERM, SIGXCPU, SIGXFSZ, SIGVTALRM};
-constexpr std::size_t kLongestName = 255;
+constexpr std::size_t kLongestFileName = 255;
 constexpr std::string_view kUnique = ".XXXXXX.part";
 
 // The file that a signal handler may remove; null when there is none.
@@ -43,7 +43,7 @@ mode_t modeOf(const std::string& path) {
 int createBeside(const std::string& path, std::string& part) {
   const std::filesystem::path whole(path);
   std::string name = whole.filename().string();
-  name.resize(std::min(name.size(), kLongestName - kUnique.size()));
+  name.resize(std::min(name.size(), kLongestFileName - kUnique.size()));
   part = (whole.parent_path() / (name + std::string(kUnique))).string();
   const int suffix = static_cast<int>(std::string_view(".part").size());
   const int descriptor = mkostemps(part.data(), suffix, O_CLOEXEC);

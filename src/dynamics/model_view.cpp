@@ -21,7 +21,7 @@ constexpr double kViewTurn =
     0.6;  // rad that joints of an open chain turn to either side, to be in view
 constexpr double kCell = 0.2;  // of a grid, of the size
 // A force below this part of the weight, a moment below this part of force times size, is nothing.
-constexpr double kNothing = 1e-9;
+constexpr double kNegligible = 1e-9;
 // What is small at the start by chance does not count as less than this part of the largest force
 // times size, or the largest moment over size: motion would make its arrows gigantic.
 constexpr double kLeastArm = 0.1;
@@ -180,7 +180,7 @@ Largest referenceOf(const Mechanism& mechanism, const Dynamics& dynamics, Motion
   Dynamics::Workspace workspace = dynamics.makeWorkspace();
   const double weight = weightOf(mechanism);
   const auto isNothing = [&](const Largest& largest) {
-    return !(std::max(largest.force, largest.torque / size) > kNothing * weight);
+    return !(std::max(largest.force, largest.torque / size) > kNegligible * weight);
   };
   Largest reference = largestOf(dynamics, motion, workspace);
   if (isNothing(reference)) {
@@ -195,9 +195,9 @@ Largest referenceOf(const Mechanism& mechanism, const Dynamics& dynamics, Motion
 
 void setScales(const Largest& reference, ModelView& view) {
   const double from_torque = reference.torque / view.size;
-  const bool pulls = reference.force > kNothing * from_torque;
+  const bool pulls = reference.force > kNegligible * from_torque;
   const double force = pulls ? std::max(reference.force, kLeastArm * from_torque) : from_torque;
-  const bool turns = reference.torque > kNothing * force * view.size;
+  const bool turns = reference.torque > kNegligible * force * view.size;
   const double torque = turns ? std::max(reference.torque, kLeastArm * force * view.size)
                               : kUsualArm * force * view.size;
   view.force_scale = ModelView::kArrow * view.size / force;

@@ -11,9 +11,9 @@ namespace {
 // A row is an analytic function of the position: when it is zero in a few that have nothing in
 // common with each other, it is zero in all.
 constexpr int kPositions = 6;
-constexpr double kTurn = 3;  // rad; slides go as far, in lengths of the mechanism
+constexpr double kLargestTurn = 3;  // rad; slides go as far, in lengths of the mechanism
 // Roundings of the products that a row is made of, in units of the numbers that cancel.
-constexpr double kRounding = 256 * std::numeric_limits<double>::epsilon();
+constexpr double kRowRounding = 256 * std::numeric_limits<double>::epsilon();
 
 // The largest distance of a frame on the paths of closures from the root.
 double reachOf(const LoopKinematics& kinematics) {
@@ -39,7 +39,7 @@ std::vector<bool> zeroRows(const Mechanism& mechanism, const LoopKinematics& giv
   }
   const double length = std::max(reachOf(kinematics), std::numeric_limits<double>::min());
   std::mt19937 random(1);
-  std::uniform_real_distribution<double> turn(-kTurn, kTurn);
+  std::uniform_real_distribution<double> turn(-kLargestTurn, kLargestTurn);
   Eigen::VectorXd q(kinematics.jacobian().cols());
   for (int n = 0; n < kPositions; ++n) {
     for (Eigen::Index i = 0; i < q.size(); ++i) {
@@ -51,7 +51,7 @@ std::vector<bool> zeroRows(const Mechanism& mechanism, const LoopKinematics& giv
       if (!zero[static_cast<std::size_t>(i)]) continue;
       const double size = scaleOf(kinematics.condition(i).unit, reach);
       const double largest = kinematics.jacobian().row(i).cwiseAbs().maxCoeff();
-      zero[static_cast<std::size_t>(i)] = largest <= kRounding * size;
+      zero[static_cast<std::size_t>(i)] = largest <= kRowRounding * size;
     }
   }
   return zero;

@@ -5,19 +5,18 @@
 #include <cmath>
 #include <set>
 
+#include "motion/orientation_length.h"
+
 namespace virtual_work_dynamics {
 namespace {
 
-// A quaternion that is off by more is no rounded one.
-constexpr double kOrientationOff = 1e-3;
-
-struct Quantity {
+struct FreeQuantity {
   const char* name;
   const char* components;  // a letter each
   double* (*of)(FreeTurn& turn);
 };
 
-constexpr std::array<Quantity, 3> kQuantities{
+constexpr std::array<FreeQuantity, 3> kFreeQuantities{
     {{"orientation", "xyzw", [](FreeTurn& turn) { return turn.orientation.coeffs().data(); }},
      {"angular_velocity", "xyz", [](FreeTurn& turn) { return turn.angular_velocity.data(); }},
      {"angular_acceleration", "xyz",
@@ -25,7 +24,7 @@ constexpr std::array<Quantity, 3> kQuantities{
 
 // The joint of a column; empty when it is not one of a quantity.
 std::string_view jointOf(std::string_view column) {
-  for (const Quantity& quantity : kQuantities) {
+  for (const FreeQuantity& quantity : kFreeQuantities) {
     const std::string_view name = quantity.name;
     if (column.size() < name.size() + 4 || column.substr(0, name.size()) != name ||
         column[name.size()] != '.' || column[column.size() - 2] != '.') {
@@ -39,7 +38,7 @@ std::string_view jointOf(std::string_view column) {
   return {};
 }
 
-std::vector<std::string> columnsOf(const Quantity& quantity, const std::string& joint) {
+std::vector<std::string> columnsOf(const FreeQuantity& quantity, const std::string& joint) {
   std::vector<std::string> columns;
   for (const char* component = quantity.components; *component; ++component) {
     columns.push_back(std::string(quantity.name) + "." + joint + "." + *component);
@@ -75,7 +74,7 @@ std::vector<std::string> freeColumnsOf(const std::vector<std::string>& header,
                                        const std::string& joint) {
   const std::set<std::string_view> given(header.begin(), header.end());
   std::vector<std::string> wanted;
-  for (const Quantity& quantity : kQuantities) {
+  for (const FreeQuantity& quantity : kFreeQuantities) {
     const std::vector<std::string> columns = columnsOf(quantity, joint);
     const bool any = std::any_of(columns.begin(), columns.end(), [&](const std::string& column) {
       return given.count(column) > 0;
@@ -95,7 +94,7 @@ std::size_t takeFreeTurns(const std::string& joint, const std::vector<std::strin
   turns.joint = joint;
   turns.rows.resize(static_cast<std::size_t>(values.rows()));
   Eigen::Index column = 0;
-  for (const Quantity& quantity : kQuantities) {
+  for (const FreeQuantity& quantity : kFreeQuantities) {
     const std::vector<std::string> own = columnsOf(quantity, joint);
     if (std::find(columns.begin(), columns.end(), own.front()) == columns.end()) {
       turns.lack.emplace_back(quantity.name);
@@ -130,7 +129,7 @@ std::vector<std::string> motionColumns(const Mechanism& mechanism) {
     }
   }
   for (std::size_t i = 0; i < mechanism.orientations(); ++i) {
-    for (const Quantity& quantity : kQuantities) {
+    for (const FreeQuantity& quantity : kFreeQuantities) {
       for (std::string& column : columnsOf(quantity, mechanism.freeJoint(i).name)) {
         columns.push_back(std::move(column));
       }
@@ -147,7 +146,7 @@ void appendMotion(const Mechanism& mechanism, const Motion& motion, std::vector<
   }
   for (std::size_t i = 0; i < mechanism.orientations(); ++i) {
     FreeTurn turn = freeTurnOf(mechanism, i, motion);
-    for (const Quantity& quantity : kQuantities) {
+    for (const FreeQuantity& quantity : kFreeQuantities) {
       const double* const from = quantity.of(turn);
       numbers.insert(numbers.end(), from,
                      from + std::char_traits<char>::length(quantity.components));

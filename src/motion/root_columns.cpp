@@ -5,12 +5,12 @@
 #include <cmath>
 #include <set>
 
+#include "motion/orientation_length.h"
+
 namespace virtual_work_dynamics {
 namespace {
 
 constexpr char kPrefix[] = "root.";
-// A quaternion that is off by more is no rounded one.
-constexpr double kOrientationOff = 1e-3;
 
 struct Quantity {
   const char* name;

@@ -7,7 +7,7 @@
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr Eigen::Index kCoordinates = RootCoordinates::RowsAtCompileTime;
+constexpr Eigen::Index kLawCoordinates = RootCoordinates::RowsAtCompileTime;
 
 bool givesAccelerations(const MotionTable& table) {
   return givesRoot(table, "velocity") && givesRoot(table, "angular_velocity") &&
@@ -23,11 +23,11 @@ MotionTable coordinateTable(const MotionTable& table) {
   MotionTable coordinates;
   coordinates.times = table.times;
   const auto rows = static_cast<Eigen::Index>(table.roots.size());
-  coordinates.positions.resize(rows, kCoordinates);
+  coordinates.positions.resize(rows, kLawCoordinates);
   if (givesRoot(table, "velocity") && givesRoot(table, "angular_velocity")) {
-    coordinates.velocities.resize(rows, kCoordinates);
+    coordinates.velocities.resize(rows, kLawCoordinates);
   }
-  if (givesAccelerations(table)) coordinates.accelerations.resize(rows, kCoordinates);
+  if (givesAccelerations(table)) coordinates.accelerations.resize(rows, kLawCoordinates);
   RootCoordinates before;
   for (Eigen::Index row = 0; row < rows; ++row) {
     RootCoordinates now = coordinatesOf(table.roots[static_cast<std::size_t>(row)]);
@@ -39,7 +39,7 @@ MotionTable coordinateTable(const MotionTable& table) {
     }
     before = now;
   }
-  for (Eigen::Index i = 0; i < kCoordinates; ++i) {
+  for (Eigen::Index i = 0; i < kLawCoordinates; ++i) {
     coordinates.joints.push_back("root coordinate " + std::to_string(i));
   }
   return coordinates;
@@ -51,7 +51,7 @@ RootLaw::RootLaw(const MotionTable& table)
     : has_accelerations_(givesAccelerations(table)), law_(tableLaw(coordinateTable(table))) {}
 
 RootMotion RootLaw::at(double t) const {
-  Motion motion(kCoordinates);
+  Motion motion(kLawCoordinates);
   law_->evaluate(t, motion);
   RootCoordinates coordinates;
   coordinates << motion.q, motion.qd, motion.qdd;

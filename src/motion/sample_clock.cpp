@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kFewest = 64;
 /// Rows over which the interval is measured first: few enough that most such stretches have all of
 /// their rows.
-constexpr std::size_t kStretch = 24;
+constexpr std::size_t kClockStretch = 24;
 /// Rows ahead over which a missing row has to show.
 constexpr std::size_t kAhead = 12;
 /// Most ticks that may be missing among them; a longer gap is measured by its own length.
@@ -40,8 +40,9 @@ double median(std::vector<double> values) {
 
 double firstInterval(const std::vector<double>& stamps) {
   std::vector<double> intervals;
-  for (std::size_t i = kStretch; i < stamps.size(); ++i)
-    intervals.push_back((stamps[i] - stamps[i - kStretch]) / static_cast<double>(kStretch));
+  for (std::size_t i = kClockStretch; i < stamps.size(); ++i)
+    intervals.push_back((stamps[i] - stamps[i - kClockStretch]) /
+                        static_cast<double>(kClockStretch));
   return median(std::move(intervals));
 }
 

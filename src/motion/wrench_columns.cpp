@@ -9,22 +9,23 @@
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr std::string_view kPrefix = "wrench.";
+constexpr std::string_view kWrenchPrefix = "wrench.";
 
 }  // namespace
 
 std::string wrenchColumn(const std::string& wrench, const char* component) {
-  return std::string(kPrefix) + wrench + "." + component;
+  return std::string(kWrenchPrefix) + wrench + "." + component;
 }
 
 std::string_view wrenchOf(std::string_view column) {
   const std::size_t point = column.rfind('.');
-  if (column.substr(0, kPrefix.size()) != kPrefix || point <= kPrefix.size()) return {};
+  if (column.substr(0, kWrenchPrefix.size()) != kWrenchPrefix || point <= kWrenchPrefix.size())
+    return {};
   const std::string_view component = column.substr(point + 1);
   const bool known = std::find(std::begin(kWrenchComponents), std::end(kWrenchComponents),
                                component) != std::end(kWrenchComponents);
   if (!known) return {};
-  return column.substr(kPrefix.size(), point - kPrefix.size());
+  return column.substr(kWrenchPrefix.size(), point - kWrenchPrefix.size());
 }
 
 std::vector<std::string> wrenchesOf(const std::vector<std::string>& columns) {

@@ -9,13 +9,11 @@
 #include "base/printable.h"
 #include "motion/free_columns.h"
 #include "motion/free_turn_completion.h"
+#include "motion/orientation_length.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
 namespace {
-
-// Digits of single precision are no reason to warn.
-constexpr double kSinglePrecision = 1e-6;
 
 const FreeTurns* turnsOf(const MotionTable& table, const std::string& joint) {
   const auto found = std::find_if(table.turns.begin(), table.turns.end(),
@@ -28,7 +26,7 @@ bool gives(const FreeTurns& turns, const char* quantity) {
 }
 
 void warnOfLength(const MotionFile& file, const FreeTurns& turns) {
-  if (turns.orientation_error <= kSinglePrecision) return;
+  if (turns.orientation_error <= kOrientationDoubt) return;
   std::ostringstream text;
   text.precision(2);
   text << "warning: " << printable(file.path) << ": lengths of orientation."

@@ -6,17 +6,13 @@
 #include <vector>
 
 #include "base/printable.h"
+#include "motion/orientation_length.h"
 #include "motion/root_columns.h"
 #include "motion/root_completion.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
-namespace {
-
-// Digits of single precision are no reason to warn.
-constexpr double kSinglePrecision = 1e-6;
-
-}  // namespace
+namespace {}  // namespace
 
 void checkRoots(const Scene& scene, const MotionFile& file) {
   const MotionTable& table = file.table;
@@ -35,7 +31,7 @@ void checkRoots(const Scene& scene, const MotionFile& file) {
     throw FileError(file.path + ": columns are missing: " + joined(missing) +
                     ": the scene says 'root: moving'");
   }
-  if (table.orientation_error > kSinglePrecision) {
+  if (table.orientation_error > kOrientationDoubt) {
     std::ostringstream text;
     text.precision(2);
     text << "warning: " << printable(file.path) << ": lengths of root.orientation are up to "

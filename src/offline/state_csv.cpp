@@ -16,7 +16,7 @@ constexpr std::string_view kEchoed = "%time";
 constexpr std::string_view kSeries = "__time";
 // Columns before those of the arrays: %time, seq, stamp, frame_id.
 constexpr std::size_t kStamp = 2, kArrays = 4;
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknownColumn = std::numeric_limits<double>::quiet_NaN();
 
 bool startsWith(std::string_view text, std::string_view start) {
   return text.substr(0, start.size()) == start;
@@ -117,7 +117,7 @@ void StateCsv::readSeries() {
 double StateCsv::number(std::size_t column) const {
   double value = 0;
   if (parseNumber(cells_[column], value)) return value;
-  if (isNotANumber(cells_[column])) return kUnknown;
+  if (isNotANumber(cells_[column])) return kUnknownColumn;
   throw FileError(name_ + ": line " + std::to_string(line()) + ", column " +
                   std::to_string(column + 1) + ": " + inQuotes(cells_[column]) +
                   " is not a number");
@@ -172,7 +172,7 @@ bool StateCsv::takeSeries(JointStateContent& content) const {
     refuse(inQuotes(cells_[0]) + " is not a time in seconds");
   }
   std::vector<double> values[2];
-  for (auto& of_kind : values) of_kind.assign(joints_.size(), kUnknown);
+  for (auto& of_kind : values) of_kind.assign(joints_.size(), kUnknownColumn);
   std::vector<bool> has(joints_.size(), false);
   for (std::size_t column = 1; column < cells_.size(); ++column) {
     if (series_[column].joint < 0 || cells_[column].empty()) continue;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "base/printable.h"
@@ -20,6 +21,10 @@ std::string shortList(const Names& names) {
   }
   return text;
 }
+
+/// Of ROS, in ns: a stamp has 32 bits for the seconds.
+constexpr std::int64_t kLastStamp =
+    (std::int64_t{std::numeric_limits<std::uint32_t>::max()} + 1) * 1000000000 - 1;
 
 /// What a point of a trajectory is called: they count from 1.
 inline std::string pointText(std::size_t point) {

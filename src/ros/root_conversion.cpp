@@ -7,19 +7,11 @@
 #include "base/number_text.h"
 #include "base/printable.h"
 #include "motion/largest_motion.h"
+#include "motion/orientation_length.h"
 #include "ros/message_text.h"
 
 namespace virtual_work_dynamics {
 namespace {
-
-// A quaternion that is off by more is not a rounded one.
-constexpr double kOrientationOff = 1e-3;
-// Digits of single precision are no reason to warn.
-constexpr double kSinglePrecision = 1e-6;
-
-// A ROS stamp has 32 bits for the seconds.
-constexpr std::int64_t kLastStamp =
-    (std::int64_t{std::numeric_limits<std::uint32_t>::max()} + 1) * 1000000000 - 1;
 
 std::optional<Rejection> readStamp(const std_msgs::Header& header, std::int64_t& stamp_ns) {
   if (header.stamp.isZero()) return Rejection{DropReason::kZeroStamp, "its stamp is zero"};
@@ -98,7 +90,7 @@ std::optional<Rejection> RootConversion::readOrientation(const geometry_msgs::Qu
     return Rejection{DropReason::kOrientation,
                      "its " + where + " has the length " + numberText(length) + ", not 1"};
   }
-  if (off > kSinglePrecision && !doubted_) {
+  if (off > kOrientationDoubt && !doubted_) {
     doubted_ = true;
     doubt_ = "the quaternion " + where + " has the length " + numberText(length) +
              "; it and those like it are scaled to 1";

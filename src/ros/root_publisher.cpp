@@ -14,7 +14,7 @@ namespace virtual_work_dynamics {
 namespace {
 
 // As many messages as TrajectoryPublisher keeps of joint states.
-constexpr std::uint32_t kQueue = 10000;
+constexpr std::uint32_t kRootQueue = 10000;
 constexpr double kShownPeriod = 0.02;  // s
 
 void copyTransform(const RootMotion& from, geometry_msgs::Transform& to) {
@@ -47,23 +47,23 @@ RootPublisher::RootPublisher(ros::NodeHandle node, RootPlay play) : play_(std::m
     case RootSource::kNone:
       return;
     case RootSource::kOdometry:
-      publisher_ = node.advertise<nav_msgs::Odometry>("odom", kQueue);
+      publisher_ = node.advertise<nav_msgs::Odometry>("odom", kRootQueue);
       break;
     case RootSource::kTrajectory:
       publisher_ = node.advertise<trajectory_msgs::MultiDOFJointTrajectory>(
-          "multi_dof_joint_trajectory", kQueue);
+          "multi_dof_joint_trajectory", kRootQueue);
       break;
     case RootSource::kStates:
       publisher_ =
-          node.advertise<sensor_msgs::MultiDOFJointState>("multi_dof_joint_states", kQueue);
+          node.advertise<sensor_msgs::MultiDOFJointState>("multi_dof_joint_states", kRootQueue);
       break;
     case RootSource::kTf:
       break;
     case RootSource::kImu:
-      publisher_ = node.advertise<sensor_msgs::Imu>("imu", kQueue);
+      publisher_ = node.advertise<sensor_msgs::Imu>("imu", kRootQueue);
       break;
   }
-  tf_ = node.advertise<tf2_msgs::TFMessage>("/tf", kQueue);
+  tf_ = node.advertise<tf2_msgs::TFMessage>("/tf", kRootQueue);
 }
 
 template <typename Message>

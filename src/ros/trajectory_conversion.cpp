@@ -23,9 +23,6 @@ using trajectory_msgs::JointTrajectoryPoint;
 using Values = std::vector<double> JointTrajectoryPoint::*;
 
 constexpr std::int64_t kNanosecondsPerSecond = 1000000000;
-// A ROS stamp has 32 bits for the seconds.
-constexpr std::int64_t kLastStamp =
-    (std::int64_t{std::numeric_limits<std::uint32_t>::max()} + 1) * kNanosecondsPerSecond - 1;
 
 std::string secondsText(std::int64_t nanoseconds) {
   return numberText(static_cast<double>(nanoseconds) / kNanosecondsPerSecond) + " s";
