@@ -145,9 +145,9 @@ struct FrontSolutions : Fronts<T, C, kSums> {
 template <int kWidth, int kRows>
 const FrontKernel* frontKernel() {
   using Lanes = Pack<double, kWidth>;
-  static constexpr FrontKernel kKernel = {kWidth,
-                                          FrontSolutions<double, Pack<double, kRows>, kRows>::functions(),
-                                          FrontSolutions<Lanes, Lanes, kRows>::functions()};
+  static constexpr FrontKernel kKernel = {
+      kWidth, FrontSolutions<double, Pack<double, kRows>, kRows>::functions(),
+      FrontSolutions<Lanes, Lanes, kRows>::functions()};
   return &kKernel;
 }
 
