@@ -64,6 +64,8 @@ void SceneInputs::subscribe(ros::NodeHandle private_node, ros::CallbackQueueInte
   subscribers_.push_back(listen(private_node, queue, "gravity", &SceneInputs::takeGravity, 0));
   std::set<std::string> topics;
   for (std::size_t i = 0; i < mechanism_.links().size(); ++i) {
+    const int joint = mechanism_.links()[i].parent_joint;
+    if (joint >= 0 && mechanism_.isInnerPart(joint)) continue;  // no link of the description
     const std::string topic = "payload/" + legalTopicName(mechanism_.links()[i].name);
     if (!topics.insert(topic).second) {
       ROS_INFO("Link %s has no payload topic, as another one's has the same name",
