@@ -11,7 +11,6 @@
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr double kBlockTime = 0.002;  // s, as the estimator's
 constexpr double kLongestGap = 1;     // s
 constexpr double kLongestTime = 0.3;  // s
 constexpr double kGrowth = 1.4;
