@@ -5,15 +5,8 @@
 
 include(test/core/core_test_files.cmake)
 include(test/core/real_113.cmake)
-# GCC 12 forgets that a precompiled header is the system's, and warns of strings there where it is wrong.
-set(without_precompiled_headers
-  test/core/dirty_faults.cpp test/core/instruction_set_test.cpp
-  test/core/offline_certificates_test.cpp test/core/offline_plan_test.cpp)
-set_source_files_properties(${without_precompiled_headers} PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
-list(REMOVE_ITEM core_test_files ${without_precompiled_headers})
 vwd_joined_tests(core_test_files ${core_test_files})
-vwd_add_objects(core_test_objects OBJECT ${core_test_files} ${without_precompiled_headers})
-vwd_precompile(core_test_objects <Eigen/Core> <functional> <gtest/gtest.h> <string> <vector>)
+vwd_add_objects(core_test_objects OBJECT ${core_test_files})
 set(core_test_objects $<TARGET_OBJECTS:core_test_objects> $<TARGET_OBJECTS:core_oracles>
   $<TARGET_OBJECTS:stability_scenes>)
 # finish_core_tests(<target> <tool>)
