@@ -15,8 +15,6 @@ namespace {
 
 using namespace estimator_test;
 
-}  // namespace
-
 TEST(MotionEstimator, GivesAMotionAtEverySampleOnceItIsOldEnough) {
   for (const int lag : {0, 2, 30}) {
     Stream stream({kR, kR}, settingsOf(1e-3 * lag));
@@ -368,4 +366,5 @@ TEST(MotionEstimator, TwoPublishersThatContradictEachOtherAreTold) {
   EXPECT_FALSE(stream.estimator.contradictory(0));  // one of them has ended
 }
 
+}  // namespace
 }  // namespace virtual_work_dynamics

@@ -141,8 +141,6 @@ Encoder encoderOf(double rate, double quantum, double velocity_noise = -1, doubl
   return encoder;
 }
 
-}  // namespace
-
 TEST(MotionEstimator, LearnsWhatItNeedsWithinASecond) {
   for (const Encoder& encoder : {encoderOf(125, 1e-4), encoderOf(1000, 1e-3), encoderOf(1000, 1e-5),
                                  encoderOf(500, 1e-4, 2e-3), encoderOf(1000, 1e-4, -1, 1e-4)})
@@ -427,4 +425,5 @@ TEST(MotionEstimator, AJointThatRestsForSecondsAndThenMovesIsFollowed) {
   }
 }
 
+}  // namespace
 }  // namespace virtual_work_dynamics

@@ -45,8 +45,6 @@ void expectNear(const Motion& motion, Eigen::Index c, std::int64_t instant, cons
   EXPECT_NEAR(motion.qdd[c], static_cast<double>(state.qdd), qdd_tolerance);
 }
 
-}  // namespace
-
 TEST(MotionEstimator, FollowsTheCosineLawAt1kHz) {
   const std::vector<Law> laws = {cosineLaw(kPi / 12), cosineLaw(kPi / 6)};
   const double ranges[] = {kPi / 6, kPi / 3};
@@ -379,4 +377,5 @@ TEST(MotionEstimator, AJointThatBeginsLateIsWaitedFor) {
   }
 }
 
+}  // namespace
 }  // namespace virtual_work_dynamics

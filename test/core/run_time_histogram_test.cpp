@@ -23,8 +23,6 @@ void expectNear(std::int64_t reported, std::int64_t exact) {
       << reported << " for " << exact;
 }
 
-}  // namespace
-
 TEST(RunTimeHistogram, IsZeroWhenNothingWasRecorded) {
   const RunTimeHistogram histogram;
   const RunTimeHistogram::Summary summary = histogram.summary();
@@ -136,4 +134,5 @@ TEST(RunTimeHistogram, LosesNothingWhenTakenWhileAnotherThreadRecords) {
   EXPECT_EQ(count, records);
 }
 
+}  // namespace
 }  // namespace virtual_work_dynamics
