@@ -65,7 +65,7 @@ class OfflineBags : public OfflineTool {
   }
 
   static std::string bag(const std::string& name) {
-    return std::string(VWD_SOURCE_DIR) + "/test/core/bags/" + name;
+    return std::string(kSourceFolder) + "/test/core/bags/" + name;
   }
   std::string copy(const std::string& name, const std::string& content) const {
     return write(name, content);
