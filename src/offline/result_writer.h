@@ -17,14 +17,15 @@ namespace virtual_work_dynamics {
 struct Columns {
   bool stamps = false;                 ///< whether there is a column of recorded stamps
   std::vector<std::string> efforts;    ///< as Dynamics::effortNames()
-  std::vector<bool> residuals;         ///< as Dynamics::residuals()
+  std::vector<bool> residuals;         ///< as Dynamics::residuals(); empty: none is
   std::vector<std::string> reactions;  ///< names of joints, six columns each
   std::vector<std::string> more;       ///< names of columns
 
   /// The column of an effort, such as "effort.elbow"; a residual of free motions has no more than
   /// its name.
   std::string effortColumn(std::size_t effort) const {
-    return (residuals[effort] ? "" : "effort.") + efforts[effort];
+    const bool is_residual = effort < residuals.size() && residuals[effort];
+    return (is_residual ? "" : "effort.") + efforts[effort];
   }
 };
 

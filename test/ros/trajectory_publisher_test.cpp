@@ -296,10 +296,18 @@ TEST(TrajectoryPublisher, HelpNamesEveryParameter) {
   EXPECT_EQ(node.wait(), 0);
   std::ifstream file(VWD_SOURCE_DIR "/config/trajectory_publisher.yaml");
   int count = 0;
+  std::string above;  // name of a map that the next lines are in
   for (std::string line; std::getline(file, line);) {
+    const std::size_t begin = line.find_first_not_of(' ');
     const std::size_t colon = line.find(':');
-    if (line.empty() || line[0] == '#' || colon == std::string::npos) continue;
-    EXPECT_NE(node.output().find("  ~" + line.substr(0, colon) + " "), std::string::npos) << line;
+    if (line.empty() || line[begin] == '#' || colon == std::string::npos) continue;
+    if (begin == 0) above.clear();
+    const std::string name = above + line.substr(begin, colon - begin);
+    if (colon + 1 == line.size()) {
+      above = name + "/";
+      continue;
+    }
+    EXPECT_NE(node.output().find("  ~" + name + " "), std::string::npos) << line;
     ++count;
   }
   EXPECT_GT(count, 0);

@@ -108,6 +108,10 @@ TEST(TrajectorySettings, TheConfigurationFileHoldsAllDefaults) {
   EXPECT_EQ(read.wait_for_subscribers, defaults.wait_for_subscribers);
   EXPECT_EQ(read.start_delay, defaults.start_delay);
   EXPECT_EQ(read.linger, defaults.linger);
+  EXPECT_EQ(read.root.source, defaults.root.source);
+  EXPECT_EQ(read.root.inertial_frame, defaults.root.inertial_frame);
+  EXPECT_EQ(read.root.link, defaults.root.link);
+  EXPECT_EQ(read.root.gravity, defaults.root.gravity);
   EXPECT_EQ(read.law->duration(), defaults.law->duration());
   EXPECT_EQ(motionAt(read, 1.7).q, motionAt(defaults, 1.7).q);
   EXPECT_EQ(motionAt(read, 1.7).qdd, motionAt(defaults, 1.7).qdd);
@@ -126,9 +130,13 @@ TEST(TrajectorySettings, TheConfigurationFileHoldsAllDefaults) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < known.size(); i = known.find(", ", i) + 2, ++count) {
       const std::string name = known.substr(i, known.find(", ", i) - i);
-      EXPECT_TRUE(file[name].IsDefined()) << name;
+      const std::size_t slash = name.find('/');
+      const YAML::Node value = file[name.substr(0, slash)];
+      EXPECT_TRUE(slash == std::string::npos ? value.IsDefined()
+                                             : value[name.substr(slash + 1)].IsDefined())
+          << name;
     }
-    EXPECT_EQ(count, file.size());
+    EXPECT_EQ(count, file.size() - 1 + file["root"].size());
   }
 }
 
