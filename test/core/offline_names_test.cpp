@@ -58,12 +58,19 @@ TEST_F(OfflineToolNames, AJointMayHaveTheNameOfAResidual) {
     description.replace(at, 6, "\"residual.motion.k\"");
   }
   write("named.urdf", description);
-  write("m.csv", "time,position.slider,position.crank,position.residual.motion.k\n0,0,0,0\n");
-  const Run result = run("--urdf named.urdf --motion m.csv --static --output r.csv");
+  std::string header = "time", row = "0";
+  for (const char* level : {"position", "velocity", "acceleration"}) {
+    for (const char* joint : {"slider", "crank", "residual.motion.k"}) {
+      header += std::string(",") + level + "." + joint;
+      row += ",0";
+    }
+  }
+  write("m.csv", header + "\n" + row + "\n");
+  const Run result = run("--urdf named.urdf --motion m.csv --output r.csv");
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const std::string table = readFile(path("r.csv"));
-  EXPECT_EQ(table.substr(0, table.find('\n')),
-            "time,effort.slider,effort.crank,effort.residual.motion.k");
+  const std::string efforts = "time,effort.crank,effort.residual.motion.k,effort.slider,reaction.";
+  EXPECT_EQ(table.substr(0, efforts.size()), efforts);
 }
 
 TEST_F(OfflineToolNames, AMisspeltNameHasFileAndKeyInFrontAndTheNearestBehind) {
