@@ -7,7 +7,9 @@ folder=$1
 shift
 arguments=("$@")
 for ((i = 0; i + 1 < ${#arguments[@]}; ++i)); do
-  if [[ "${arguments[i]}" == -o && -f "$folder/${arguments[i + 1]}" ]]; then
+  # The main file of the offline tool is another one with ROS.
+  if [[ "${arguments[i]}" == -o && -f "$folder/${arguments[i + 1]}" &&
+        "${arguments[i + 1]}" != *_main.cpp.o ]]; then
     exec cp "$folder/${arguments[i + 1]}" "${arguments[i + 1]}"
   fi
 done
