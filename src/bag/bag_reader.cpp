@@ -259,7 +259,8 @@ void BagReader::note(std::uint64_t position, const std::string& problem) {
 
 std::string BagReader::damage() const {
   if (problems_ <= 1) return problem_;
-  return problem_ + ", and " + std::to_string(problems_ - 1) + " more problems";
+  return problem_ + ", and " + std::to_string(problems_ - 1) +
+         (problems_ == 2 ? " more problem" : " more problems");
 }
 
 }  // namespace virtual_work_dynamics
