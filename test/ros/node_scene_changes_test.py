@@ -4,8 +4,10 @@ import math
 
 from geometry_msgs.msg import InertiaStamped, Vector3Stamped
 from sensor_msgs.msg import JointState
+from trajectory_msgs.msg import JointTrajectory
 
-from node_under_test import EPOCH, Node, NodeTest, joint_state, run, wait_until
+from node_under_test import (EPOCH, Node, NodeTest, joint_state, ros_time, run, trajectory_point,
+                             wait_until)
 
 G = 9.81
 # 1 kg at 1 m below the axis y: its effort is G sin q while it rests. The flange hangs together with it, its
@@ -17,8 +19,11 @@ PENDULUM = """<robot name="pendulum"><link name="base"/><link name="wall"/>
   <joint name="wheel" type="continuous"><parent link="base"/><child link="bob"/><axis xyz="0 1 0"/></joint>
   <joint name="bolts" type="fixed"><parent link="bob"/><child link="flange"/>
     <origin xyz="0 0 -1.5" rpy="0 %r 0"/></joint>
+  <link name="plate"/>
+  <joint name="weld" type="fixed"><parent link="bob"/><child link="plate"/>
+    <origin xyz="0 0 0" rpy="%r 0 0"/></joint>
   <joint name="mount" type="fixed"><parent link="base"/><child link="wall"/>
-    <origin xyz="0 0 1" rpy="%r 0 0"/></joint></robot>""" % (math.pi / 2, math.pi)
+    <origin xyz="0 0 1" rpy="%r 0 0"/></joint></robot>""" % (math.pi / 2, math.pi / 2, math.pi)
 ANGLE = 0.7
 STEP = 2000000  # ns
 # Turns by quarters are of the description, with a rounding error of 1e-16 in each number.
@@ -102,6 +107,27 @@ class SceneChanges(NodeTest):
         self.start({'payload': [{'link': 'bob', 'mass': 1, 'at': [0, 0, -1]}]})
         bob = G * math.sin(ANGLE)
         self.assertChanges('payload/bob', payload(4, (0, 0, -0.5)), 2 * bob, 3 * bob)
+
+    def test_inertia_is_turned_into_the_links_axes(self):
+        """The pendulum's axis is the plate's z axis, and it hangs while it begins to turn."""
+        node = Node(self, PENDULUM)
+        efforts = node.record('effort', JointState)
+        trajectories = node.feed('joint_trajectory', JointTrajectory)
+        payloads = node.feed('inverse_dynamics/payload/bob', InertiaStamped)
+        node.wait_for_plan('effort')
+        sent = []
+
+        def effort():
+            message = JointTrajectory(joint_names=['wheel'])
+            message.header.stamp = ros_time(EPOCH + len(sent) * STEP)
+            message.points = [trajectory_point(0, ['wheel'], ({'wheel': 0}, {'wheel': 0}, {'wheel': 2}))]
+            trajectories.publish(message)
+            sent.append(message)
+            return efforts.wait(len(sent))[-1].effort[0]
+        self.assertClose([effort()], [2 * 1.1], EXACT, 'before')
+        payloads.publish(payload(1, (0, 0, 0), 'plate', ixx=0.6, iyy=0.5, izz=0.7))
+        wait_until(lambda: effort() > 2.3, lambda: 'an effort of more than 2.2')
+        self.assertClose([effort()], [2 * (1.1 + 0.7)], EXACT, 'after')
 
     def test_deviations_know_of_the_change(self):
         self.start({'tolerances': {'mass': 0.1}})
