@@ -6,10 +6,6 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-int size(const std::vector<int>& list) {
-  return static_cast<int>(list.size());
-}
-
 template <typename Item>
 int count(const std::vector<Item>& list) {
   return static_cast<int>(list.size());
@@ -29,7 +25,7 @@ FrontLayout::FrontLayout(const std::vector<RowBlock>& blocks, int columns)
   }
   first_.push_back(rows);
   for (const RowBlock& block : blocks_) {
-    orders_.push_back(size(row_order_));
+    orders_.push_back(count(row_order_));
     const auto isZero = [&](int i) {
       return std::binary_search(block.zeros.begin(), block.zeros.end(), i);
     };
@@ -37,7 +33,7 @@ FrontLayout::FrontLayout(const std::vector<RowBlock>& blocks, int columns)
       for (int i = 0; i < static_cast<int>(block.rows); ++i) {
         if (isZero(i) == zero) row_order_.push_back(i);
       }
-      if (!zero) kept_.push_back(size(row_order_) - orders_.back());
+      if (!zero) kept_.push_back(count(row_order_) - orders_.back());
     }
   }
   places_of_rows_.assign(static_cast<std::size_t>(rows), {-1, 0});
@@ -69,7 +65,7 @@ std::size_t FrontLayout::deal(std::size_t count) {
 // Adds the columns of a block that are present, in a front whose columns local_ holds.
 void FrontLayout::addBlock(std::size_t block, const std::vector<int>& columns) {
   const int begin = count(block_columns_);
-  for (int j = 0; j < size(columns); ++j) {
+  for (int j = 0; j < count(columns); ++j) {
     const int column = columns[static_cast<std::size_t>(j)];
     if (!present_[static_cast<std::size_t>(column)]) continue;
     block_columns_.push_back({j, local_[static_cast<std::size_t>(column)], column});
@@ -91,16 +87,16 @@ void FrontLayout::arrange() {
   for (const Front& front : fronts_) {
     FrontShape shape{};
     shape.parent = count(shapes_);
-    shape.columns = size(columns_);
+    shape.columns = count(columns_);
     for (const std::vector<int>* part : {&front.pivots, &front.rest}) {
       for (const int column : *part) {
         if (!present_[static_cast<std::size_t>(column)]) continue;
-        local_[static_cast<std::size_t>(column)] = size(columns_) - shape.columns;
+        local_[static_cast<std::size_t>(column)] = count(columns_) - shape.columns;
         columns_.push_back(column);
       }
-      if (part == &front.pivots) shape.pivots = size(columns_) - shape.columns;
+      if (part == &front.pivots) shape.pivots = count(columns_) - shape.columns;
     }
-    shape.width = size(columns_) - shape.columns;
+    shape.width = count(columns_) - shape.columns;
     int rows = 0;
     shape.blocks_begin = count(block_rows_);
     for (const std::size_t b : front.blocks) {
@@ -112,7 +108,7 @@ void FrontLayout::arrange() {
     for (const std::size_t child : front.children) {
       FrontShape& below = shapes_[child];
       below.parent = count(shapes_);
-      children_.push_back({static_cast<int>(child), size(places_)});
+      children_.push_back({static_cast<int>(child), count(places_)});
       for (int j = below.pivots; j < below.width; ++j) {
         const int column = columns_[static_cast<std::size_t>(below.columns + j)];
         places_.push_back(local_[static_cast<std::size_t>(column)]);

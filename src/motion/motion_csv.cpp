@@ -138,10 +138,7 @@ class CsvReader {
     forEachCell(line, [this](std::size_t column, std::string_view cell) {
       std::string column_name(cell);
       const bool known = isKnown(column, column_name);
-      if (known && rename_ && isOf(kKinds, column_name)) {
-        const std::size_t joint = column_name.find('.') + 1;
-        column_name.replace(joint, std::string::npos, rename_(column_name.substr(joint)));
-      }
+      if (known && rename_) renameJoint(column_name);
       const auto inserted = column_of_name_.emplace(column_name, column);
       if (known && !inserted.second) {
         throw FileError(atCell(header_line_, column) + ": " + inQuotes(column_name) +
@@ -149,6 +146,14 @@ class CsvReader {
       }
       header_.push_back(std::move(column_name));
     });
+  }
+
+  void renameJoint(std::string& column_name) const {
+    const bool free = isFreeColumn(column_name);
+    if (!free && !isOf(kKinds, column_name)) return;
+    const std::size_t begin = column_name.find('.') + 1;
+    const std::size_t length = free ? column_name.rfind('.') - begin : column_name.size() - begin;
+    column_name.replace(begin, length, rename_(column_name.substr(begin, length)));
   }
 
   // Whether a column may be of use. Others are ignored, unless something else seems to be meant.

@@ -135,6 +135,14 @@ void makeRadians(const Mechanism& mechanism, const Scene& scene, RecordedMotion&
     const Closure& closure = scene.closures[motion.given.closures[i]];
     if (traitsOf(closure.type).free_axis == Unit::kRadian) turn(joints + i);
   }
+  const auto turnRates = [](auto& rows) {
+    for (auto& row : rows) {
+      row.angular_velocity *= kDegree;
+      row.angular_acceleration *= kDegree;
+    }
+  };
+  turnRates(table.roots);
+  for (FreeTurns& turns : table.turns) turnRates(turns.rows);
 }
 
 // Adds the whole turns that a driver left out of the angle of a pin.

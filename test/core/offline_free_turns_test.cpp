@@ -78,6 +78,50 @@ TEST_F(OfflineFreeTurns, ComeFromColumns) {
   for (std::size_t i = 0; i < tail.size(); ++i) EXPECT_NEAR(tail[i], expected[i], 1e-15) << i;
 }
 
+TEST_F(OfflineFreeTurns, MayBeInDegreesAndOfAnotherName) {
+  const double degree = std::acos(-1.0) / 180;
+  const auto row = [](const std::string& orientation, const std::vector<double>& rates) {
+    std::string text = "0," + orientation;
+    for (const double rate : rates) text += "," + numberText(rate);
+    return text + "\n";
+  };
+  const std::vector<double> in_degrees{60, 120, 180, 24, 30, 36};
+  std::vector<double> rates;
+  for (const double rate : in_degrees) rates.push_back(degree * rate);
+  std::string renamed = kHeader;
+  for (std::size_t at; (at = renamed.find(".j.")) != std::string::npos;) {
+    renamed.replace(at, 3, ".old_j.");
+  }
+  write("m.csv", kHeader + row("0.5,0.5,0.5,0.5", rates));
+  write("d.csv", renamed + row("0.5,0.5,0.5,0.5", in_degrees));
+  ASSERT_EQ(run("--urdf ball.urdf --scene ball.yaml --motion m.csv --output r.csv").exit_code, 0);
+  const std::vector<double> expected = numbers(0);
+  const Run result =
+      run("--urdf ball.urdf --scene ball.yaml --motion d.csv --output r.csv --degrees "
+          "--rename 'old_(.*)=\\1'");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<double> found = numbers(0);
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-5) << i;
+}
+
+TEST_F(OfflineFreeTurns, RatesOfARootMayBeInDegrees) {
+  write("root.yaml", "{root: moving, reactions: [ground]}");
+  write("body.urdf",
+        "<robot name='r'><link name='body'><inertial><mass value='2'/><inertia ixx='0.03' ixy='0'"
+        " ixz='0' iyy='0.04' iyz='0' izz='0.05'/></inertial></link></robot>");
+  const std::string header =
+      "time,root.orientation.x,root.orientation.y,root.orientation.z,root.orientation.w,"
+      "root.acceleration.x,root.acceleration.y,root.acceleration.z,root.angular_velocity.x,"
+      "root.angular_velocity.y,root.angular_velocity.z,root.angular_acceleration.x,"
+      "root.angular_acceleration.y,root.angular_acceleration.z\n";
+  write("m.csv", header + "0,0,0,0,1,0,0,0,0,0,0,180,0,0\n");
+  const Run result =
+      run("--urdf body.urdf --scene root.yaml --motion m.csv --output r.csv --degrees");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NEAR(numbers(0)[4], 0.03 * std::acos(-1.0), 1e-12);
+}
+
 // By Lagrange's equations the same.
 TEST_F(OfflineFreeTurns, ComeFromColumnsForLagrangesEquations) {
   write("m.csv", kHeader + "0,0.5,0.5,0.5,0.5,1,2,3,0.4,0.5,0.6\n");
