@@ -25,6 +25,8 @@ from scipy.interpolate import make_interp_spline
 
 PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 ROWS = 400
+STYLE = {'font.size': 9, 'axes.titlesize': 10, 'axes.spines.top': False, 'axes.spines.right': False,
+         'axes.grid': True, 'grid.alpha': 0.3}
 DRAWN_AT = 0.3  # of the duration
 SHADOWS = (0.2, 0.62)
 
@@ -233,8 +235,7 @@ def draw(tool, name, path):
         states[row] = dict(robot.close(q, trajectory['joints']))
     row = int(DRAWN_AT * ROWS)
 
-    plt.rcParams.update({'font.size': 9, 'axes.titlesize': 10, 'axes.spines.top': False,
-                         'axes.spines.right': False, 'axes.grid': True, 'grid.alpha': 0.3})
+    plt.rcParams.update(STYLE)
     figure = plt.figure(figsize=(12, 5.4))
     figure.suptitle(title, fontsize=12)
     grid = figure.add_gridspec(2, 2, left=0.06, right=0.87, bottom=0.09, top=0.88, wspace=0.28,
@@ -273,19 +274,20 @@ def draw(tool, name, path):
     plt.close(figure)
 
 
-def main(arguments):
+def draw_all(arguments, usage, examples, draw):
+    """Draws the examples of a command line, OFFLINE_TOOL FOLDER [EXAMPLE ...]; its exit code."""
     if len(arguments) < 2 or arguments[0].startswith('-'):
-        print(__doc__)
+        print(usage)
         return 2
     tool, folder = arguments[:2]
-    unknown = set(arguments[2:]) - set(EXAMPLES)
+    unknown = set(arguments[2:]) - set(examples)
     if unknown:
         raise SystemExit('No such example: %s' % ', '.join(sorted(unknown)))
     os.makedirs(folder, exist_ok=True)
-    for name in arguments[2:] or EXAMPLES:
+    for name in arguments[2:] or examples:
         draw(tool, name, os.path.join(folder, name + '.png'))
     return 0
 
 
 if __name__ == '__main__':
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(draw_all(sys.argv[1:], __doc__, EXAMPLES, draw))

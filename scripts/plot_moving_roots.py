@@ -20,6 +20,8 @@ import matplotlib.pyplot as plt  # noqa: E402 (the backend has to be chosen firs
 import numpy as np
 from scipy.spatial.transform import Rotation
 
+from plot_closed_loops import STYLE, draw_all, vector
+
 PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 # For each example: title, description, axes of the picture (0: x), joints whose efforts are shown, rows of
@@ -35,8 +37,7 @@ EXAMPLES = {
 
 
 def numbers(element, key, default):
-    text = None if element is None else element.get(key)
-    return np.array([float(x) for x in (text or default).split()])
+    return vector(element is not None and element.get(key), default)
 
 
 class Robot:
@@ -100,8 +101,7 @@ def draw(tool, name, path):
     force, moment = (turns.apply(np.column_stack([results['reaction.ground.' + kind + x] for x in 'xyz']))
                      for kind in 'ft')
 
-    plt.rcParams.update({'font.size': 9, 'axes.titlesize': 10, 'axes.spines.top': False,
-                         'axes.spines.right': False, 'axes.grid': True, 'grid.alpha': 0.3})
+    plt.rcParams.update(STYLE)
     figure = plt.figure(figsize=(12, 6.6))
     figure.suptitle(title, fontsize=12)
     grid = figure.add_gridspec(3, 2, left=0.06, right=0.88, bottom=0.08, top=0.9, wspace=0.25, hspace=0.42,
@@ -145,19 +145,5 @@ def draw(tool, name, path):
     plt.close(figure)
 
 
-def main(arguments):
-    if len(arguments) < 2 or arguments[0].startswith('-'):
-        print(__doc__)
-        return 2
-    tool, folder = arguments[:2]
-    unknown = set(arguments[2:]) - set(EXAMPLES)
-    if unknown:
-        raise SystemExit('No such example: %s' % ', '.join(sorted(unknown)))
-    os.makedirs(folder, exist_ok=True)
-    for name in arguments[2:] or EXAMPLES:
-        draw(tool, name, os.path.join(folder, name + '.png'))
-    return 0
-
-
 if __name__ == '__main__':
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(draw_all(sys.argv[1:], __doc__, EXAMPLES, draw))
