@@ -23,7 +23,7 @@ the code they reached. Whatever crashes, hangs, leaks or takes much memory is a 
   --jobs N     processes for each target ($jobs)
   --seed N     of the random changes, for the same ones again (another each time)
 Starts from test/fuzz/corpus, and from what earlier runs have found in build/fuzz/corpus. Findings and
-logs are in build/fuzz; to run one finding again, give it to the program in build/fuzz_build.
+logs are in build/fuzz; to run one finding again, give it to the program in build/sanitized.
 The exit status is 1 when there is a finding. Ctrl-C ends the run; what it has learnt stays.
 END
 }
@@ -53,33 +53,14 @@ if [[ ${#chosen[@]} -eq 0 ]]; then chosen=("${targets[@]}"); fi
 
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$repository"
-build=$repository/build/fuzz_build
+build=$repository/build/sanitized
 found=$repository/build/fuzz
 seeds=$repository/test/fuzz
 source scripts/running.sh
 end_well fuzz.sh "what was learnt is in $found/corpus"
-mkdir -p "$build" "$found"
+mkdir -p "$found"
 
-compiler=$(command -v clang++-14 || command -v clang++ || true)
-if [[ -z "$compiler" ]]; then
-  echo "fuzz.sh: clang++ is missing; see scripts/install_dependencies.sh --checks" >&2
-  exit 1
-fi
-echo "Building ${chosen[*]} with $compiler ..."
-start=$SECONDS
-build_targets() {
-  {
-    cmake -S . -B "$build" -DCMAKE_CXX_COMPILER="$compiler" -DCMAKE_BUILD_TYPE=Release \
-      -DVWD_CORE_ONLY=ON -DBUILD_TESTING=OFF -DVWD_BUILD_FUZZERS=ON -DVWD_JOIN_SOURCES=ON &&
-      cmake --build "$build" --target "${chosen[@]/%/_fuzz}" -- -j"${JOBS:-$(nproc)}"
-  } 2>&1 | tee "$found/build.log" | show_build_progress
-}
-if ! run build_targets; then
-  grep -E -A 5 'error|Error' "$found/build.log" | head -n 40 >&2 || tail -n 40 "$found/build.log" >&2
-  echo "fuzz.sh: the build failed; its whole output is in $found/build.log" >&2
-  exit 1
-fi
-echo "Built in $((SECONDS - start)) s."
+run scripts/sanitized_build.sh "${chosen[@]/%/_fuzz}"
 if $only_build; then exit 0; fi
 
 # dictionary TARGET: prints its words; the whole tool has those of all files, and options.

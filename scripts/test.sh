@@ -69,38 +69,54 @@ run_tests() {
   cmake --build "$workspace/build" --target run_tests -- -j1
 }
 
-# sanitized_build JOBS: builds the core's tests with sanitizers.
-sanitized_build() {
-  cmake --build "$workspace/build" --target sanitized_core_tests -- -j"$1"
+sanitized_targets=(sanitized_core_tests {description,scene,motion,bag,messages,tool}_fuzz)
+shards=8
+
+# sanitized_shards: runs those shards of the sanitized tests that nobody has taken. Without the tests that
+# measure how accurate motions and kernels are, which take long and run no other code than the rest.
+sanitized_shards() {
+  local shard failed=false
+  for ((shard = 0; shard < shards; ++shard)); do
+    mkdir "$results/shards/$shard" 2>/dev/null || continue
+    (cd build/sanitized && GTEST_TOTAL_SHARDS=$shards GTEST_SHARD_INDEX=$shard \
+      UBSAN_OPTIONS=print_stacktrace=1 ./sanitized_core_tests --gtest_filter='-*Accuracy.*' \
+      --gtest_output="xml:$results/sanitized_core_tests.junit/core_tests_$shard.xml") || failed=true
+  done
+  ! $failed
 }
 
-# Starts the longest of the builds while tests through ROS run, which leave most of the processor free.
-start_long_builds() {
+# Builds with sanitizers, and runs the tests, while tests through ROS run, which leave most of the processor
+# free. What is left then is done by all processors.
+start_sanitized() {
+  mkdir -p "$results/shards"
   set -m  # a process group of its own, to be ended as a whole
-  (renice -n 19 -p "$BASHPID" && sanitized_build 1 && JOBS=1 scripts/fuzz.sh --build) \
-    >"$results/started_builds.log" 2>&1 </dev/null &
-  started_build=$!
+  (renice -n 19 -p "$BASHPID" && JOBS=1 scripts/sanitized_build.sh "${sanitized_targets[@]}" &&
+    touch "$results/shards/built" && sanitized_shards) \
+    >"$results/started_sanitized.log" 2>&1 </dev/null &
+  started=$!
   set +m
 }
-stop_long_builds() {
-  [[ -n "${started_build:-}" ]] || return 0
-  kill -- "-$started_build" 2>/dev/null || true
-  wait "$started_build" 2>/dev/null || true
-  started_build=
+stop_sanitized() {
+  [[ -n "${started:-}" ]] || return 0
+  kill -- "-$started" 2>/dev/null || true
+  wait "$started" 2>/dev/null || true
+  started=
 }
-
-# In two halves at once, as they take long and use one processor each; without the tests that measure
-# how accurate motions and kernels are, which take long and run no other code than the rest.
 sanitized_core_tests() {
-  sanitized_build "${JOBS:-$(nproc)}" || return 1
-  local half halves=() failed=false
-  for half in 0 1; do
-    (cd "$package_build" && GTEST_TOTAL_SHARDS=2 GTEST_SHARD_INDEX=$half \
-      UBSAN_OPTIONS=print_stacktrace=1 sanitized/sanitized_core_tests \
-      --gtest_filter='-*Accuracy.*' --gtest_output="xml:$results/sanitized_core_tests.junit/core_tests_$half.xml") &
-    halves+=($!)
-  done
-  for half in "${halves[@]}"; do wait "$half" || failed=true; done
+  local worker workers=() failed=false
+  if [[ -e "$results/shards/built" ]]; then
+    renice -n 0 -g "$started" || true  # only the superuser may
+    workers+=("$started")
+  else
+    stop_sanitized
+    scripts/sanitized_build.sh "${sanitized_targets[@]}" || return 1
+    sanitized_shards &
+    workers+=($!)
+  fi
+  sanitized_shards || failed=true
+  for worker in "${workers[@]}"; do wait "$worker" || failed=true; done
+  started=
+  cat "$results/started_sanitized.log"
   ! $failed
 }
 
@@ -186,10 +202,9 @@ fi
 
 if $install; then scripts/install_dependencies.sh --checks; fi
 if check build_without_warnings build; then
-  start_long_builds
-  trap stop_long_builds EXIT
+  start_sanitized
+  trap stop_sanitized EXIT
   check run_tests run_tests || true
-  stop_long_builds
   check core_links_no_ros core_links_no_ros || true
   check kernels_share_no_code kernels_share_no_code || true
   check sanitized_core_tests sanitized_core_tests || true

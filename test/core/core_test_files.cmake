@@ -36,6 +36,7 @@ set(core_test_files
   test/core/dynamics_use_test.cpp
   test/core/effort_doubts_test.cpp
   test/core/error_bound_test.cpp
+  test/core/exact_products_test.cpp
   test/core/existence_test.cpp
   test/core/free_motion_test.cpp
   test/core/given_motions_test.cpp
@@ -137,7 +138,6 @@ set(core_test_files
   src/offline/deviation_rows.cpp)  # the covariances of a motion cannot come from a file
 # Compiled for each build: where its tool and its data are, and tests of code that is all in headers.
 set(core_test_files_of_build
-  test/core/exact_products_test.cpp
   test/core/far_positions_test.cpp
   test/core/number_text_test.cpp
   test/core/offline_progress_test.cpp
