@@ -154,6 +154,11 @@ const std::map<std::string, Setter>& optionsWithValue() {
        [](const auto& value, auto& arguments) { arguments.measured.files.push_back(value); }},
       {"--measured-topic",
        [](const auto& value, auto& arguments) { arguments.measured.topic = value; }},
+      {"--observer-gain",
+       [](const auto& value, auto& arguments) {
+         arguments.observer_gain = parsePositive("--observer-gain", value);
+         arguments.residuals = true;
+       }},
       {"--scene", [](const auto& value, auto& arguments) { arguments.scene = value; }},
       {"--output", [](const auto& value, auto& arguments) { arguments.output = value; }},
       {"--gravity",

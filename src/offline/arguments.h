@@ -46,6 +46,7 @@ struct Arguments {
   bool deviations = false;
   bool positions = false;
   bool residuals = false;                ///< of measured efforts, which are in the motion unless…
+  std::optional<double> observer_gain;  ///< 1/s; none: no momentum observer
   MotionSource measured;                 ///< …they are from here
   std::optional<double> deviation_warn;  ///< over the effort's rms; none: kDeviationWarn
   int threads = 1;

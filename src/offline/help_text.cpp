@@ -38,6 +38,9 @@ Input
   --measured FILE|BAG   as --residuals, with the efforts from another CSV (columns time and effort.<joint>,
                         or <joint>, or a range of names like tau1..7 that --rename turns into joints) or
                         bag, of the same clock; between two measurements on a straight line
+  --observer-gain K     as --residuals, and adds the columns external_effort.<joint>: the external effort
+                        by a momentum observer, which needs no accelerations and follows with the time
+                        constant 1 / K, K in 1/s
   --measured-topic NAME topic of the joint states with the efforts, where it is not that of the motion
   --scene FILE          scene file (YAML); the options below override it
 

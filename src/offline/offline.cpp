@@ -268,6 +268,10 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   if (arguments.residuals) {
     residuals.emplace(mechanism, dynamics, scene, std::move(measured), recording.completion.max_gap,
                       motion.file(), arguments.measuredSource().name());
+    if (arguments.observer_gain) {
+      naming(prefixOf(arguments),
+             [&] { residuals->observe(mechanism, scene, *arguments.observer_gain); });
+    }
     const Names more = residuals->columns(deviations.has_value());
     columns.more.insert(columns.more.end(), more.begin(), more.end());
   }

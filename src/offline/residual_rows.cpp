@@ -94,17 +94,27 @@ void ResidualRows::checkOverlap(const std::string& where) const {
                   " s: no row has a measured effort");
 }
 
+void ResidualRows::observe(const Mechanism& mechanism, const Scene& scene, double gain) {
+  observer_.emplace(mechanism, scene, gain);
+  measured_.setConstant(static_cast<Eigen::Index>(mechanism.coordinates().size()),
+                        std::numeric_limits<double>::quiet_NaN());
+}
+
 Names ResidualRows::columns(bool deviations) const {
   Names names;
   for (const Joint& joint : joints_) names.push_back("measured_effort." + joint.compared.joint);
   for (const Joint& joint : joints_) names.push_back("measured_residual." + joint.compared.joint);
+  for (const Joint& joint : joints_) {
+    if (observer_) names.push_back("external_effort." + joint.compared.joint);
+  }
   for (const Joint& joint : joints_) {
     if (deviations) names.push_back("deviation.measured_residual." + joint.compared.joint);
   }
   return names;
 }
 
-void ResidualRows::add(std::size_t row, const Motion& motion, const Eigen::VectorXd& effort,
+void ResidualRows::add(std::size_t row, const Motion& motion, const Load& load,
+                       const Eigen::VectorXd& effort,
                        const DeviationRows* deviations, std::vector<double>& cells) {
   const std::int64_t instant = instantNs(file_, row);
   const std::size_t first = cells.size();
@@ -122,12 +132,31 @@ void ResidualRows::add(std::size_t row, const Motion& motion, const Eigen::Vecto
     const bool moves = joint.effort < motion.qd.size();
     joint.compared.velocities.push_back(moves ? motion.qd[joint.effort] : 0);
   }
+  if (observer_) addObserved(row, motion, load, cells);
   if (!deviations) return;
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const bool exists = std::isfinite(cells[first + joints_.size() + i]);
     cells.push_back(exists ? deviations->ofEffort(joints_[i].effort)
                            : std::numeric_limits<double>::quiet_NaN());
   }
+}
+
+// Its measured efforts are those of the row's first cells.
+void ResidualRows::addObserved(std::size_t row, const Motion& motion, const Load& load,
+                               std::vector<double>& cells) {
+  const std::size_t first = cells.size() - 2 * joints_.size();
+  for (std::size_t i = 0; i < joints_.size(); ++i) measured_[joints_[i].effort] = cells[first + i];
+  const std::vector<double>& times = file_.table.times;
+  if (row > 0) {
+    const double length = times[row] - times[row - 1];
+    if (!(length > 0)) {
+      throw FileError(file_.at(row) + ": time " + numberText(times[row]) + " is not later than " +
+                      numberText(times[row - 1]) + " in the row before, as --observer-gain needs");
+    }
+    if (length * 1e9 > static_cast<double>(max_gap_ns_)) observer_->restart();
+  }
+  observer_->step(times[row], motion, load, measured_);
+  for (const Joint& joint : joints_) cells.push_back(observer_->external()[joint.effort]);
 }
 
 std::string ResidualRows::table() const {

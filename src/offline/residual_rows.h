@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "offline/result_writer.h"
 #include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/momentum_observer.h"
 #include "virtual_work_dynamics/scene.h"
 
 namespace virtual_work_dynamics {
@@ -32,12 +34,19 @@ class ResidualRows {
                MeasuredEfforts measured, double max_gap, const MotionFile& file,
                const std::string& where);
 
-  /// Names of its columns: measured efforts and residuals, and, where deviations are computed,
-  /// those of the residuals.
+  /// Estimates external efforts by a momentum observer, too, which starts anew after a gap.
+  /// @param gain 1/s
+  /// @throws SceneError as MomentumObserver does.
+  void observe(const Mechanism& mechanism, const Scene& scene, double gain);
+
+  /// Names of its columns: measured efforts, residuals, external efforts where they are observed,
+  /// and, where deviations are computed, those of the residuals.
   std::vector<std::string> columns(bool deviations) const;
-  /// Adds the cells of a row. @param effort that is written, NaN where it does not exist
+  /// Adds the cells of a row. @param load of the row
+  /// @param effort that is written, NaN where it does not exist
   /// @param deviations that were added for the same row; null: none are
-  void add(std::size_t row, const Motion& motion, const Eigen::VectorXd& effort,
+  /// @throws FileError when the time of an observed row is not later than that of the one before.
+  void add(std::size_t row, const Motion& motion, const Load& load, const Eigen::VectorXd& effort,
            const DeviationRows* deviations, std::vector<double>& cells);
 
   /// The comparison of all rows that were added, line by line.
@@ -51,10 +60,14 @@ class ResidualRows {
   };
 
   void checkOverlap(const std::string& where) const;
+  void addObserved(std::size_t row, const Motion& motion, const Load& load,
+                   std::vector<double>& cells);
 
   const MotionFile& file_;
   const std::int64_t max_gap_ns_;
   std::vector<Joint> joints_;
+  std::optional<MomentumObserver> observer_;
+  Eigen::VectorXd measured_;  // of the row, by coordinate; NaN: not known
 };
 
 }  // namespace virtual_work_dynamics

@@ -74,7 +74,7 @@ void Rows::write(std::size_t row, const Motion& motion, const Load& load, const 
   }
   if (certified_) certified_->check(motion, load, results, file_.lines[row], more_);
   if (deviations_) deviations_->add(row, motion, load, results, more_);
-  if (residuals_) residuals_->add(row, motion, effort_, deviations_, more_);
+  if (residuals_) residuals_->add(row, motion, load, effort_, deviations_, more_);
   if (motion_of_) appendMotion(*motion_of_, motion, more_);
   writer_.beginRow(file_.table.times[row]);
   if (columns_.stamps) writer_.writeStamp(file_.stamps_ns[row]);

@@ -55,6 +55,7 @@ set(core_test_files
   test/core/loop_residuals_test.cpp
   test/core/model_view_test.cpp
   test/core/moment_points_test.cpp
+  test/core/momentum_observer_test.cpp
   test/core/motion_completion_accuracy_test.cpp
   test/core/motion_completion_test.cpp
   test/core/motion_csv_test.cpp

@@ -5,6 +5,7 @@
 #include <functional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "offline_tool.h"
 
@@ -196,6 +197,40 @@ TEST_F(OfflineResiduals, HaveTheDeviationOfTheComputedEffort) {
   EXPECT_GT(largest, 1e-3);  // both have a share
 }
 
+TEST_F(OfflineResiduals, HaveAMomentumObserverBesideThem) {
+  // A hand pushes from 0.5 s on; from 1 s to 1.4 s nothing was recorded.
+  constexpr double kGain = 40;
+  std::string text = "time,position.hinge,velocity.hinge,acceleration.hinge,effort.hinge\n";
+  std::vector<double> times;
+  for (int i = 0; i < 10 * kRows; ++i) {
+    const double t = i * kStep / 10;
+    if (t > 1 && t < 1.4) continue;
+    times.push_back(t);
+    const State at = stateAt(t);
+    text += row({t, at.q, at.qd, 1e3, effortAt(t) - (t < 0.5 ? 0 : 0.7)});
+  }
+  write("m.csv", text);
+  const Run result = computed("--motion m.csv --observer-gain 40");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto external = column(parseTable(result.out), "external_effort.hinge");
+  ASSERT_EQ(external.size(), times.size());
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double t = times[i];
+    const double since = t < 1.2 ? std::max(0.0, t - 0.5) : t - 1.4;
+    // Trapezoids of half a millisecond: the jump is off by up to half a step of it.
+    const double jump = t < 1.2 ? kGain * kStep / 20 * 0.7 : 1e-3;
+    EXPECT_NEAR(external[i], 0.7 * (1 - std::exp(-kGain * since)), jump) << t;
+  }
+  write("passive.yaml", "actuated: []\n");
+  const Run refused = computed("--motion m.csv --observer-gain 40 --scene passive.yaml");
+  EXPECT_NE(refused.exit_code, 0);
+  write("static.yaml", "motion: static\n");
+  const Run still = computed("--motion m.csv --observer-gain 40 --scene static.yaml");
+  EXPECT_NE(still.err.find("static.yaml: momentum observer: a static scene has no momentum"),
+            std::string::npos)
+      << still.err;
+}
+
 TEST_F(OfflineResiduals, RefuseInOneLineWhatCannotBeCompared) {
   write("others.csv", "time,effort.elbow\n0,1\n");
   write("late.csv", "time,effort.hinge\n100,1\n101,1\n");
@@ -220,6 +255,7 @@ TEST_F(OfflineResiduals, RefuseInOneLineWhatCannotBeCompared) {
       {"--measured empty_cells.csv", "empty_cells.csv: has no efforts that were measured"},
       {"--measured none.csv", "none.csv: "},
       {"--residuals", "m.csv: line 1: no column effort.<joint>"},
+      {"--observer-gain 0", "--observer-gain: '0' is not a positive number"},
       {"--residuals --no-efforts", "--residuals: need the efforts that --no-efforts leaves out"}};
   for (const auto& [options, expected] : kCases) {
     SCOPED_TRACE(options);
