@@ -7,6 +7,8 @@ vwd_core(
   given_joints.cpp
   live_wrenches.cpp
   model_view.cpp
+  momentum_observer.cpp
+  momentum_terms.cpp
   motion_start.cpp
   passive_joints.cpp
   shifted_samples.cpp

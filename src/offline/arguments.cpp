@@ -150,6 +150,15 @@ const std::map<std::string, Setter>& optionsWithValue() {
        }},
       {"--rename", [](const auto& value, auto& arguments) { arguments.motion.rename.add(value); }},
       {"--topic", [](const auto& value, auto& arguments) { arguments.motion.topic = value; }},
+      {"--measured",
+       [](const auto& value, auto& arguments) { arguments.measured.files.push_back(value); }},
+      {"--measured-topic",
+       [](const auto& value, auto& arguments) { arguments.measured.topic = value; }},
+      {"--observer-gain",
+       [](const auto& value, auto& arguments) {
+         arguments.observer_gain = parsePositive("--observer-gain", value);
+         arguments.residuals = true;
+       }},
       {"--scene", [](const auto& value, auto& arguments) { arguments.scene = value; }},
       {"--output", [](const auto& value, auto& arguments) { arguments.output = value; }},
       {"--gravity",
@@ -212,6 +221,7 @@ const std::map<std::string, Switch>& switches() {
       {"--help", [](Arguments& all) -> bool& { return all.help; }},
       {"--no-efforts", [](Arguments& all) -> bool& { return all.no_efforts; }},
       {"--positions", [](Arguments& all) -> bool& { return all.positions; }},
+      {"--residuals", [](Arguments& all) -> bool& { return all.residuals; }},
       {"--version", [](Arguments& all) -> bool& { return all.version; }},
   };
   return options;
@@ -302,12 +312,20 @@ void checkForBag(const Arguments& arguments) {
 
 }  // namespace
 
+MotionSource Arguments::measuredSource() const {
+  MotionSource source = measured.empty() ? motion : measured;
+  if (!measured.topic.empty()) source.topic = measured.topic;
+  source.rename = motion.rename;
+  return source;
+}
+
 bool Arguments::toBag() const {
   return endsWith(output, kBag) && !check && !explain;
 }
 
 Arguments parseArguments(const std::vector<std::string>& words) {
-  const Arguments arguments = Parser(words).parse();
+  Arguments arguments = Parser(words).parse();
+  if (!arguments.measured.empty() || !arguments.measured.topic.empty()) arguments.residuals = true;
   if (arguments.help || arguments.version) return arguments;
   if (arguments.urdf.empty()) throw UsageError("--urdf FILE is missing");
   if (arguments.motion.empty() && !arguments.check && !arguments.explain) {
@@ -320,6 +338,9 @@ Arguments parseArguments(const std::vector<std::string>& words) {
     checkForBag(arguments);
   } else if (arguments.copy_input) {
     throw UsageError("--copy-input is of use with --output BAG only");
+  }
+  if (arguments.residuals && arguments.no_efforts) {
+    throw UsageError("--residuals: need the efforts that --no-efforts leaves out");
   }
   if (arguments.deviation_warn && !arguments.deviations) {
     throw UsageError("--deviation-warn is of use with --deviations only");

@@ -45,6 +45,9 @@ struct Arguments {
   bool certificates = false;
   bool deviations = false;
   bool positions = false;
+  bool residuals = false;                ///< of measured efforts, which are in the motion unless…
+  std::optional<double> observer_gain;  ///< 1/s; none: no momentum observer
+  MotionSource measured;                 ///< …they are from here
   std::optional<double> deviation_warn;  ///< over the effort's rms; none: kDeviationWarn
   int threads = 1;
   std::optional<double> loop_tolerance;  ///< relative; none: kLoopTolerance
@@ -54,6 +57,8 @@ struct Arguments {
   bool help = false;  ///< words after --help or --version are ignored
   bool version = false;
 
+  /// Where measured efforts are read from.
+  MotionSource measuredSource() const;
   /// Whether the output is a bag, by its name.
   bool toBag() const;
 };

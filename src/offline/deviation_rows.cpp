@@ -1,5 +1,7 @@
 #include "offline/deviation_rows.h"
 
+#include <cmath>
+
 #include "dynamics/sample_rows.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -74,6 +76,13 @@ void DeviationRows::add(std::size_t row, const Motion& motion, const Load& load,
     addCells(workspace_.description(), efforts, cells);
   }
   if (doubts_) doubts_->add(results.effort, workspace_, of_motion_, of_description);
+}
+
+double DeviationRows::ofEffort(Eigen::Index effort) const {
+  const double motion = of_motion_ ? workspace_.motion().effort[effort] : 0;
+  const bool of_description = deviations_.hasTolerances();
+  const double description = of_description ? workspace_.description().effort[effort] : 0;
+  return std::hypot(motion, description);
 }
 
 std::string DeviationRows::notes(double threshold) const {

@@ -28,6 +28,9 @@ class DeviationRows {
   void add(std::size_t row, const Motion& motion, const Load& load, const Results& results,
            std::vector<double>& cells);
 
+  /// Standard deviation of an effort of the row that was added last, by all that is known of.
+  double ofEffort(Eigen::Index effort) const;
+
   /// A line for each effort whose deviation, as rms of all rows, is more than `threshold` times its
   /// own rms.
   std::string notes(double threshold) const;

@@ -30,6 +30,18 @@ Input
                         times for several rules, of which the first that matches counts
   --degrees             angles of the motion, and their derivatives, are in degrees
   --topic NAME          topic of the joint states in the bag (default: the only one, or /joint_states)
+  --residuals           the motion also has efforts that were measured (columns effort.<joint>, or the
+                        efforts of joint states): adds the columns measured_effort.<joint> and
+                        measured_residual.<joint>, computed less measured, which is the external effort
+                        where all else is known; and, with --deviations, deviation.measured_residual.<joint>.
+                        A table of each joint's VAF, rms, bias and lag goes to standard error
+  --measured FILE|BAG   as --residuals, with the efforts from another CSV (columns time and effort.<joint>,
+                        or <joint>, or a range of names like tau1..7 that --rename turns into joints) or
+                        bag, of the same clock; between two measurements on a straight line
+  --observer-gain K     as --residuals, and adds the columns external_effort.<joint>: the external effort
+                        by a momentum observer, which needs no accelerations and follows with the time
+                        constant 1 / K, K in 1/s
+  --measured-topic NAME topic of the joint states with the efforts, where it is not that of the motion
   --scene FILE          scene file (YAML); the options below override it
 
 How missing derivatives are estimated

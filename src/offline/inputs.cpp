@@ -21,6 +21,7 @@ void refuseToOverwriteInput(const Arguments& arguments) {
   if (arguments.output.empty()) return;
   std::vector<std::string> inputs = arguments.motion.files;
   inputs.insert(inputs.end(), {arguments.urdf, arguments.scene});
+  inputs.insert(inputs.end(), arguments.measured.files.begin(), arguments.measured.files.end());
   for (const std::string& input : inputs) {
     if (input.empty()) continue;
     std::error_code missing;  // a missing file cannot be overwritten

@@ -46,14 +46,15 @@ bool isMotion(const std::string& column) {
 }
 
 // Sorts unused columns. @throws FileError for one of a coordinate that has no position.
-Unused sorted(const std::string& path, const Names& columns, const Names& coordinates) {
+Unused sorted(const std::string& path, const Names& columns, const Names& coordinates,
+              bool efforts_are_read) {
   Unused unused;
   const std::set<std::string> known(coordinates.begin(), coordinates.end());
   std::set<std::string> seen;
   for (const std::string& column : columns) {
     const std::string joint = column.substr(column.find('.') + 1);
     if (!isMotion(column)) {
-      unused.others.push_back(column);
+      if (!efforts_are_read || column.rfind("effort.", 0) != 0) unused.others.push_back(column);
     } else if (known.count(joint) > 0 && column.rfind("position.", 0) == 0) {
       throw FileError(path + ": column " + inQuotes(column) +
                       ": this joint turns freely, its orientation is given by " + kFreeColumns);
@@ -205,7 +206,7 @@ MotionFile readMotion(const MotionSource& source, const Mechanism& mechanism,
     }
     motion.table = readMotionText(text, motion.path, source.rename, choose, &unused, &motion.lines);
   }
-  noteUnused(motion.path, sorted(motion.path, unused, coordinates), coordinates);
+  noteUnused(motion.path, sorted(motion.path, unused, coordinates, source.efforts), coordinates);
   return motion;
 }
 

@@ -15,6 +15,7 @@ struct MotionSource {
   std::string topic;                  ///< of joint states, in a bag; empty: the only one
   JointRenaming rename;               ///< of its joints
   bool degrees = false;               ///< whether angles are in degrees
+  bool efforts = false;               ///< whether its efforts are read by another way, too
   std::vector<std::string> left_out;  ///< joints that are not taken from a bag
 
   bool empty() const { return files.empty(); }

@@ -1,6 +1,7 @@
 #include "offline/offline.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <iterator>
 #include <optional>
@@ -20,7 +21,9 @@
 #include "offline/inputs.h"
 #include "offline/lagrange_rows.h"
 #include "offline/loop_report.h"
+#include "offline/measured_file.h"
 #include "offline/recorded_motion.h"
+#include "offline/residual_rows.h"
 #include "offline/result_writer.h"
 #include "offline/root_rows.h"
 #include "offline/row_loads.h"
@@ -129,8 +132,9 @@ void printMotion(const MotionFile& motion) {
 
 // Reads the motion and starts the scene's loops by it.
 RecordedMotion readStart(const Arguments& arguments, const Mechanism& mechanism, Scene& scene) {
-  RecordedMotion recorded =
-      readRecordedMotion(arguments.motion, mechanism, scene, arguments.recording);
+  MotionSource source = arguments.motion;
+  source.efforts = arguments.residuals;
+  RecordedMotion recorded = readRecordedMotion(source, mechanism, scene, arguments.recording);
   checkRoots(scene, recorded.file);
   if (!needsClosedLoops(scene)) return recorded;
   try {
@@ -146,6 +150,36 @@ RecordedMotion readStart(const Arguments& arguments, const Mechanism& mechanism,
     throw SceneError(prefixOf(arguments) + error.what());
   }
   return recorded;
+}
+
+// The efforts that were measured, if they are asked for.
+MeasuredEfforts readMeasured(const Arguments& arguments) {
+  if (!arguments.residuals) return {};
+  const MotionSource source = arguments.measuredSource();
+  const bool of_motion = arguments.measured.empty();
+  if (of_motion && !std::filesystem::is_regular_file(source.files.front())) {
+    throw FileError(source.name() +
+                    ": can be read only once, for the motion: --measured FILE says where the "
+                    "measured efforts are");
+  }
+  return readMeasuredEfforts(source, !of_motion);
+}
+
+// Says what was found about the rows that were computed.
+void printNotes(const Arguments& arguments, const Mechanism& mechanism, const Scene& scene,
+                const DeviationRows* deviations, const ResidualRows* residuals) {
+  const std::string begin = "note: " + printable(arguments.motion.name()) + ": ";
+  if (deviations && scene.root_moves) {
+    std::cerr << begin << "deviations take the root's motion as exact\n";
+  }
+  if (deviations && mechanism.orientations() > 0) {
+    std::cerr << begin << "deviations take orientations of joints as exact\n";
+  }
+  if (deviations) std::cerr << deviations->notes(arguments.deviation_warn.value_or(kDeviationWarn));
+  if (!residuals) return;
+  std::cerr << "note: " << printable(arguments.measuredSource().name())
+            << ": computed less measured efforts:\n"
+            << residuals->table();
 }
 
 double toleranceOf(const Arguments& arguments) {
@@ -218,6 +252,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   if (arguments.method == Method::kLagrange) lagrange.emplace(mechanism, dynamics);
   Columns columns = columnsOf(dynamics, written, arguments);
   columns.stamps = !recorded.file.stamps_ns.empty();
+  MeasuredEfforts measured = readMeasured(arguments);
   RecordingOptions recording = arguments.recording;
   recording.completion.covariances = arguments.deviations;
   CompletedMotion motion(std::move(recorded), mechanism, scene, dynamics, toleranceOf(arguments),
@@ -227,6 +262,17 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   if (arguments.deviations) {
     deviations.emplace(mechanism, scene, written, motion.file().table, arguments.motion.name());
     const Names more = deviations->columns(columns);
+    columns.more.insert(columns.more.end(), more.begin(), more.end());
+  }
+  std::optional<ResidualRows> residuals;
+  if (arguments.residuals) {
+    residuals.emplace(mechanism, dynamics, scene, std::move(measured), recording.completion.max_gap,
+                      motion.file(), arguments.measuredSource().name());
+    if (arguments.observer_gain) {
+      naming(prefixOf(arguments),
+             [&] { residuals->observe(mechanism, scene, *arguments.observer_gain); });
+    }
+    const Names more = residuals->columns(deviations.has_value());
     columns.more.insert(columns.more.end(), more.begin(), more.end());
   }
   if (arguments.positions) {
@@ -240,7 +286,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   {
     Rows rows(motion.file(), columns, arguments.child_axes, dynamics.closed(),
               arguments.positions ? &mechanism : nullptr, certified ? &*certified : nullptr,
-              deviations ? &*deviations : nullptr, writer);
+              deviations ? &*deviations : nullptr, residuals ? &*residuals : nullptr, writer);
     Computation(dynamics, motion, loads, arguments.threads)
         .run([&](std::size_t row, const Motion& at, const Load& load, const Results& results) {
           rows.write(row, at, load, lagrange ? lagrange->compute(at, load, results) : results);
@@ -253,15 +299,8 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
               << ": certificates judge arithmetic, not input: "
               << certified->summary(motion.file().row_name) << "\n";
   }
-  if (deviations && scene.root_moves) {
-    std::cerr << "note: " << printable(arguments.motion.name())
-              << ": deviations take the root's motion as exact\n";
-  }
-  if (deviations && mechanism.orientations() > 0) {
-    std::cerr << "note: " << printable(arguments.motion.name())
-              << ": deviations take orientations of joints as exact\n";
-  }
-  if (deviations) std::cerr << deviations->notes(arguments.deviation_warn.value_or(kDeviationWarn));
+  printNotes(arguments, mechanism, scene, deviations ? &*deviations : nullptr,
+             residuals ? &*residuals : nullptr);
   writer.finish();
 }
 

@@ -49,7 +49,7 @@ std::string Conditions::worst(const MotionFile& file) const {
 
 Rows::Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool loops,
            const Mechanism* motion_of, CertifiedRows* certified, DeviationRows* deviations,
-           ResultWriter& writer)
+           ResidualRows* residuals, ResultWriter& writer)
     : file_(file),
       columns_(columns),
       child_axes_(child_axes),
@@ -57,6 +57,7 @@ Rows::Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool
       motion_of_(motion_of),
       certified_(certified),
       deviations_(deviations),
+      residuals_(residuals),
       writer_(writer),
       effort_(static_cast<Eigen::Index>(columns.efforts.size())),
       reactions_(columns.reactions.size()) {}
@@ -73,6 +74,7 @@ void Rows::write(std::size_t row, const Motion& motion, const Load& load, const 
   }
   if (certified_) certified_->check(motion, load, results, file_.lines[row], more_);
   if (deviations_) deviations_->add(row, motion, load, results, more_);
+  if (residuals_) residuals_->add(row, motion, load, effort_, deviations_, more_);
   if (motion_of_) appendMotion(*motion_of_, motion, more_);
   writer_.beginRow(file_.table.times[row]);
   if (columns_.stamps) writer_.writeStamp(file_.stamps_ns[row]);

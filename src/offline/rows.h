@@ -11,6 +11,7 @@
 #include "offline/deviation_rows.h"
 #include "offline/motion_file.h"
 #include "offline/progress.h"
+#include "offline/residual_rows.h"
 #include "offline/result_writer.h"
 #include "virtual_work_dynamics/dynamics.h"
 
@@ -46,9 +47,10 @@ class Rows {
   /// @param motion_of whose motionColumns() the columns end with; null: they do not
   /// @param certified null when no certificates are asked for
   /// @param deviations null when no deviations are asked for
+  /// @param residuals null when no measured efforts are asked for
   Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool loops,
        const Mechanism* motion_of, CertifiedRows* certified, DeviationRows* deviations,
-       ResultWriter& writer);
+       ResidualRows* residuals, ResultWriter& writer);
 
   /// @param load with which `results` were computed
   void write(std::size_t row, const Motion& motion, const Load& load, const Results& results);
@@ -67,6 +69,7 @@ class Rows {
   const Mechanism* const motion_of_;
   CertifiedRows* certified_;
   DeviationRows* deviations_;
+  ResidualRows* residuals_;
   ResultWriter& writer_;
   // The results that are written; those that only certificates need come after them.
   Eigen::VectorXd effort_;

@@ -7,6 +7,7 @@ foreach(file
     completed_motion.cpp
     computation.cpp
     deviation_rows.cpp
+    effort_comparison.cpp
     free_turn_rows.cpp
     help_text.cpp
     inputs.cpp
@@ -14,9 +15,12 @@ foreach(file
     joint_state_rows.cpp
     lagrange_rows.cpp
     loop_report.cpp
+    measured_efforts.cpp
+    measured_file.cpp
     motion_file.cpp
     offline.cpp
     recorded_motion.cpp
+    residual_rows.cpp
     result_writer.cpp
     root_rows.cpp
     row_loads.cpp

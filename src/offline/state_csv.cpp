@@ -72,6 +72,7 @@ StateCsv::StateCsv(TextSource& text, const std::string& name) : lines_(text, nam
     refuse("is not what 'rostopic echo -p' writes of sensor_msgs/JointState");
   }
   has_velocities_ = std::find(cells_.begin(), cells_.end(), "field.velocity0") != cells_.end();
+  has_efforts_ = std::find(cells_.begin(), cells_.end(), "field.effort0") != cells_.end();
 }
 
 void StateCsv::refuse(const std::string& problem) const {
@@ -87,7 +88,7 @@ void StateCsv::split(std::string_view line) {
   forEachPlainCell(line, [this](std::size_t, std::string_view cell) { cells_.emplace_back(cell); });
 }
 
-// The columns <topic>/<joint>/position and <topic>/<joint>/velocity.
+// The columns <topic>/<joint>/position, velocity and effort.
 void StateCsv::readSeries() {
   std::unordered_map<std::string, int> joint_of;
   for (std::size_t column = 0; column < cells_.size(); ++column) {
@@ -96,12 +97,12 @@ void StateCsv::readSeries() {
     const std::size_t end = cell.rfind('/');
     if (end == std::string::npos || end == 0) continue;
     const std::string kind = cell.substr(end + 1);
-    if (kind != "position" && kind != "velocity") continue;
+    if (kind != "position" && kind != "velocity" && kind != "effort") continue;
     const std::string joint =
         cell.substr(cell.rfind('/', end - 1) + 1, end - 1 - cell.rfind('/', end - 1));
     const auto known = joint_of.emplace(joint, static_cast<int>(joints_.size()));
     if (known.second) joints_.push_back(joint);
-    series_.back() = {known.first->second, kind == "position" ? 0 : 1};
+    series_.back() = {known.first->second, kind == "position" ? 0 : kind == "velocity" ? 1 : 2};
     for (std::size_t other = 0; other < column; ++other) {
       if (series_[other].joint != series_.back().joint ||
           series_[other].kind != series_.back().kind) {
@@ -155,10 +156,15 @@ void StateCsv::takeEchoed(JointStateContent& content) const {
   content.names.assign(first, first + static_cast<std::ptrdiff_t>(names));
   content.positions.clear();
   content.velocities.clear();
+  content.efforts.clear();
+  const std::size_t efforts = has_velocities_ ? 2 : 1;  // lists before them
   for (std::size_t i = 0; i < names; ++i) {
     content.positions.push_back(number(kArrays + names + i));
     if (has_velocities_ && values >= 2 * names) {
       content.velocities.push_back(number(kArrays + 2 * names + i));
+    }
+    if (has_efforts_ && values > efforts * names) {
+      content.efforts.push_back(number(kArrays + (efforts + 1) * names + i));
     }
   }
 }
@@ -171,7 +177,7 @@ bool StateCsv::takeSeries(JointStateContent& content) const {
   if (!parseSeconds(cells_[0], content.stamp_ns)) {
     refuse(inQuotes(cells_[0]) + " is not a time in seconds");
   }
-  std::vector<double> values[2];
+  std::vector<double> values[3];
   for (auto& of_kind : values) of_kind.assign(joints_.size(), kUnknownColumn);
   std::vector<bool> has(joints_.size(), false);
   for (std::size_t column = 1; column < cells_.size(); ++column) {
@@ -184,11 +190,13 @@ bool StateCsv::takeSeries(JointStateContent& content) const {
   content.names.clear();
   content.positions.clear();
   content.velocities.clear();
+  content.efforts.clear();
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     if (!has[i]) continue;
     content.names.push_back(joints_[i]);
     content.positions.push_back(values[0][i]);
     content.velocities.push_back(values[1][i]);
+    content.efforts.push_back(values[2][i]);
   }
   return !content.names.empty();
 }

@@ -23,7 +23,8 @@ class StateCsv {
   /// @throws FileError naming the line.
   StateCsv(TextSource& text, const std::string& name);
 
-  /// Reads the next row that has a position; false at the end.
+  /// Reads the next row that has a position; false at the end. Velocities and efforts that it lacks
+  /// are not finite, or left out for all joints.
   /// @throws FileError naming line and column of a cell that is not a number, or a row of a wrong
   ///   length.
   bool next(JointStateContent& content);
@@ -34,7 +35,7 @@ class StateCsv {
   /// What a column of PlotJuggler holds.
   struct Series {
     int joint = -1;  ///< in joints_; negative: the column is not used
-    int kind = 0;    ///< 0: position, 1: velocity
+    int kind = 0;    ///< 0: position, 1: velocity, 2: effort
   };
 
   [[noreturn]] void refuse(const std::string& problem) const;
@@ -49,6 +50,7 @@ class StateCsv {
   std::vector<std::string> cells_;  // of the line
   bool echoed_ = false;             // by rostopic
   bool has_velocities_ = false;     // rostopic
+  bool has_efforts_ = false;        // rostopic
   std::vector<Series> series_;      // PlotJuggler, by column
   std::vector<std::string> joints_;
 };

@@ -35,6 +35,7 @@ set(core_test_files
   test/core/dynamics_test.cpp
   test/core/dynamics_use_test.cpp
   test/core/effort_doubts_test.cpp
+  test/core/effort_comparison_test.cpp
   test/core/error_bound_test.cpp
   test/core/exact_products_test.cpp
   test/core/existence_test.cpp
@@ -55,6 +56,7 @@ set(core_test_files
   test/core/loop_residuals_test.cpp
   test/core/model_view_test.cpp
   test/core/moment_points_test.cpp
+  test/core/momentum_observer_test.cpp
   test/core/motion_completion_accuracy_test.cpp
   test/core/motion_completion_test.cpp
   test/core/motion_csv_test.cpp
@@ -83,6 +85,7 @@ set(core_test_files
   test/core/offline_names_test.cpp
   test/core/offline_plan_test.cpp
   test/core/offline_recordings_test.cpp
+  test/core/offline_residuals_test.cpp
   test/core/offline_root_test.cpp
   test/core/offline_test.cpp
   test/core/offline_wrapped_test.cpp
@@ -135,6 +138,7 @@ set(core_test_files
   test/core/urdf_writer_test.cpp
   test/core/velocity_judge_test.cpp
   test/core/wrench_history_test.cpp
+  src/offline/effort_comparison.cpp
   src/offline/deviation_rows.cpp)  # the covariances of a motion cannot come from a file
 # Compiled for each build: where its tool and its data are, and tests of code that is all in headers.
 set(core_test_files_of_build
