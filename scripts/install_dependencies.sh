@@ -21,8 +21,10 @@ test_packages=(
   "${run_packages[@]}"
   libgtest-dev librostest-dev locales python3-nav-msgs python3-numpy python3-rostest
 )
+report_packages=(python3-matplotlib python3-numpy python3-scipy)
+workflow_packages=("${report_packages[@]}" "${run_packages[@]}" chromium munge slurm-wlm snakemake)
 check_packages=(
-  "${test_packages[@]}"
+  "${test_packages[@]}" "${report_packages[@]}"
   binutils catkin-lint clang-14 clang-format-14 doxygen libbenchmark-dev libclang-rt-14-dev
   liborocos-kdl-dev
 )
@@ -35,12 +37,13 @@ benchmark_packages=(
 usage() {
   cat <<END
 Usage: scripts/install_dependencies.sh [--build] [--run] [--test] [--checks] [--demo] [--rviz]
-                                       [--benchmark] [--list]
+                                       [--benchmark] [--reports] [--workflow] [--list]
 
 Installs the packages needed to build (always), to run the launch files (--run), to run the unit and
 ROS tests (--test), to run every check of scripts/test.sh (--checks, on Debian 12 only), to run the
 demo (--demo), to show robots in RViz (--rviz) and to build the measurements and the libraries they
-compare with (--benchmark).
+compare with (--benchmark), for load reports (--reports), and of many recordings, with a browser and a
+Slurm for their tests (--workflow).
   --list  only print the names of the packages
 Works on Debian 11, 12 and 13, whose archives have ROS 1 and the same names of packages. On Ubuntu
 20.04 with ROS Noetic, let rosdep do it:
@@ -59,6 +62,8 @@ for argument in "$@"; do
     --demo) wanted+=("${demo_packages[@]}") ;;
     --rviz) wanted+=("${rviz_packages[@]}") ;;
     --benchmark) wanted+=("${benchmark_packages[@]}") ;;
+    --reports) wanted+=("${report_packages[@]}") ;;
+    --workflow) wanted+=("${workflow_packages[@]}") ;;
     --list) list=true ;;
     -h | --help) usage; exit 0 ;;
     *) echo "install_dependencies.sh: unknown option $argument" >&2; usage >&2; exit 2 ;;

@@ -1,0 +1,105 @@
+"""Rows of results that are not to be trusted, and why."""
+import numpy as np
+
+CLOSE = 1e4  # condition from which on the tool says that a position is close to a singular one
+CERTIFIED = 1e-9  # what a certificate of a right result is far below
+UNCERTAIN = 0.5  # a deviation so large a part of the rms of its effort says little of the effort
+
+
+class Doubt:
+    """A reason, the rows that it holds for, and what they are about."""
+
+    def __init__(self, words, rows, of=()):
+        self.words = words
+        self.rows = rows  # booleans
+        self.of = set(of)  # names of parts; empty: all
+
+
+def doubts_of(table, parts):
+    """The doubts that hold for any row."""
+    doubts = _missing(table, parts) + _singular(table) + _chosen(table, parts)
+    doubts += _uncertified(table) + _uncertain(table, parts)
+    return [doubt for doubt in doubts if np.any(doubt.rows)]
+
+
+def _missing(table, parts):
+    doubts = []
+    for part in parts:
+        missing = np.zeros(len(table), dtype=bool)
+        for quantity in part.quantities:
+            missing |= ~np.isfinite(quantity.values)
+        doubts.append(Doubt('%s: no value, as in a singular position or where it overflowed' % part.name,
+                            missing, [part.name]))
+    return doubts
+
+
+def _singular(table):
+    condition = table.get('condition')
+    if condition is None:
+        return []
+    return [Doubt('close to a singular position (condition above %.0e): small errors of the motion make '
+                  'large errors of the loads' % CLOSE, ~(condition <= CLOSE))]
+
+
+def _chosen(table, parts):
+    doubts = []
+    for part in parts:
+        names = ['determined.' + (part.effort.column if part.effort else '')]
+        names += ['determined.%s.%s' % (part.name, c) for c in ('fx', 'fy', 'fz', 'tx', 'ty', 'tz')]
+        columns = [table.get(name) for name in names if table.get(name) is not None]
+        if not columns:
+            continue
+        chosen = np.any(np.column_stack(columns) == 0, axis=1)
+        doubts.append(Doubt('%s: rigid-body mechanics does not determine all of it; the policy of the scene '
+                            'chooses' % part.name, chosen, [part.name]))
+    return doubts
+
+
+def _uncertified(table):
+    columns = [values for name, values in table.columns.items() if name.startswith('certificate.')]
+    if not columns:
+        return []
+    worst = np.max(np.column_stack(columns), axis=1)
+    return [Doubt('a certificate of the arithmetic is above %.0e' % CERTIFIED, worst > CERTIFIED)]
+
+
+def deviation_of(table, part):
+    """The standard deviation of an effort, by motion and description together; None: not in the table."""
+    if part.effort is None:
+        return None
+    columns = [table.get(kind + part.effort.column) for kind in ('deviation.', 'tolerance.')]
+    columns = [column for column in columns if column is not None]
+    return np.sqrt(sum(column ** 2 for column in columns)) if columns else None
+
+
+def _uncertain(table, parts):
+    doubts = []
+    for part in parts:
+        deviation, effort = deviation_of(table, part), part.quantity('effort')
+        if deviation is None or effort is None:
+            continue
+        rms = float(np.sqrt(np.nanmean(effort.values ** 2))) if np.any(np.isfinite(effort.values)) else 0.0
+        with np.errstate(invalid='ignore'):
+            doubts.append(Doubt('%s: the standard deviation of the effort is more than %.0f %% of its rms'
+                                % (part.name, 100 * UNCERTAIN), deviation > UNCERTAIN * rms, [part.name]))
+    return doubts
+
+
+def rows_of(doubts, name, length):
+    """The rows that are doubted of a part."""
+    rows = np.zeros(length, dtype=bool)
+    for doubt in doubts:
+        if not doubt.of or name in doubt.of:
+            rows |= doubt.rows
+    return rows
+
+
+def spans(rows, times, most=4):
+    """Where rows are, in words: "0.5 s to 0.7 s, 1.2 s and 3 more places"."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], rows.astype(int), [0]))))
+    found = list(zip(edges[::2], edges[1::2] - 1))
+    words = ['%.4g s' % times[a] if a == b else '%.4g s to %.4g s' % (times[a], times[b])
+             for a, b in found[:most]]
+    if len(found) > most:
+        words.append('%d more places' % (len(found) - most))
+    return ' and '.join([', '.join(words[:-1]), words[-1]]) if len(words) > 1 else ''.join(words)

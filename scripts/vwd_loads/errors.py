@@ -1,0 +1,5 @@
+"""What is wrong with an input, in one line for the user."""
+
+
+class ReportError(Exception):
+    """What is wrong with an input, in one line."""

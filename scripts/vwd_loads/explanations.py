@@ -1,0 +1,39 @@
+"""How the figures of a report are found, for its last section."""
+from vwd_loads.document import Heading, Items, number_text
+from vwd_loads.spectrum import EVEN
+
+
+def explanations(loads, clock, short_spectra):
+    woehler = number_text(loads.settings.woehler)
+    items = [
+        'Forces and moments are what the parent link exerts on the child link, in axes of the child link, '
+        'moments about the origin of the joint. Of rigid bodies: what a bearing is preloaded with, and what '
+        'bodies swing by, is not in them.',
+        'Means, rms and percentiles are over time: a row stands for half of the way to its neighbours. 95 %: '
+        'for that part of the time the value is not larger.',
+        'Peak: the value of the largest magnitude. Radial: what is normal to the axis of the joint; axial: '
+        'along it; tilting moment: the moment normal to it. A pair of bearings takes the tilting moment by '
+        'radial forces of their distance, which are not in the radial force.',
+        'Equivalent bearing load (ISO 281): P = (∫ |F|^p |ω| dt / ∫ |ω| dt)^(1/p), p = 3 for ball, 10/3 for '
+        'roller bearings: the constant load that wears the bearing alike over the same travel. It is of the '
+        'magnitude of the whole force; factors X and Y of a bearing are its own, and the same is in '
+        '`loads.csv` for radial and axial force and tilting moment.',
+        'Cycles: rainflow count of ASTM E1049, halves of cycles included, of each signed component. Equivalent '
+        'range: the range that does the same damage in as many cycles, at the Wöhler exponent m = %s (3: welded '
+        'steel, 5 and more: machined steel). Noise makes many small cycles, which lower it; `range_once` in '
+        '`loads.csv`, the range that does the damage in a single cycle, does not depend on them, and '
+        '`range_once / N^(1/m)` is the range for N cycles.' % woehler,
+        'Mean driving power: the mean of effort times speed, where it is positive.',
+        'Spectra: Welch, Hann windows that overlap by half, means taken out; the integral over frequencies is '
+        'the variance. Of a force: the sum over its components. Frequencies beyond the bandwidth of the motion '
+        'estimate are those of the estimator, not of the robot.']
+    if not clock.even:
+        items.append('The spacing of rows varies by %s %% (standard deviation): for spectra alone they are '
+                     'brought to even steps by straight lines, which lower the densities towards half of the '
+                     'rate of %s Hz.' % (number_text(100 * clock.spread, 2), number_text(clock.rate)))
+    else:
+        items.append('The spacing of rows varies by less than %.0f %%, so that they count as even for spectra.'
+                     % (100 * EVEN))
+    if short_spectra:
+        items.append('Where gaps leave short pieces, these are not in the spectra, or there is none.')
+    return [Heading(2, 'How the figures are found'), Items(items)]
