@@ -8,6 +8,7 @@ foreach(file
     computation.cpp
     deviation_rows.cpp
     free_turn_rows.cpp
+    generated_files.cpp
     help_text.cpp
     inputs.cpp
     joint_renaming.cpp
