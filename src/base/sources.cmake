@@ -1,4 +1,5 @@
 vwd_core(
+  checksum.cpp
   instruction_set.cpp
   nearest_name.cpp
   number_text.cpp

@@ -201,6 +201,7 @@ const std::map<std::string, Setter>& optionsWithValue() {
        [](const auto& value, auto& arguments) {
          arguments.deviation_warn = parsePositive("--deviation-warn", value);
        }},
+      {"--generate", [](const auto& value, auto& arguments) { arguments.generate = value; }},
       {"--node", [](const auto& value, auto& arguments) { arguments.node = parseNode(value); }},
       {"--threads",
        [](const auto& value, auto& arguments) { arguments.threads = parseThreads(value); }},
@@ -242,6 +243,7 @@ class Parser {
 
   Arguments parse() {
     while (next_ < words_.size() && !arguments_.help && !arguments_.version) parseOption();
+    if (!arguments_.generate.empty()) checkForGenerating();
     return arguments_;
   }
 
@@ -268,6 +270,15 @@ class Parser {
       const std::string value = has_value ? word.substr(equals + 1) : nextValue(option);
       if (value.empty()) throw UsageError(option + " needs a value");
       with_value->second(value, arguments_);
+    }
+  }
+
+  void checkForGenerating() const {
+    static const std::set<std::string> kTaken{"--axes",  "--generate",   "--gravity",
+                                              "--help",  "--no-efforts", "--reactions",
+                                              "--scene", "--urdf",       "--version"};
+    for (const std::string& option : seen_) {
+      if (kTaken.count(option) == 0) throw UsageError(option + " cannot be used with --generate");
     }
   }
 
@@ -328,8 +339,9 @@ Arguments parseArguments(const std::vector<std::string>& words) {
   if (!arguments.measured.empty() || !arguments.measured.topic.empty()) arguments.residuals = true;
   if (arguments.help || arguments.version) return arguments;
   if (arguments.urdf.empty()) throw UsageError("--urdf FILE is missing");
-  if (arguments.motion.empty() && !arguments.check && !arguments.explain) {
-    throw UsageError("--motion FILE is missing (only --check and --explain need none)");
+  if (arguments.motion.empty() && !arguments.check && !arguments.explain &&
+      arguments.generate.empty()) {
+    throw UsageError("--motion FILE is missing (only --check, --explain and --generate need none)");
   }
   if (!arguments.motion.topic.empty() && arguments.motion.empty()) {
     throw UsageError("--topic is of use with --motion BAG only");

@@ -39,6 +39,7 @@ struct Arguments {
   std::optional<ReactionSelection> reactions;  ///< replaces the scene's choice
   std::vector<std::string> reaction_names;     ///< names for ReactionSelection::kNamed
   bool no_efforts = false;
+  std::string generate;                    ///< source file to write; empty: none
   bool copy_input = false;                 ///< to a bag that is written
   std::string node = "/inverse_dynamics";  ///< whose topics a bag that is written has
   Method method = Method::kVirtualWork;

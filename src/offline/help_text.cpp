@@ -9,6 +9,7 @@ constexpr char kHelp[] =
   inverse_dynamics_offline --urdf ROBOT.urdf --motion MOTION.csv|BAG... [options]
   inverse_dynamics_offline --urdf ROBOT.urdf --check [options]
   inverse_dynamics_offline --urdf ROBOT.urdf --explain [options]
+  inverse_dynamics_offline --urdf ROBOT.urdf --generate FILE.c [options]
 
 Input
   --urdf FILE           robot description
@@ -94,6 +95,9 @@ Output
                         loops with --motion, also how close it comes to singular positions
   --explain             only says what a sample costs and what its computation leaves out because
                         no result that is asked for needs it
+  --generate FILE       only writes FILE, which ends in .c, .cc, .cpp or .cxx, and a header beside it:
+                        C99 and C++ that computes this robot in this scene and needs no library; its
+                        functions are named after FILE. Not for scenes that close loops.
   --help                this text
   --version             the version of the package
 

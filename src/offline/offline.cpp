@@ -18,6 +18,7 @@
 #include "offline/completed_motion.h"
 #include "offline/computation.h"
 #include "offline/deviation_rows.h"
+#include "offline/generated_files.h"
 #include "offline/inputs.h"
 #include "offline/lagrange_rows.h"
 #include "offline/loop_report.h"
@@ -312,6 +313,7 @@ void runOffline(const Arguments& arguments) {
         "--output: bags are written by a build with ROS only, and this is one without");
   }
   refuseToOverwriteInput(arguments);
+  if (!arguments.generate.empty()) requireSourceName(arguments);
   const Mechanism described = readUrdfFile(arguments.urdf);
   const Scene scene = askedScene(arguments);
   const Mechanism mechanism = robotOf(described, scene, arguments);
@@ -319,6 +321,11 @@ void runOffline(const Arguments& arguments) {
   if (arguments.explain) explain(arguments, mechanism, scene);
   if (arguments.check || arguments.explain) return;
   printDoubts(std::cerr, mechanism);
+  if (!arguments.generate.empty()) {
+    const Request request = requestOf(mechanism, scene, arguments);
+    return naming(prefixOf(arguments),
+                  [&] { writeGeneratedFiles(arguments, mechanism, scene, request); });
+  }
   refuseByLoops(arguments, needsClosedLoops(scene));
   compute(arguments, mechanism, scene);
 }

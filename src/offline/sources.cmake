@@ -9,6 +9,7 @@ foreach(file
     deviation_rows.cpp
     effort_comparison.cpp
     free_turn_rows.cpp
+    generated_files.cpp
     help_text.cpp
     inputs.cpp
     joint_renaming.cpp

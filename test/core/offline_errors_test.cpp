@@ -71,7 +71,7 @@ TEST_F(OfflineToolErrors, WrongUsageIsToldWithAHint) {
   const std::string good = "--urdf p.urdf --motion m.csv --output r.csv ";
   EXPECT_EQ(usage(""), "--urdf FILE is missing");
   EXPECT_EQ(usage("--urdf p.urdf"),
-            "--motion FILE is missing (only --check and --explain need none)");
+            "--motion FILE is missing (only --check, --explain and --generate need none)");
   EXPECT_EQ(usage(good + "--gravitiy '0 0 0'"),
             "unknown option '--gravitiy'; did you mean --gravity?");
   EXPECT_EQ(usage(good + "extra"), "unexpected argument 'extra'");

@@ -8,10 +8,13 @@ namespace virtual_work_dynamics {
 namespace {  // see kernel.h
 
 /// The functions of a Kernel for packs of kWidth samples, and for one sample with the sines and
-/// cosines of kWidth joints at a time.
+/// cosines of kAngles joints at a time.
 template <typename R, int kWidth>
 struct KernelBuild {
   using Samples = Pack<R, kWidth>;
+  // Of one sample the other operations are of single numbers, which wait where vectors are the widest.
+  static constexpr int kMostAngles = 32 / static_cast<int>(sizeof(R));
+  static constexpr int kAngles = kWidth < kMostAngles ? kWidth : kMostAngles;
 
   struct Memory {
     Scratch<R, R> one;
@@ -39,7 +42,7 @@ struct KernelBuild {
   static void one(const PlanView<R>& plan, const KernelInputs<R>& in, const KernelOutputs<R>& out,
                   void* scratch) {
     const Scratch<R, R> arrays = memory(plan, scratch).one;
-    sampleAngles<kWidth>(plan, in, arrays);
+    sampleAngles<kAngles>(plan, in, arrays);
     evaluate(plan, in, out, arrays);
   }
 

@@ -1,0 +1,137 @@
+#include "generate/expression_graph.h"
+
+#include <cmath>
+#include <utility>
+
+namespace virtual_work_dynamics {
+
+namespace {
+
+bool constants(const Term& a, const Term& b) {
+  return !a.isNode() && !b.isNode();
+}
+
+}  // namespace
+
+std::size_t ExpressionGraph::Hash::operator()(const Key& key) const {
+  std::uint64_t hash = 0;
+  for (const std::uint64_t number : key.numbers) {
+    hash = (hash ^ number) * 0x9e3779b97f4a7c15;
+    hash ^= hash >> 29;
+  }
+  return static_cast<std::size_t>(hash);
+}
+
+Term ExpressionGraph::node(const Node& node) {
+  const std::uint64_t kind = static_cast<std::uint64_t>(node.operation) |
+                             static_cast<std::uint64_t>(node.array) << 8 |
+                             static_cast<std::uint64_t>(node.index) << 32;
+  const Key key = {{kind, node.a.bits(), node.b.bits(), node.c.bits()}};
+  const auto [found, added] = index_of_.try_emplace(key, nodes_.size());
+  if (added) nodes_.push_back(node);
+  return Term::ofNode(found->second);
+}
+
+Term ExpressionGraph::input(int array, int index) {
+  return node({Operation::kInput, Term(0), Term(0), Term(0), array, index});
+}
+
+Term ExpressionGraph::part(AnglePart part, const Angle& angle) {
+  if (part == kRest && angle.rest.is(0)) return Term(0);
+  std::size_t i = 0;
+  while (i < angles_.size() && !(angles_[i].angle == angle.angle && angles_[i].rest == angle.rest))
+    ++i;
+  if (i == angles_.size()) angles_.push_back(angle);
+  return node({Operation::kAngle, Term(0), Term(0), Term(0), part, static_cast<int>(i)});
+}
+
+Term ExpressionGraph::stripped(const Term& a, bool& minus) const {
+  if (a.isNode()) {
+    const Node& inside = nodes_[a.node()];
+    if (inside.operation != Operation::kNegate) return a;
+    minus = !minus;
+    return inside.a;
+  }
+  if (!std::signbit(a.value())) return a;
+  minus = !minus;
+  return Term(-a.value());
+}
+
+Term ExpressionGraph::negated(const Term& a) {
+  bool minus = true;
+  const Term inside = stripped(a, minus);
+  if (!minus) return inside;
+  if (!inside.isNode()) return Term(-inside.value());
+  return node({Operation::kNegate, inside, Term(0), Term(0)});
+}
+
+Term ExpressionGraph::sum(const Term& a, const Term& b) {
+  if (constants(a, b)) return Term(a.value() + b.value());
+  if (a.is(0)) return b;
+  if (b.is(0)) return a;
+  bool minus_a = false, minus_b = false;
+  Term left = stripped(a, minus_a), right = stripped(b, minus_b);
+  if (minus_a && minus_b) return negated(sum(left, right));
+  if (minus_a != minus_b && left == right) return Term(0);
+  if (minus_b) return node({Operation::kSubtract, a, right, Term(0)});
+  if (minus_a) return node({Operation::kSubtract, b, left, Term(0)});
+  if (right.bits() < left.bits()) std::swap(left, right);
+  return node({Operation::kAdd, left, right, Term(0)});
+}
+
+Term ExpressionGraph::difference(const Term& a, const Term& b) {
+  if (constants(a, b)) return Term(a.value() - b.value());
+  return sum(a, negated(b));
+}
+
+Term ExpressionGraph::product(const Term& a, const Term& b) {
+  if (constants(a, b)) return Term(a.value() * b.value());
+  if (a.is(0) || b.is(0)) return Term(0);
+  bool minus = false;
+  Term left = stripped(a, minus), right = stripped(b, minus);
+  if (right.bits() < left.bits()) std::swap(left, right);
+  Term result;
+  if (left.is(1)) {
+    result = right;
+  } else if (right.is(1)) {
+    result = left;
+  } else {
+    result = node({Operation::kMultiply, left, right, Term(0)});
+  }
+  return minus ? negated(result) : result;
+}
+
+Term ExpressionGraph::fused(const Term& a, const Term& b, const Term& c, bool minus_product,
+                            bool minus_c) {
+  if (a.is(0) || b.is(0)) return minus_c ? negated(c) : c;
+  const Term added = minus_c ? negated(c) : c;
+  const auto exact = [](const Term& term) { return !term.isNode() && std::abs(term.value()) == 1; };
+  if (c.is(0) || exact(a) || exact(b)) {
+    const Term all = product(a, b);
+    return sum(minus_product ? negated(all) : all, added);
+  }
+  if (constants(a, b) && !added.isNode()) {
+    const double factor = minus_product ? -a.value() : a.value();
+    return Term(std::fma(factor, b.value(), added.value()));
+  }
+  Term left = stripped(a, minus_product), right = stripped(b, minus_product);
+  if (right.bits() < left.bits()) std::swap(left, right);
+  bool minus_added = false;
+  Term rest = stripped(added, minus_added);
+  const Operation operation = minus_product ? (minus_added ? Operation::kMinusMulSub : Operation::kSubMul)
+                                            : (minus_added ? Operation::kMulSub : Operation::kMulAdd);
+  return node({operation, left, right, rest});
+}
+
+Term ExpressionGraph::productRest(const Term& a, const Term& b, const Term& c) {
+  if (constants(a, b)) return Term(std::fma(a.value(), b.value(), -c.value()));
+  if (std::abs(a.isNode() ? 0 : a.value()) == 1) return Term(0);
+  return node({Operation::kProductRest, a, b, c});
+}
+
+Term ExpressionGraph::held(const Term& a) {
+  if (!a.isNode()) return Term(a.value() < -1 ? -1.0 : a.value() > 1 ? 1.0 : a.value());
+  return node({Operation::kHeld, a, Term(0), Term(0)});
+}
+
+}  // namespace virtual_work_dynamics
