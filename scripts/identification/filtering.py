@@ -37,7 +37,7 @@ class Filter:
     def __init__(self, times, cutoff):
         self.step = usual_step(times)
         rate = 1 / self.step
-        self.every = max(1, int(rate / (ROWS_PER_CUTOFF * cutoff)))
+        self.every = max(1, int(rate / (ROWS_PER_CUTOFF * cutoff) + 1e-6))
         self.sos = signal.butter(ORDER, cutoff, fs=rate, output='sos') if cutoff < 0.45 * rate else None
         self._edge = int(round(CUT_OFF * rate / cutoff)) if self.sos is not None else 0
 

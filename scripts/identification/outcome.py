@@ -4,9 +4,11 @@ from scipy import stats
 
 from . import bodies
 from .colour import autocorrelation
+from .refusal import Refusal
 
 TERMS = ('damping', 'coulomb', 'rotor_inertia', 'offset')
 LAGS = 20
+GAIN_TOLD = 0.1  # a relative deviation, from which on a gain is not told
 NOT_TOLD = 0.5  # a deviation over what was thought before, from which on the recording has told nothing
 
 
@@ -49,10 +51,29 @@ class Outcome:
         self.solution = self.base = self.scene = self.urdf = self.shown = None
         self.blocks, self.inertial, self.judged = [], [], []
         self.condition = self.span = np.nan
+        self.without_gain = []  # efforts that are left out, as their gain is not told
 
     @property
     def names(self):
         return [self.regressor.efforts[i] for i in self.efforts]
+
+    def leave_out_unknown_gains(self, pieces):
+        """Takes efforts out of pieces whose gain has a large deviation. Returns whether there are any."""
+        count = len(self.parameters)
+        gains = self.solution.gains
+        deviations = [self.solution.deviation(count + i) for i in range(len(self.efforts))]
+        told = [i for i, deviation in enumerate(deviations) if deviation < GAIN_TOLD * abs(gains[i])]
+        if len(told) == len(self.efforts):
+            return False
+        if not told:
+            raise Refusal('--fit gain: no gain is told: what masses make of the efforts is too small beside '
+                          'friction and noise')
+        self.without_gain += [name for i, name in enumerate(self.names) if i not in told]
+        self.efforts = [self.efforts[i] for i in told]
+        for piece in pieces:
+            piece.measured, piece.described = piece.measured[:, told], piece.described[:, told]
+            piece.columns = piece.columns[:, :, told]
+        return True
 
     # --- values
 
@@ -151,7 +172,9 @@ class Outcome:
                 k = self.solution.gains[i]
                 rows.append(Row('gain', name, 'effort per measured unit', 1.0, 1 / k,
                                 self.solution.deviation(count + i) / k ** 2, 'excited'))
-        return rows
+        return rows + [Row('gain', name, 'effort per measured unit', np.nan, np.nan, np.nan,
+                           'not excited: what masses make of the effort is too small')
+                       for name in self.without_gain]
 
     @property
     def arguments_gain(self):

@@ -279,6 +279,10 @@ class Solver:
         inverse = _inverse((matrix + form)[its])
         solution.covariance = np.zeros((size, size))
         solution.covariance[its] = inverse @ (variance + form)[its] @ inverse
+        # What is held may be off by as much as counts as little, and takes others with it.
+        for held in solution.held:
+            moves = inverse @ matrix[free, held] * self.scales[held]
+            solution.covariance[its] += np.outer(moves, moves)
         solution.prior_covariance = np.zeros((size, size))
         for block in self.blocks:
             solution.prior_covariance[block.slice, block.slice] = _inverse(block.metric)

@@ -13,7 +13,7 @@ from .filtering import chosen_cutoff
 from .outcome import Outcome
 from .problem import Parameter, check_length, filtered_pieces
 from .progress import Progress
-from .recording import Regressor, Tool, find_tool, measured_efforts
+from .recording import Regressor, Tool, find_tool
 from .refusal import Refusal
 from .report import write_report
 from .solver import Block, Solver, condition_of
@@ -78,10 +78,12 @@ class Study:
 
     def _measured(self, regressor, motion, own=False):
         arguments = self.arguments
-        path = motion[0] if own or not arguments.efforts else arguments.efforts
+        efforts = None if own else arguments.efforts
         named = [] if own or not arguments.effort_columns else [
             name.strip() for name in arguments.effort_columns.split(',')]
-        return measured_efforts(path, regressor.times, regressor.efforts, named, arguments.rename or [])
+        path = os.path.join(self.folder, 'static.yaml')
+        write_scene(path, dict(self.fit_scene, motion='static'), [])
+        return self.tool.measured(arguments.urdf, path, motion, efforts, regressor, named)
 
     def _recordings(self):
         arguments = self.arguments
@@ -144,6 +146,8 @@ class Study:
         names = [regressor.efforts[i] for i in efforts]
         keep = recordings[0].keep
         sizes = np.sqrt(np.nanmean(recordings[0].measured[keep][:, efforts] ** 2, axis=0))
+        if self.wanted.gain:  # measured ones are in units of their own
+            sizes = np.sqrt(np.nanmean(regressor.described[keep][:, efforts] ** 2, axis=0))
         size_of = dict(zip(names, sizes))
         scales = []
         for parameter in parameters:
@@ -238,6 +242,7 @@ class Study:
         return outcome
 
     def _solve(self, outcome, pieces, recordings, rests):
+        """Fits; efforts whose gains turn out not to be told are left out, and the rest is fitted again."""
         parameters, efforts = outcome.parameters, outcome.efforts
         scales = self._scales(parameters, recordings, efforts)
         gains = range(len(efforts)) if self.wanted.gain else ()
@@ -248,6 +253,8 @@ class Study:
 
         its = solver(None)
         outcome.solution = its.solve()
+        if self.wanted.gain and outcome.leave_out_unknown_gains(pieces):
+            return self._solve(outcome, pieces, recordings, rests)
         if self.wanted.payload:
             # Once mass and centre are known, a ball of that mass is what is thought of the rest.
             first = next(k for k, parameter in enumerate(parameters) if parameter.kind == 'payload_mass')
