@@ -2,6 +2,7 @@ vwd_core(
   checksum.cpp
   instruction_set.cpp
   nearest_name.cpp
+  npy_header.cpp
   number_text.cpp
   output_file.cpp
   printable.cpp

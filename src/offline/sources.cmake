@@ -22,6 +22,7 @@ foreach(file
     offline.cpp
     recorded_motion.cpp
     residual_rows.cpp
+    regressor_files.cpp
     result_writer.cpp
     root_rows.cpp
     row_loads.cpp

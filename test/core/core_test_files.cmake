@@ -86,6 +86,7 @@ set(core_test_files
   test/core/offline_plan_test.cpp
   test/core/offline_recordings_test.cpp
   test/core/offline_residuals_test.cpp
+  test/core/offline_regressor_test.cpp
   test/core/offline_root_test.cpp
   test/core/offline_test.cpp
   test/core/offline_wrapped_test.cpp
@@ -107,6 +108,7 @@ set(core_test_files
   test/core/recording_test.cpp
   test/core/reference_recursion_test.cpp
   test/core/reference_test.cpp
+  test/core/regressor_test.cpp
   test/core/root_coordinates_test.cpp
   test/core/root_estimator_test.cpp
   test/core/root_imu_test.cpp
