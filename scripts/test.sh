@@ -63,10 +63,10 @@ build() {
   scripts/build.sh "${options[@]}" && scripts/build.sh "${options[@]}" tests
 }
 
-# One after the other: tests through ROS measure time. The exit code says nothing about the tests. Not
-# by catkin_make, which would configure anew in the midst of the other build.
+# Two at once: tests through ROS mostly wait, each under a master of its own. The exit code says nothing
+# about the tests. Not by catkin_make, which would configure anew in the midst of the other build.
 run_tests() {
-  cmake --build "$workspace/build" --target run_tests -- -j1
+  cmake --build "$workspace/build" --target run_tests -- -j2
 }
 
 sanitized_targets=(sanitized_core_tests {description,scene,motion,bag,messages,tool}_fuzz)
