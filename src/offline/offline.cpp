@@ -48,6 +48,11 @@ std::string prefixOf(const Arguments& arguments) {
   return arguments.scene.empty() ? "" : arguments.scene + ": ";
 }
 
+ReactionAxes axesOf(const Arguments& arguments) {
+  if (arguments.inertial_axes) return ReactionAxes::kInertial;
+  return arguments.child_axes ? ReactionAxes::kChild : ReactionAxes::kRoot;
+}
+
 // The request of what is written.
 Request requestOf(const Mechanism& mechanism, const Scene& scene, const Arguments& arguments) {
   Request request;
@@ -203,6 +208,11 @@ void explain(const Arguments& arguments, const Mechanism& mechanism, const Scene
 
 void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene) {
   const Request written = requestOf(mechanism, scene, arguments);
+  if (arguments.inertial_axes && !scene.root_moves) {
+    throw UsageError(
+        "--axes inertial: the scene does not say 'root: moving', and root axes are "
+        "inertial axes");
+  }
   RecordedMotion recorded = readStart(arguments, mechanism, scene);
   if (arguments.deviations && recorded.drivenNumbers() > 0) {
     throw UsageError("--deviations: the motion gives more than joints, whose errors are not known");
@@ -238,7 +248,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   ResultWriter writer(file, header);
   std::string warning;
   {
-    Rows rows(motion.file(), columns, arguments.child_axes, dynamics.closed(),
+    Rows rows(motion.file(), columns, axesOf(arguments), dynamics.closed(),
               arguments.positions ? &mechanism : nullptr, certified ? &*certified : nullptr,
               deviations ? &*deviations : nullptr, writer);
     Computation(dynamics, motion, loads, arguments.threads)
@@ -252,14 +262,6 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
     std::cerr << "note: " << printable(arguments.motion.name())
               << ": certificates judge arithmetic, not input: "
               << certified->summary(motion.file().row_name) << "\n";
-  }
-  if (deviations && scene.root_moves) {
-    std::cerr << "note: " << printable(arguments.motion.name())
-              << ": deviations take the root's motion as exact\n";
-  }
-  if (deviations && mechanism.orientations() > 0) {
-    std::cerr << "note: " << printable(arguments.motion.name())
-              << ": deviations take orientations of joints as exact\n";
   }
   if (deviations) std::cerr << deviations->notes(arguments.deviation_warn.value_or(kDeviationWarn));
   writer.finish();

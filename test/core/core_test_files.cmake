@@ -27,6 +27,7 @@ set(core_test_files
   test/core/description_deviations_test.cpp
   test/core/description_messages_test.cpp
   test/core/deviation_rows_test.cpp
+  test/core/deviations_sources_test.cpp
   test/core/deviations_test.cpp
   test/core/dirty_descriptions.cpp
   test/core/dirty_descriptions_test.cpp
@@ -104,6 +105,7 @@ set(core_test_files
   test/core/reference_recursion_test.cpp
   test/core/reference_test.cpp
   test/core/root_coordinates_test.cpp
+  test/core/root_covariance_test.cpp
   test/core/root_estimator_test.cpp
   test/core/root_imu_test.cpp
   test/core/root_law_test.cpp
@@ -129,6 +131,7 @@ set(core_test_files
   test/core/summation_test.cpp
   test/core/table_law_test.cpp
   test/core/trajectory_curve_test.cpp
+  test/core/turn_estimator_test.cpp
   test/core/unwrap_test.cpp
   test/core/urdf_reader_test.cpp
   test/core/urdf_writer_test.cpp
