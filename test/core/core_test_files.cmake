@@ -23,6 +23,7 @@ set(core_test_files
   test/core/compound_joints_loops_test.cpp
   test/core/compound_joints_published_test.cpp
   test/core/compound_joints_refusals_test.cpp
+  test/core/compound_joints_sdfast_test.cpp
   test/core/compound_joints_test.cpp
   test/core/description_deviations_test.cpp
   test/core/description_messages_test.cpp
