@@ -29,6 +29,10 @@ struct StandardDeviations {
 enum class MotionLevel { kPosition, kVelocity, kAcceleration };
 constexpr int kMotionLevels = 3;
 
+/// Covariances of the applied wrenches of a scene as their AppliedWrench::deviation says; zero
+/// where there is none.
+std::vector<WrenchCovariance> wrenchCovariances(const Scene& scene);
+
 /// Propagates what is not known of a sample's motion, and of a scene's masses and inertias, to its
 /// efforts and reactions, each share for itself.
 ///
@@ -45,6 +49,10 @@ constexpr int kMotionLevels = 3;
 /// Otherwise independent coordinates are chosen, actuated ones first. The covariances of the
 /// coordinates that follow are not used: their noise is what the others' noise makes of it, as a
 /// motion must close the loops.
+///
+/// Where the root moves, the twelve numbers of RootCovariance are shifted, too, and of each wrench
+/// that the scene gives a deviation the six of WrenchCovariance. Of joints that turn freely,
+/// covariances of their turns may be given in place of those of their angles.
 ///
 /// Results are linear in masses and in moments of inertia: the share of the description is the root
 /// of the sum of squares of what each link's mass and inertia contribute, times their tolerance.
@@ -78,12 +86,13 @@ class Deviations {
 
   /// Computes the share of the motion. Does not allocate.
   /// @param motion of all coordinates, as Dynamics::compute() takes it
+  /// @param covariance of the motion, and of the scene's wrenches
   /// @throws MotionError when a vector of `motion` or the covariance has the wrong length, or the
   ///   workspace is another plan's.
   void computeMotion(const Motion& motion, const MotionCovariance& covariance,
                      Workspace& workspace) const;
-  /// Computes the share of the motion with another load than the scene's. What is uncertain of the
-  /// load itself is no part of it. Does not allocate, unless `law` does.
+  /// Computes the share of the motion with another load than the scene's. Does not allocate, unless
+  /// `law` does.
   void computeMotion(const Motion& motion, const MotionCovariance& covariance, const LoadLaw& law,
                      Workspace& workspace) const;
   /// Computes the share of the description, which is zero without tolerances. Does not allocate.
@@ -109,8 +118,9 @@ class Deviations::Workspace {
   /// The share of the description, as computed last.
   const StandardDeviations& description() const;
   /// The part of each effort's variance that each level of each coordinate's motion would make by
-  /// itself: rows are efforts, columns kMotionLevels * coordinate + level. Of the motion computed
-  /// last.
+  /// itself: rows are efforts, columns kMotionLevels * coordinate + level. Where the root moves,
+  /// four columns follow: its orientation, angular velocity, angular acceleration and acceleration;
+  /// then one for each wrench that has a deviation. Of the motion computed last.
   const Eigen::MatrixXd& effortParts() const;
 
  private:

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <functional>
 #include <vector>
 
+#include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/results.h"
 #include "virtual_work_dynamics/scene.h"
 
@@ -23,8 +23,8 @@ struct Load {
 
 /// Gives the load at a position of the mechanism, for wrenches that do not move with their links,
 /// as those measured in the frame of another link.
-/// @param q positions of all coordinates, rad or m
+/// @param motion whose positions and orientations count
 /// @param load has one wrench for each applied wrench of the scene, whose values are replaced
-using LoadLaw = std::function<void(const Eigen::VectorXd& q, Load& load)>;
+using LoadLaw = std::function<void(const Motion& motion, Load& load)>;
 
 }  // namespace virtual_work_dynamics

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "virtual_work_dynamics/free_turn.h"
+#include "virtual_work_dynamics/motion_covariance.h"
 #include "virtual_work_dynamics/root_motion.h"
 
 namespace virtual_work_dynamics {
@@ -15,6 +16,7 @@ struct FreeTurns {
   std::vector<FreeTurn> rows;
   std::vector<std::string> lack;  ///< members of FreeTurn that were not given
   double orientation_error = 0;   ///< how far the lengths of given orientations were off 1
+  std::vector<TurnCovariance> covariances;  ///< by row; empty: not known
 };
 
 /// A motion as a table: row i of each matrix belongs to times[i], column j to joints[j]. Wrenches
@@ -36,12 +38,14 @@ struct MotionTable {
   std::vector<RootMotion> roots;        ///< by row: how the root link moves; empty: not given
   std::vector<std::string> roots_lack;  ///< members of RootMotion that `roots` were not given
   double orientation_error = 0;         ///< how far the lengths of given orientations were off 1
+  std::vector<RootCovariance> root_covariances;  ///< by row; empty: not known
 
   std::vector<std::string> wrenches;  ///< names of applied wrenches
   Eigen::MatrixXd wrench_values;      ///< rows x 6 wrenches: fx fy fz tx ty tz of each, N and N m
 
   bool hasVelocities() const { return velocities.size() > 0; }
   bool hasAccelerations() const { return accelerations.size() > 0; }
+  /// Whether the covariances of joints are known.
   bool hasCovariances() const { return !covariances.empty(); }
 };
 

@@ -12,6 +12,12 @@ namespace virtual_work_dynamics {
 /// Axes in which a vector is given.
 enum class Axes { kLink, kRoot };
 
+/// Standard deviations of a wrench, the same ones of each component; at least zero.
+struct WrenchDeviation {
+  double force = 0;   ///< N
+  double torque = 0;  ///< N m
+};
+
 /// A wrench that acts on a link from outside: (3.6) without the weight.
 struct AppliedWrench {
   std::string link;
@@ -27,6 +33,9 @@ struct AppliedWrench {
   bool live = false;
   /// Of a live wrench: what is received is what the link exerts, the opposite of what acts on it.
   bool invert = false;
+  /// How well force and torque are known, those of a Load, too; none: they count as exact. See
+  /// Deviations.
+  std::optional<WrenchDeviation> deviation;
 };
 
 /// A rigid body that is fixed on a link, besides what the description says of the link.

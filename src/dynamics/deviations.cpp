@@ -13,6 +13,7 @@
 #include "dynamics/shifted_samples.h"
 #include "scene/input_checks.h"
 #include "virtual_work_dynamics/error.h"
+#include "virtual_work_dynamics/free_turn.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -47,28 +48,77 @@ void requireSound(const Tolerances& tolerances) {
   require("inertia", tolerances.inertia);
 }
 
+void requireSound(const WrenchDeviation& deviation) {
+  for (const double value : {deviation.force, deviation.torque}) {
+    if (value >= 0) continue;
+    throw SceneError("applied_wrenches: a deviation of " + numberText(value) +
+                     " is not zero or more");
+  }
+}
+
+// The root's covariance, and the part of it that an effort is doubtful by: turn, angular velocity,
+// angular acceleration and acceleration.
+constexpr Eigen::Index kRootParts = 4;
+
 }  // namespace
 
+std::vector<WrenchCovariance> wrenchCovariances(const Scene& scene) {
+  std::vector<WrenchCovariance> covariances;
+  for (const AppliedWrench& wrench : scene.applied_wrenches) {
+    const WrenchDeviation own = wrench.deviation.value_or(WrenchDeviation());
+    WrenchCovariance covariance = WrenchCovariance::Zero();
+    covariance.diagonal() << Eigen::Vector3d::Constant(own.force * own.force),
+        Eigen::Vector3d::Constant(own.torque * own.torque);
+    covariances.push_back(covariance);
+  }
+  return covariances;
+}
+
 struct Deviations::Impl {
-  Impl(const Mechanism& mechanism, const Scene& scene, const Request& request)
-      : dynamics(mechanism, scene, withoutPoses(request)),
-        levels(scene.static_motion ? 1 : kMotionLevels),
+  Impl(const Mechanism& of, const Scene& scene, const Request& request)
+      : mechanism(of),
+        dynamics(mechanism, scene, withoutPoses(request)),
+        shift_plan(mechanism, scene),
         has_tolerances(scene.tolerances.any()),
+        wrenches(wrenchCovariances(scene)),
         independent(static_cast<std::size_t>(dynamics.coordinates()), true),
         description(mechanism, scene, dynamics.request()) {
     requireSound(scene.tolerances);
     if (dynamics.closed()) independent = independentCoordinates(*dynamics.impl_->loops);
+    for (const AppliedWrench& wrench : scene.applied_wrenches)
+      requireSound(wrench.deviation.value_or(WrenchDeviation()));
   }
 
   std::unique_ptr<ShiftedSamples> makeSamples() const {
     const Dynamics::Impl& plan = *dynamics.impl_;
-    if (plan.chain) return std::make_unique<ShiftedChain>(*plan.chain, plan.own_load, levels);
-    return std::make_unique<ShiftedLoops>(*plan.loops, plan.own_load, independent, levels);
+    if (plan.chain) {
+      return std::make_unique<ShiftedChain>(mechanism, *plan.chain, shift_plan, plan.own_load);
+    }
+    return std::make_unique<ShiftedLoops>(mechanism, *plan.loops, shift_plan, plan.own_load,
+                                          independent);
   }
 
+  void requireSizes(const MotionCovariance& covariance) const {
+    const auto require = [](std::size_t size, std::size_t expected, const char* what) {
+      if (size == expected) return;
+      throw MotionError("covariance: " + std::to_string(size) +
+                        " matrices are given, the mechanism has " + std::to_string(expected) +
+                        what);
+    };
+    require(covariance.coordinates.size(), independent.size(), " coordinates");
+    if (!covariance.turns.empty())
+      require(covariance.turns.size(), mechanism.orientations(), " joints that turn freely");
+    if (covariance.wrenches.empty() || covariance.wrenches.size() == wrenches.size()) return;
+    throw MotionError("covariance: it has " + std::to_string(covariance.wrenches.size()) +
+                      " wrenches, the scene has " + std::to_string(wrenches.size()) +
+                      " applied wrenches");
+  }
+
+  Mechanism mechanism;
   Dynamics dynamics;
-  int levels;  // that results depend on
+  ShiftPlan shift_plan;
   bool has_tolerances;
+  std::vector<WrenchCovariance> wrenches;  // as the scene says
   std::vector<bool> independent;
   DescriptionShares description;
 };
@@ -81,19 +131,32 @@ struct Deviations::Workspace::Impl {
         numbers(compiled.dynamics.makeWorkspace().results()),
         variances(numbers.all()),
         known(numbers.all(), true),
-        shifts(compiled.dynamics.coordinates(), compiled.levels),
-        factors(shifts),
-        changes(shifts),
-        correlations(shifts.rows(), 3) {
+        factors(compiled.dynamics.coordinates(),
+                static_cast<Eigen::Index>(compiled.shift_plan.levels)),
+        changes(factors),
+        correlations(factors.rows(), 3),
+        folded(compiled.dynamics.coordinates(), compiled.mechanism.orientations()) {
+    shifts.coordinates = factors;
     motion.effort.setZero(static_cast<Eigen::Index>(numbers.efforts));
     motion.child_axes.resize(numbers.child_axes);
     motion.root_axes.resize(numbers.root_axes);
     description = motion;
-    parts.setZero(motion.effort.size(), kMotionLevels * shifts.rows());
+    parts.setZero(motion.effort.size(),
+                  kMotionLevels * factors.rows() + (compiled.shift_plan.root > 0 ? kRootParts : 0) +
+                      static_cast<Eigen::Index>(compiled.shift_plan.wrenches.size()));
   }
 
+  const Motion& sampleOf(const Motion& at, const MotionCovariance& covariance);
   void setShifts(const Motion& at, const MotionCovariance& covariance);
-  void addMotion();
+  void setTurnShifts(const Motion& at, const MotionCovariance& covariance);
+  void addMotion(const MotionCovariance& covariance);
+  double addCoordinates(std::size_t number);
+  double addTurns(std::size_t number, const MotionCovariance& covariance);
+  double addRoot(std::size_t number, const MotionCovariance& covariance);
+  double addWrenches(std::size_t number, const MotionCovariance& covariance);
+  void setPart(std::size_t number, Eigen::Index part, double value) {
+    if (number < numbers.efforts) parts(static_cast<Eigen::Index>(number), part) = value;
+  }
   void take(const std::vector<bool>& which, StandardDeviations& to) const;
 
   const Deviations::Impl* plan;
@@ -102,23 +165,37 @@ struct Deviations::Workspace::Impl {
   ResultNumbers numbers;
   std::vector<double> variances;  // by number
   std::vector<bool> known;        // of the description's share, by number
-  // Coordinates x levels: shifts, deviations over shifts, changes of a result by the deviations.
-  Eigen::MatrixXd shifts, factors, changes;
+  SampleShifts shifts;
+  // Coordinates x levels: deviations over shifts, changes of a result by the deviations.
+  Eigen::MatrixXd factors, changes;
   Eigen::MatrixXd correlations;  // of q and qd, q and qdd, qd and qdd; by coordinate
+  Motion folded;                 // with angles of zero
   StandardDeviations motion, description;
   Eigen::MatrixXd parts;
 };
 
+// The sample with angles of zero where covariances are those of free turns.
+const Motion& Deviations::Workspace::Impl::sampleOf(const Motion& at,
+                                                    const MotionCovariance& covariance) {
+  if (covariance.turns.empty()) return at;
+  folded = at;
+  if (folded.orientations.empty())
+    folded.orientations.resize(plan->mechanism.orientations(), Eigen::Quaterniond::Identity());
+  foldFreeTurns(plan->mechanism, folded);
+  return folded;
+}
+
 void Deviations::Workspace::Impl::setShifts(const Motion& at, const MotionCovariance& covariance) {
   const Eigen::VectorXd* const values[] = {&at.q, &at.qd, &at.qdd};
-  for (Eigen::Index i = 0; i < shifts.rows(); ++i) {
+  for (Eigen::Index i = 0; i < factors.rows(); ++i) {
     const auto place = static_cast<std::size_t>(i);
     const Eigen::Matrix3d& C = covariance.coordinates[place];
     const Eigen::Vector3d deviations = C.diagonal().cwiseSqrt();
-    for (Eigen::Index level = 0; level < shifts.cols(); ++level) {
+    for (Eigen::Index level = 0; level < factors.cols(); ++level) {
       const double deviation = deviations[level];
-      shifts(i, level) = shiftOf(static_cast<MotionLevel>(level), (*values[level])[i], deviation);
-      factors(i, level) = std::isfinite(deviation) ? deviation / shifts(i, level) : kNothing;
+      const double shift = shiftOf(static_cast<MotionLevel>(level), (*values[level])[i], deviation);
+      shifts.coordinates(i, level) = shift;
+      factors(i, level) = std::isfinite(deviation) ? deviation / shift : kNothing;
       if (!plan->independent[place]) factors(i, level) = 0;
     }
     const auto correlation = [&](int one, int other) {
@@ -127,32 +204,121 @@ void Deviations::Workspace::Impl::setShifts(const Motion& at, const MotionCovari
     };
     correlations.row(i) << correlation(0, 1), correlation(0, 2), correlation(1, 2);
   }
+  shifts.turns = !covariance.turns.empty();
+  if (shifts.turns) setTurnShifts(at, covariance);
+  const RootMotion& root = at.root;
+  const Eigen::Vector3d* const vectors[] = {&root.angular_velocity, &root.angular_acceleration,
+                                            &root.acceleration};
+  for (Eigen::Index i = 0; i < shifts.root.size(); ++i) {
+    const MotionLevel level = i < 3   ? MotionLevel::kPosition
+                              : i < 6 ? MotionLevel::kVelocity
+                                      : MotionLevel::kAcceleration;
+    const double value = i < 3 ? 0 : (*vectors[i / 3 - 1])[i % 3];
+    shifts.root[i] = shiftOf(level, value, std::sqrt(covariance.root(i, i)));
+  }
 }
 
-// Adds J C J^T of every number.
-void Deviations::Workspace::Impl::addMotion() {
-  using Columns = Eigen::Map<const Eigen::MatrixXd>;
-  const bool all_levels = changes.cols() == kMotionLevels;
-  for (std::size_t number = 0; number < numbers.all(); ++number) {
-    const double* const values = samples->values(number);
-    const Columns shifted(values + 1, changes.rows(), changes.cols());
-    changes = (shifted.array() - values[0]) * factors.array();
-    double variance = changes.squaredNorm();
-    if (all_levels) {
-      const auto q = changes.col(0).array(), qd = changes.col(1).array(),
-                 qdd = changes.col(2).array();
-      const auto r = correlations.array();
-      variance += 2 * (r.col(0) * q * qd + (r.col(1) * q + r.col(2) * qd) * qdd).sum();
-    }
-    variances[number] = variance;
-    if (number >= numbers.efforts) continue;
-    for (Eigen::Index i = 0; i < changes.rows(); ++i) {
-      for (Eigen::Index level = 0; level < changes.cols(); ++level) {
-        parts(static_cast<Eigen::Index>(number), kMotionLevels * i + level) =
-            changes(i, level) * changes(i, level);
+// Of joints that turn freely, the numbers of their turns shift; addTurns() weighs them.
+void Deviations::Workspace::Impl::setTurnShifts(const Motion& at,
+                                                const MotionCovariance& covariance) {
+  for (std::size_t turn = 0; turn < covariance.turns.size(); ++turn) {
+    const FreeTurn own = freeTurnOf(plan->mechanism, turn, at);
+    const Eigen::Index first = plan->mechanism.anglesOf(turn);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      for (Eigen::Index level = 0; level < factors.cols(); ++level) {
+        const double value = level == 1   ? own.angular_velocity[axis]
+                             : level == 2 ? own.angular_acceleration[axis]
+                                          : 0;
+        const Eigen::Index number = 3 * level + axis;
+        shifts.coordinates(first + axis, level) =
+            shiftOf(static_cast<MotionLevel>(level), value,
+                    std::sqrt(covariance.turns[turn](number, number)));
+        factors(first + axis, level) = 0;
       }
     }
   }
+}
+
+// Adds J C J^T of every number.
+void Deviations::Workspace::Impl::addMotion(const MotionCovariance& covariance) {
+  for (std::size_t number = 0; number < numbers.all(); ++number) {
+    double variance = addCoordinates(number);
+    if (shifts.turns) variance += addTurns(number, covariance);
+    if (plan->shift_plan.root > 0) variance += addRoot(number, covariance);
+    variances[number] = variance + addWrenches(number, covariance);
+  }
+}
+
+double Deviations::Workspace::Impl::addCoordinates(std::size_t number) {
+  using Columns = Eigen::Map<const Eigen::MatrixXd>;
+  const double* const values = samples->values(number);
+  const Columns shifted(values + 1, changes.rows(), changes.cols());
+  changes = (shifted.array() - values[0]) * factors.array();
+  double variance = changes.squaredNorm();
+  if (changes.cols() == kMotionLevels) {
+    const auto q = changes.col(0).array(), qd = changes.col(1).array(),
+               qdd = changes.col(2).array();
+    const auto r = correlations.array();
+    variance += 2 * (r.col(0) * q * qd + (r.col(1) * q + r.col(2) * qd) * qdd).sum();
+  }
+  for (Eigen::Index i = 0; i < changes.rows(); ++i) {
+    for (Eigen::Index level = 0; level < changes.cols(); ++level)
+      setPart(number, kMotionLevels * i + level, changes(i, level) * changes(i, level));
+  }
+  return variance;
+}
+
+double Deviations::Workspace::Impl::addTurns(std::size_t number,
+                                             const MotionCovariance& covariance) {
+  const double* const values = samples->values(number);
+  double variance = 0;
+  for (std::size_t turn = 0; turn < covariance.turns.size(); ++turn) {
+    const TurnCovariance& C = covariance.turns[turn];
+    const Eigen::Index first = plan->mechanism.anglesOf(turn);
+    Eigen::Matrix<double, 9, 1> slope = Eigen::Matrix<double, 9, 1>::Zero();
+    for (Eigen::Index i = 0; i < 3 * factors.cols(); ++i) {
+      const Eigen::Index coordinate = first + i % 3, level = i / 3;
+      const auto place = static_cast<std::size_t>(coordinate);
+      if (!plan->independent[place]) continue;
+      const std::size_t column = plan->shift_plan.columnOf(static_cast<std::size_t>(level), place);
+      slope[i] = (values[column] - values[0]) / shifts.coordinates(coordinate, level);
+      setPart(number, kMotionLevels * coordinate + level, slope[i] * slope[i] * C(i, i));
+    }
+    variance += slope.dot(C * slope);
+  }
+  return variance;
+}
+
+double Deviations::Workspace::Impl::addRoot(std::size_t number,
+                                            const MotionCovariance& covariance) {
+  const double* const values = samples->values(number);
+  const Eigen::Map<const Eigen::Matrix<double, 12, 1>> shifted(values +
+                                                               plan->shift_plan.firstOfRoot());
+  const Eigen::Matrix<double, 12, 1> slope = (shifted.array() - values[0]) / shifts.root.array();
+  for (Eigen::Index part = 0; part < kRootParts; ++part) {
+    const auto own = slope.segment<3>(3 * part);
+    setPart(number, kMotionLevels * factors.rows() + part,
+            own.dot(covariance.root.block<3, 3>(3 * part, 3 * part) * own));
+  }
+  return slope.dot(covariance.root * slope);
+}
+
+double Deviations::Workspace::Impl::addWrenches(std::size_t number,
+                                                const MotionCovariance& covariance) {
+  const ShiftPlan& columns = plan->shift_plan;
+  const auto& given = covariance.wrenches.empty() ? plan->wrenches : covariance.wrenches;
+  const double* const values = samples->values(number);
+  const auto first = parts.cols() - static_cast<Eigen::Index>(columns.wrenches.size());
+  double variance = 0;
+  for (std::size_t i = 0; i < columns.wrenches.size(); ++i) {
+    const Eigen::Map<const Eigen::Matrix<double, 6, 1>> shifted(values + columns.firstOfWrench(i));
+    const Eigen::Matrix<double, 6, 1> slope =
+        (shifted.array() - values[0]) / SampleShifts::kOfWrenches;
+    const double own = slope.dot(given[columns.wrenches[i]] * slope);
+    setPart(number, first + static_cast<Eigen::Index>(i), own);
+    variance += own;
+  }
+  return variance;
 }
 
 // Writes the roots of the variances; rounding may have made a variance negative.
@@ -209,7 +375,7 @@ void Deviations::computeMotion(const Motion& motion, const MotionCovariance& cov
                                Workspace& workspace) const {
   const Load& own = impl_->dynamics.impl_->own_load;
   computeMotion(
-      motion, covariance, [&own](const Eigen::VectorXd&, Load& load) { load = own; }, workspace);
+      motion, covariance, [&own](const Motion&, Load& load) { load = own; }, workspace);
 }
 
 void Deviations::computeMotion(const Motion& motion, const MotionCovariance& covariance,
@@ -219,14 +385,11 @@ void Deviations::computeMotion(const Motion& motion, const MotionCovariance& cov
     throw MotionError("the workspace belongs to another Deviations");
   }
   requireLengths(motion, coordinates());
-  if (covariance.coordinates.size() != impl_->independent.size()) {
-    throw MotionError("covariance: " + std::to_string(covariance.coordinates.size()) +
-                      " matrices are given, the mechanism has " + std::to_string(coordinates()) +
-                      " coordinates");
-  }
-  memory.setShifts(motion, covariance);
-  memory.samples->compute(motion, memory.shifts, law);
-  memory.addMotion();
+  impl_->requireSizes(covariance);
+  const Motion& sample = memory.sampleOf(motion, covariance);
+  memory.setShifts(sample, covariance);
+  memory.samples->compute(sample, memory.shifts, law);
+  memory.addMotion(covariance);
   memory.take(memory.samples->known(), memory.motion);
 }
 

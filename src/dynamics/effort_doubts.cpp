@@ -21,10 +21,36 @@ std::string toString(const EffortDoubt& doubt) {
   return text.str();
 }
 
+std::vector<std::string> otherCauses(const Scene& scene) {
+  std::vector<std::string> causes;
+  if (scene.root_moves) {
+    for (const char* quantity :
+         {"orientation", "angular velocity", "angular acceleration", "acceleration"}) {
+      causes.push_back(std::string("the noise of the root's ") + quantity);
+    }
+  }
+  for (const AppliedWrench& wrench : scene.applied_wrenches) {
+    if (!wrench.deviation) continue;
+    causes.push_back("the noise of " + (wrench.name.empty()
+                                            ? "the applied wrench on " + inQuotes(wrench.link)
+                                            : "the wrench " + inQuotes(wrench.name)));
+  }
+  return causes;
+}
+
+std::vector<std::string> exactWrenches(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const AppliedWrench& wrench : scene.applied_wrenches) {
+    if (wrench.live && !wrench.deviation) names.push_back(wrench.name);
+  }
+  return names;
+}
+
 EffortDoubts::EffortDoubts(std::vector<std::string> efforts, std::vector<bool> residuals,
-                           std::vector<std::string> coordinates)
+                           std::vector<std::string> coordinates, std::vector<std::string> others)
     : efforts_(std::move(efforts)),
       coordinates_(std::move(coordinates)),
+      others_(std::move(others)),
       residuals_(std::move(residuals)) {
   const auto count = static_cast<Eigen::Index>(efforts_.size());
   effort_counts_.setZero(count);
@@ -32,7 +58,8 @@ EffortDoubts::EffortDoubts(std::vector<std::string> efforts, std::vector<bool> r
   counts_.setZero(count);
   motion_squares_.setZero(count);
   description_squares_.setZero(count);
-  parts_.setZero(count, kMotionLevels * static_cast<Eigen::Index>(coordinates_.size()));
+  parts_.setZero(count, kMotionLevels * static_cast<Eigen::Index>(coordinates_.size()) +
+                            static_cast<Eigen::Index>(others_.size()));
 }
 
 void EffortDoubts::add(const Eigen::VectorXd& effort, const Deviations::Workspace& computed,
@@ -79,6 +106,8 @@ std::string EffortDoubts::causeOf(Eigen::Index effort) const {
   Eigen::Index largest = 0;
   const double part = parts_.size() > 0 ? parts_.row(effort).maxCoeff(&largest) : 0;
   if (description_squares_[effort] >= part) return "the tolerances of masses and inertias";
+  const auto other = largest - kMotionLevels * static_cast<Eigen::Index>(coordinates_.size());
+  if (other >= 0) return others_[static_cast<std::size_t>(other)];
   const Eigen::Index coordinate = largest / kMotionLevels;
   const std::string level = kLevels[largest % kMotionLevels];
   // An actuated closure's effort stands after those of the coordinates.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "virtual_work_dynamics/deviations.h"
+#include "virtual_work_dynamics/scene.h"
 
 namespace virtual_work_dynamics {
 
@@ -25,14 +26,21 @@ struct EffortDoubt {
 /// the noise of its own acceleration".
 std::string toString(const EffortDoubt& doubt);
 
+/// What makes those of Deviations::Workspace::effortParts() that are not of coordinates, such as
+/// "the noise of the root's angular acceleration".
+std::vector<std::string> otherCauses(const Scene& scene);
+/// Names of the live wrenches of a scene whose deviations are not known, and so count as exact.
+std::vector<std::string> exactWrenches(const Scene& scene);
+
 /// Sums of squares of efforts and their deviations over samples, of which it tells the doubts.
 class EffortDoubts {
  public:
   /// @param efforts names of efforts
   /// @param residuals whether each is a residual, of which none is in doubt: it is to vanish
   /// @param coordinates names of the coordinates, the first of the efforts
+  /// @param others further causes, see otherCauses()
   EffortDoubts(std::vector<std::string> efforts, std::vector<bool> residuals,
-               std::vector<std::string> coordinates);
+               std::vector<std::string> coordinates, std::vector<std::string> others = {});
 
   /// Adds a sample. Efforts without a value or deviation do not count. Does not allocate.
   /// @param computed deviations of the sample
@@ -52,7 +60,7 @@ class EffortDoubts {
  private:
   std::string causeOf(Eigen::Index effort) const;
 
-  std::vector<std::string> efforts_, coordinates_;
+  std::vector<std::string> efforts_, coordinates_, others_;
   std::vector<bool> residuals_;
   std::size_t samples_ = 0;
   Eigen::VectorXd effort_counts_, effort_squares_;                 // by effort

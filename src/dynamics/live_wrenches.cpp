@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/cross_matrix.h"
 #include "scene/input_checks.h"
 
 namespace virtual_work_dynamics {
@@ -17,6 +18,7 @@ LiveWrenches::LiveWrenches(const Mechanism& mechanism, const Scene& scene, doubl
                          i,
                          linkOf(mechanism, scene, i),
                          wrench.invert ? -1.0 : 1.0,
+                         wrench.deviation.value_or(WrenchDeviation()),
                          WrenchHistory(timeout_ns),
                          {}});
   }
@@ -36,8 +38,11 @@ bool LiveWrenches::anyHeld() const {
                      [](const Live& live) { return live.reading.held; });
 }
 
-void LiveWrenches::getLoad(const Eigen::VectorXd& q, Load& load) {
-  if (movesFrames()) links_.setPosition(q);
+void LiveWrenches::getLoad(const Motion& motion, Load& load) {
+  if (movesFrames()) {
+    links_.setOrientations(motion.orientations);
+    links_.setPosition(motion.q);
+  }
   for (const Live& live : wrenches_) {
     const WrenchHistory::Reading& reading = live.reading;
     Wrench& wrench = load.wrenches[live.applied];
@@ -61,15 +66,43 @@ bool LiveWrenches::movesFrames() const {
   });
 }
 
+LiveWrenches::Placed LiveWrenches::frameOf(const Live& live, const MeasuredWrench& measured) const {
+  const Eigen::Matrix3d R_L0 = links_.axesOf(live.link).transpose();
+  return {R_L0 * links_.axesOf(measured.frame),
+          R_L0 * (links_.originOf(measured.frame) - links_.originOf(live.link))};
+}
+
 // The wrench in the axes of the link that it acts on, with the moment about that link's origin.
 Wrench LiveWrenches::onLink(const Live& live, const MeasuredWrench& measured) const {
   if (measured.frame == live.link) return measured.value;
-  const Eigen::Matrix3d R_L0 = links_.axesOf(live.link).transpose();
-  const Eigen::Matrix3d R_LF = R_L0 * links_.axesOf(measured.frame);
-  const Eigen::Vector3d p_LoFo_L =
-      R_L0 * (links_.originOf(measured.frame) - links_.originOf(live.link));
-  const Eigen::Vector3d force = R_LF * measured.value.force;
-  return {force, R_LF * measured.value.torque + p_LoFo_L.cross(force)};
+  const Placed frame = frameOf(live, measured);
+  const Eigen::Vector3d force = frame.R_LF * measured.value.force;
+  return {force, frame.R_LF * measured.value.torque + frame.p_LoFo_L.cross(force)};
+}
+
+// Turned alike about all axes, a sensor's deviations stay; its force turns about the link's origin.
+WrenchCovariance LiveWrenches::covarianceOf(const Live& live,
+                                            const MeasuredWrench& measured) const {
+  const double force = live.deviation.force * live.deviation.force;
+  const double torque = live.deviation.torque * live.deviation.torque;
+  WrenchCovariance covariance = WrenchCovariance::Zero();
+  covariance.diagonal() << Eigen::Vector3d::Constant(force), Eigen::Vector3d::Constant(torque);
+  if (measured.frame == live.link) return covariance;
+  const Eigen::Matrix3d lever = crossMatrix(frameOf(live, measured).p_LoFo_L);
+  covariance.bottomRightCorner<3, 3>() += force * lever * lever.transpose();
+  covariance.bottomLeftCorner<3, 3>() = force * lever;
+  covariance.topRightCorner<3, 3>() = force * lever.transpose();
+  return covariance;
+}
+
+void LiveWrenches::getCovariances(std::vector<WrenchCovariance>& covariances) const {
+  for (const Live& live : wrenches_) {
+    const WrenchHistory::Reading& reading = live.reading;
+    const double after = reading.share, before = 1 - after;
+    WrenchCovariance& covariance = covariances[live.applied];
+    covariance = before * before * covarianceOf(live, *reading.before);
+    if (reading.after) covariance += after * after * covarianceOf(live, *reading.after);
+  }
 }
 
 }  // namespace virtual_work_dynamics

@@ -11,6 +11,7 @@
 #include "loops/link_kinematics.h"
 #include "virtual_work_dynamics/load.h"
 #include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/motion_covariance.h"
 #include "virtual_work_dynamics/scene.h"
 
 namespace virtual_work_dynamics {
@@ -40,11 +41,15 @@ class LiveWrenches {
   /// Whether one of those read last is an older one that is held.
   bool anyHeld() const;
 
-  /// Writes the load of the instant read last at a position.
-  /// @param q of all coordinates, rad or m
+  /// Writes the load of the instant read last at the position of a motion.
   /// @param load has one wrench for each applied wrench of the scene; those that are not live keep
   ///   their values
-  void getLoad(const Eigen::VectorXd& q, Load& load);
+  void getLoad(const Motion& motion, Load& load);
+  /// Writes the covariances of the load of getLoad() at the same position: what the deviations of
+  /// the sensors make of it. How a wrench that is held has changed since is no part of them.
+  /// @param covariances one for each applied wrench of the scene; those that are not live keep
+  ///   theirs
+  void getCovariances(std::vector<WrenchCovariance>& covariances) const;
 
  private:
   struct Live {
@@ -52,12 +57,19 @@ class LiveWrenches {
     std::size_t applied;  // place in the scene
     int link;
     double sign;
+    WrenchDeviation deviation;
     WrenchHistory history;
     WrenchHistory::Reading reading;
   };
 
   bool movesFrames() const;
+  struct Placed {
+    Eigen::Matrix3d R_LF;
+    Eigen::Vector3d p_LoFo_L;
+  };
+  Placed frameOf(const Live& live, const MeasuredWrench& measured) const;
   Wrench onLink(const Live& live, const MeasuredWrench& measured) const;
+  WrenchCovariance covarianceOf(const Live& live, const MeasuredWrench& measured) const;
 
   std::vector<Live> wrenches_;
   LinkKinematics links_;

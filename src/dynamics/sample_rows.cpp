@@ -114,10 +114,26 @@ const Results& SampleRows::read(std::size_t index) {
   return loops_->results[index];
 }
 
-void takeCovariance(const MotionTable& table, std::size_t row, MotionCovariance& covariance) {
+void takeCovariance(const Mechanism& mechanism, const MotionTable& table, std::size_t row,
+                    MotionCovariance& covariance) {
   const std::size_t joints = covariance.coordinates.size();
-  std::copy_n(table.covariances.begin() + static_cast<std::ptrdiff_t>(row * joints), joints,
-              covariance.coordinates.begin());
+  if (table.hasCovariances()) {
+    std::copy_n(table.covariances.begin() + static_cast<std::ptrdiff_t>(row * joints), joints,
+                covariance.coordinates.begin());
+  } else {
+    std::fill_n(covariance.coordinates.begin(), joints, Eigen::Matrix3d::Zero());
+  }
+  if (!table.root_covariances.empty()) covariance.root = table.root_covariances[row];
+  const bool any = std::any_of(table.turns.begin(), table.turns.end(),
+                               [](const FreeTurns& turns) { return !turns.covariances.empty(); });
+  if (!any) return;
+  covariance.turns.assign(mechanism.orientations(), TurnCovariance::Zero());
+  for (std::size_t i = 0; i < mechanism.orientations(); ++i) {
+    for (const FreeTurns& turns : table.turns) {
+      if (turns.joint == mechanism.freeJoint(i).name && !turns.covariances.empty())
+        covariance.turns[i] = turns.covariances[row];
+    }
+  }
 }
 
 }  // namespace virtual_work_dynamics

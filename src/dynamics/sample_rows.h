@@ -5,6 +5,7 @@
 
 #include "loops/loop_rows.h"  // takeRow()
 #include "virtual_work_dynamics/dynamics.h"
+#include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion_covariance.h"
 #include "virtual_work_dynamics/motion_table.h"
 
@@ -46,8 +47,10 @@ class SampleRows {
   std::unique_ptr<Loops> loops_;
 };
 
-/// Copies the covariances of row `row` of a table that has them into `covariance`, which has the
-/// length already.
-void takeCovariance(const MotionTable& table, std::size_t row, MotionCovariance& covariance);
+/// Copies the covariances of row `row` of a table into `covariance`, which has as many coordinates
+/// as the table's columns: zero where they are not known. Those of wrenches stay.
+/// @param mechanism whose joints that turn freely the table's turns may be
+void takeCovariance(const Mechanism& mechanism, const MotionTable& table, std::size_t row,
+                    MotionCovariance& covariance);
 
 }  // namespace virtual_work_dynamics

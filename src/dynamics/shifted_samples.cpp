@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "virtual_work_dynamics/free_turn.h"
+
 namespace virtual_work_dynamics {
 namespace {
 
@@ -21,11 +23,83 @@ std::size_t wholePacks(std::size_t samples, std::size_t width) {
 }
 
 // The vector of a motion that a level is in.
-Eigen::VectorXd& vectorOf(Motion& motion, Eigen::Index level) {
+Eigen::VectorXd& vectorOf(Motion& motion, std::size_t level) {
   return level == 0 ? motion.q : level == 1 ? motion.qd : motion.qdd;
 }
 
+// The i-th number of a wrench.
+double& numberOf(Wrench& wrench, std::size_t i) {
+  const auto component = static_cast<Eigen::Index>(i % 3);
+  return i < 3 ? wrench.force[component] : wrench.torque[component];
+}
+
+// The joint that turns freely one of whose angles a coordinate is; their number: there is none.
+std::size_t freeTurnWith(const Mechanism& mechanism, std::size_t coordinate) {
+  std::size_t i = 0;
+  for (; i < mechanism.orientations(); ++i) {
+    const auto first = static_cast<std::size_t>(mechanism.anglesOf(i));
+    if (coordinate >= first && coordinate < first + 3) break;
+  }
+  return i;
+}
+
+Eigen::Quaterniond turnedOn(const Eigen::Quaterniond& orientation, Eigen::Index axis,
+                            double angle) {
+  return orientation * Eigen::Quaterniond(Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis)));
+}
+
+// Shifts one of the numbers of TurnCovariance.
+void shiftTurn(const Mechanism& mechanism, std::size_t orientation, std::size_t level,
+               Eigen::Index axis, double shift, Motion& motion) {
+  FreeTurn turn = freeTurnOf(mechanism, orientation, motion);
+  if (level == 0) turn.orientation = turnedOn(turn.orientation, axis, shift);
+  if (level == 1) turn.angular_velocity[axis] += shift;
+  if (level == 2) turn.angular_acceleration[axis] += shift;
+  setFreeTurn(mechanism, orientation, turn, motion);
+}
+
+// Shifts a level of a coordinate, or of the turn that its joint makes.
+void shiftCoordinate(const Mechanism& mechanism, const SampleShifts& shifts, std::size_t level,
+                     std::size_t coordinate, Motion& motion) {
+  const auto row = static_cast<Eigen::Index>(coordinate);
+  const double shift = shifts.coordinates(row, static_cast<Eigen::Index>(level));
+  const std::size_t turn =
+      shifts.turns ? freeTurnWith(mechanism, coordinate) : mechanism.orientations();
+  if (turn == mechanism.orientations()) {
+    vectorOf(motion, level)[row] += shift;
+  } else {
+    shiftTurn(mechanism, turn, level, row - mechanism.anglesOf(turn), shift, motion);
+  }
+}
+
+// Shifts one of the numbers of RootCovariance.
+void shiftRoot(std::size_t number, double shift, RootMotion& root) {
+  const auto axis = static_cast<Eigen::Index>(number % 3);
+  switch (number / 3) {
+    case 0:
+      root.orientation = turnedOn(root.orientation, axis, shift);
+      return;
+    case 1:
+      root.angular_velocity[axis] += shift;
+      return;
+    case 2:
+      root.angular_acceleration[axis] += shift;
+      return;
+    default:
+      root.acceleration[axis] += shift;
+  }
+}
+
 }  // namespace
+
+ShiftPlan::ShiftPlan(const Mechanism& mechanism, const Scene& scene)
+    : coordinates(mechanism.coordinates().size()),
+      levels(scene.static_motion ? 1 : 3),
+      root(scene.root_moves ? 12 : 0) {
+  for (std::size_t i = 0; i < scene.applied_wrenches.size(); ++i) {
+    if (scene.applied_wrenches[i].deviation) wrenches.push_back(i);
+  }
+}
 
 void markKnown(const Results& results, std::vector<bool>& known) {
   const LoopResults& loops = results.loops;
@@ -45,16 +119,17 @@ void markKnown(const Results& results, std::vector<bool>& known) {
   mark(loops.root_axes_determined, loops.root_axes_exist);
 }
 
-ShiftedChain::ShiftedChain(const InverseDynamics& dynamics, const Load& own, int levels)
-    : dynamics_(dynamics),
+ShiftedChain::ShiftedChain(const Mechanism& mechanism, const InverseDynamics& dynamics,
+                           const ShiftPlan& plan, const Load& own)
+    : mechanism_(mechanism),
+      dynamics_(dynamics),
+      plan_(plan),
       block_(dynamics, 1, dynamics.instructionSet()),
-      coordinates_(block_.coordinates()),
-      samples_(wholePacks(1 + static_cast<std::size_t>(levels) * coordinates_,
-                          packWidth(dynamics.instructionSet()))),
-      inputs_(3 * coordinates_ * samples_),
+      samples_(wholePacks(plan.columns(), packWidth(dynamics.instructionSet()))),
+      inputs_(3 * plan.coordinates * samples_),
       root_(dynamics.rootMoves() ? RootState::kNumbers * samples_ : 0),
       orientations_(4 * dynamics.orientations() * samples_),
-      position_(dynamics.coordinates()),
+      shifted_(dynamics.coordinates(), dynamics.orientations()),
       loads_(samples_, own) {
   const ResultNumbers numbers(dynamics.makeWorkspace().results());
   outputs_.resize(numbers.all() * samples_);
@@ -69,25 +144,13 @@ ShiftedChain::ShiftedChain(const InverseDynamics& dynamics, const Load& own, int
   results_.root_axes = array(6 * numbers.root_axes);
 }
 
-void ShiftedChain::compute(const Motion& motion, const Eigen::MatrixXd& shifts,
-                           const LoadLaw& law) {
-  const Eigen::VectorXd* const levels[] = {&motion.q, &motion.qd, &motion.qdd};
-  const std::size_t size = coordinates_ * samples_;
-  for (std::size_t level = 0; level < 3; ++level) {
-    double* const array = inputs_.data() + level * size;
-    const bool is_shifted = static_cast<Eigen::Index>(level) < shifts.cols();
-    for (std::size_t i = 0; i < coordinates_; ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
-      const double value = (*levels[level])[row];
-      double* const samples = array + i * samples_;
-      std::fill(samples, samples + samples_, value);
-      if (!is_shifted) continue;
-      samples[1 + level * coordinates_ + i] = value + shifts(row, static_cast<Eigen::Index>(level));
-    }
-  }
+void ShiftedChain::compute(const Motion& motion, const SampleShifts& shifts, const LoadLaw& law) {
+  setCoordinates(motion, shifts);
   setOrientations(motion);
-  setRoots(motion);
+  if (shifts.turns) shiftTurns(motion, shifts);
+  setRoots(motion, shifts);
   setLoads(motion, shifts, law);
+  const std::size_t size = plan_.coordinates * samples_;
   const double* const inputs = inputs_.data();
   block_.compute(
       BlockLayout::kStructureOfArrays,
@@ -95,7 +158,24 @@ void ShiftedChain::compute(const Motion& motion, const Eigen::MatrixXd& shifts,
       loads_.data(), results_);
 }
 
-// Orientations are the same in all samples; their errors are shifts of the angles behind them.
+void ShiftedChain::setCoordinates(const Motion& motion, const SampleShifts& shifts) {
+  const Eigen::VectorXd* const levels[] = {&motion.q, &motion.qd, &motion.qdd};
+  for (std::size_t level = 0; level < 3; ++level) {
+    double* const array = inputs_.data() + level * plan_.coordinates * samples_;
+    for (std::size_t i = 0; i < plan_.coordinates; ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      const double value = (*levels[level])[row];
+      double* const samples = array + i * samples_;
+      std::fill(samples, samples + samples_, value);
+      if (level >= plan_.levels) continue;
+      samples[plan_.columnOf(level, i)] =
+          value + shifts.coordinates(row, static_cast<Eigen::Index>(level));
+    }
+  }
+}
+
+// Orientations are the same in all samples; their errors are shifts of the angles behind them,
+// unless shiftTurns() replaces these.
 void ShiftedChain::setOrientations(const Motion& motion) {
   for (std::size_t c = 0; c < orientations_.size() / samples_; ++c) {
     const double value =
@@ -106,65 +186,119 @@ void ShiftedChain::setOrientations(const Motion& motion) {
   }
 }
 
-// The root's motion is the same in all samples.
-void ShiftedChain::setRoots(const Motion& motion) {
+void ShiftedChain::shiftTurns(const Motion& motion, const SampleShifts& shifts) {
+  for (std::size_t turn = 0; turn < mechanism_.orientations(); ++turn) {
+    const auto first = static_cast<std::size_t>(mechanism_.anglesOf(turn));
+    for (std::size_t level = 0; level < plan_.levels; ++level) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        shifted_ = motion;
+        shiftCoordinate(mechanism_, shifts, level, first + axis, shifted_);
+        const std::size_t column = plan_.columnOf(level, first + axis);
+        for (std::size_t of = 0; of < 9; ++of) {
+          const std::size_t i = first + of % 3;
+          inputs_[(of / 3 * plan_.coordinates + i) * samples_ + column] =
+              vectorOf(shifted_, of / 3)[static_cast<Eigen::Index>(i)];
+        }
+        for (std::size_t c = 0; c < 4; ++c) {
+          orientations_[(4 * turn + c) * samples_ + column] =
+              shifted_.orientations[turn].coeffs()[static_cast<Eigen::Index>(c)];
+        }
+      }
+    }
+  }
+}
+
+void ShiftedChain::setRoots(const Motion& motion, const SampleShifts& shifts) {
   if (root_.empty()) return;
   const RootState state = dynamics_.rootState(motion.root);
   for (std::size_t c = 0; c < RootState::kNumbers; ++c) {
     std::fill_n(&root_[c * samples_], samples_, state.data()[c]);
   }
-}
-
-// Only shifts of positions change the load.
-void ShiftedChain::setLoads(const Motion& motion, const Eigen::MatrixXd& shifts,
-                            const LoadLaw& law) {
-  if (loads_.front().wrenches.empty()) return;
-  law(motion.q, loads_.front());
-  for (std::size_t sample = 1; sample < samples_; ++sample) {
-    const auto i = static_cast<Eigen::Index>(sample) - 1;
-    if (i >= shifts.rows()) {
-      loads_[sample] = loads_.front();
-      continue;
-    }
-    position_ = motion.q;
-    position_[i] += shifts(i, 0);
-    law(position_, loads_[sample]);
+  for (std::size_t number = 0; number < plan_.root; ++number) {
+    RootMotion root = motion.root;
+    shiftRoot(number, shifts.root[static_cast<Eigen::Index>(number)], root);
+    const RootState shifted = dynamics_.rootState(root);
+    const std::size_t column = plan_.firstOfRoot() + number;
+    for (std::size_t c = 0; c < RootState::kNumbers; ++c)
+      root_[c * samples_ + column] = shifted.data()[c];
   }
 }
 
-ShiftedLoops::ShiftedLoops(const ClosedLoopDynamics& dynamics, const Load& own,
-                           const std::vector<bool>& independent, int levels)
-    : dynamics_(dynamics),
+// Only shifts of positions, and those of wrenches, change the load.
+void ShiftedChain::setLoads(const Motion& motion, const SampleShifts& shifts, const LoadLaw& law) {
+  if (loads_.front().wrenches.empty()) return;
+  law(motion, loads_.front());
+  for (std::size_t sample = 1; sample < samples_; ++sample) {
+    if (sample > plan_.coordinates) {
+      loads_[sample] = loads_.front();
+      continue;
+    }
+    shifted_ = motion;
+    shiftCoordinate(mechanism_, shifts, 0, sample - 1, shifted_);
+    law(shifted_, loads_[sample]);
+  }
+  for (std::size_t i = 0; i < plan_.wrenches.size(); ++i) {
+    for (std::size_t number = 0; number < 6; ++number) {
+      Load& load = loads_[plan_.firstOfWrench(i) + number];
+      numberOf(load.wrenches[plan_.wrenches[i]], number) += SampleShifts::kOfWrenches;
+    }
+  }
+}
+
+ShiftedLoops::ShiftedLoops(const Mechanism& mechanism, const ClosedLoopDynamics& dynamics,
+                           const ShiftPlan& plan, const Load& own,
+                           const std::vector<bool>& independent)
+    : mechanism_(mechanism),
+      dynamics_(dynamics),
+      plan_(plan),
       independent_(independent),
       workspace_(dynamics.makeWorkspace()),
       numbers_(workspace_.results()),
-      samples_(1 + static_cast<std::size_t>(levels) * independent.size()),
-      shifted_(dynamics.coordinates()),
+      samples_(plan.columns()),
+      shifted_(dynamics.coordinates(), mechanism.orientations()),
       load_(own),
       values_(numbers_.all() * samples_),
       known_(numbers_.all()) {}
 
-void ShiftedLoops::compute(const Motion& motion, const Eigen::MatrixXd& shifts,
-                           const LoadLaw& law) {
+void ShiftedLoops::compute(const Motion& motion, const SampleShifts& shifts, const LoadLaw& law) {
   // The sample itself is completed, too: what it violates of the closures is not a shift.
   shifted_ = motion;
   bool complete = computeSample(0, law);
   markKnown(workspace_.results(), known_);
-  std::size_t sample = 1;
-  for (Eigen::Index level = 0; level < shifts.cols(); ++level) {
-    for (Eigen::Index i = 0; i < shifts.rows(); ++i, ++sample) {
-      if (!independent_[static_cast<std::size_t>(i)] || !complete) continue;
-      shifted_ = motion;
-      vectorOf(shifted_, level)[i] += shifts(i, level);
-      complete = computeSample(sample, law);
-    }
+  complete = complete && computeCoordinates(motion, shifts, law);
+  for (std::size_t number = 0; number < plan_.root && complete; ++number) {
+    shifted_ = motion;
+    shiftRoot(number, shifts.root[static_cast<Eigen::Index>(number)], shifted_.root);
+    complete = computeSample(plan_.firstOfRoot() + number, law);
+  }
+  for (std::size_t number = 0; number < 6 * plan_.wrenches.size() && complete; ++number) {
+    shifted_ = motion;
+    complete = computeSample(plan_.firstOfWrench(0) + number, law, static_cast<int>(number));
   }
   if (!complete) std::fill(known_.begin(), known_.end(), false);
 }
 
-bool ShiftedLoops::computeSample(std::size_t sample, const LoadLaw& law) {
+bool ShiftedLoops::computeCoordinates(const Motion& motion, const SampleShifts& shifts,
+                                      const LoadLaw& law) {
+  for (std::size_t level = 0; level < plan_.levels; ++level) {
+    for (std::size_t i = 0; i < plan_.coordinates; ++i) {
+      if (!independent_[i]) continue;
+      shifted_ = motion;
+      shiftCoordinate(mechanism_, shifts, level, i, shifted_);
+      if (!computeSample(plan_.columnOf(level, i), law)) return false;
+    }
+  }
+  return true;
+}
+
+// `shifted_wrench` counts the numbers of the plan's wrenches.
+bool ShiftedLoops::computeSample(std::size_t sample, const LoadLaw& law, int shifted_wrench) {
   if (!dynamics_.complete(shifted_, independent_, workspace_)) return false;
-  law(shifted_.q, load_);
+  law(shifted_, load_);
+  if (shifted_wrench >= 0) {
+    const auto number = static_cast<std::size_t>(shifted_wrench);
+    numberOf(load_.wrenches[plan_.wrenches[number / 6]], number % 6) += SampleShifts::kOfWrenches;
+  }
   dynamics_.compute(shifted_, load_, workspace_);
   forEachNumber(workspace_.results(), [&](std::size_t number, double value) {
     values_[number * samples_ + sample] = value;

@@ -8,6 +8,8 @@
 #include "virtual_work_dynamics/closed_loop_dynamics.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/load.h"
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/results.h"
 
 namespace virtual_work_dynamics {
@@ -43,17 +45,44 @@ void forEachNumber(const Results& results, const Take& take) {
 /// allocate when `known` has the length already.
 void markKnown(const Results& results, std::vector<bool>& known);
 
-/// Results of a sample and of samples in each of which one number of the motion is shifted. Column
-/// 0 is the sample, column 1 + level * coordinates + i shifts that level of coordinate i. Serves
-/// one thread.
+/// Which numbers of a sample are shifted, each in a sample of its own, and where these stand:
+/// column 0 is the sample as it is, then come all coordinates' positions, all velocities, all
+/// accelerations, the twelve numbers of RootCovariance where the root moves, and the six of each
+/// wrench that has a deviation.
+struct ShiftPlan {
+  ShiftPlan(const Mechanism& mechanism, const Scene& scene);
+
+  std::size_t columnOf(std::size_t level, std::size_t coordinate) const {
+    return 1 + level * coordinates + coordinate;
+  }
+  std::size_t firstOfRoot() const { return 1 + levels * coordinates; }
+  std::size_t firstOfWrench(std::size_t i) const { return firstOfRoot() + root + 6 * i; }
+  std::size_t columns() const { return firstOfWrench(wrenches.size()); }
+
+  std::size_t coordinates, levels;
+  std::size_t root;                   ///< numbers of the root's motion: 12, or 0 where it rests
+  std::vector<std::size_t> wrenches;  ///< applied wrenches with deviations
+};
+
+/// By how much each of them is shifted.
+struct SampleShifts {
+  Eigen::MatrixXd coordinates;  ///< coordinates x levels
+  /// Whether those of the angles of joints that turn freely shift, instead of these, the numbers of
+  /// TurnCovariance. The sample then has orientations, and angles of zero.
+  bool turns = false;
+  Eigen::Matrix<double, 12, 1> root;  ///< as RootCovariance
+  /// N and N m: results are linear in wrenches.
+  static constexpr double kOfWrenches = 1;
+};
+
+/// Results of a sample and of the samples of a ShiftPlan. Serves one thread.
 class ShiftedSamples {
  public:
   virtual ~ShiftedSamples() = default;
 
   /// Computes all samples. Does not allocate.
-  /// @param shifts coordinates x levels; the number of levels was given to the constructor
   /// @param law the load at each sample's position
-  virtual void compute(const Motion& motion, const Eigen::MatrixXd& shifts, const LoadLaw& law) = 0;
+  virtual void compute(const Motion& motion, const SampleShifts& shifts, const LoadLaw& law) = 0;
   /// The samples' values of one number of ResultNumbers.
   virtual const double* values(std::size_t number) const = 0;
   /// Whether a number has a value that is determined; by number, empty where all have.
@@ -63,29 +92,33 @@ class ShiftedSamples {
 /// Samples of an open chain: a block, in which all values of a number lie one after the other.
 class ShiftedChain : public ShiftedSamples {
  public:
-  /// @param dynamics must outlive it
+  /// @param dynamics must outlive it, like mechanism and plan
   /// @param own the scene's load
-  ShiftedChain(const InverseDynamics& dynamics, const Load& own, int levels);
+  ShiftedChain(const Mechanism& mechanism, const InverseDynamics& dynamics, const ShiftPlan& plan,
+               const Load& own);
 
-  void compute(const Motion& motion, const Eigen::MatrixXd& shifts, const LoadLaw& law) override;
+  void compute(const Motion& motion, const SampleShifts& shifts, const LoadLaw& law) override;
   const double* values(std::size_t number) const override {
     return outputs_.data() + number * samples_;
   }
   const std::vector<bool>& known() const override { return known_; }
 
  private:
+  void setCoordinates(const Motion& motion, const SampleShifts& shifts);
   void setOrientations(const Motion& motion);
-  void setRoots(const Motion& motion);
-  void setLoads(const Motion& motion, const Eigen::MatrixXd& shifts, const LoadLaw& law);
+  void shiftTurns(const Motion& motion, const SampleShifts& shifts);
+  void setRoots(const Motion& motion, const SampleShifts& shifts);
+  void setLoads(const Motion& motion, const SampleShifts& shifts, const LoadLaw& law);
 
+  const Mechanism& mechanism_;
   const InverseDynamics& dynamics_;
+  const ShiftPlan& plan_;
   BlockInverseDynamics<double> block_;
-  const std::size_t coordinates_;
   std::size_t samples_;  // whole packs of vector instructions
   std::vector<double> inputs_, root_, orientations_, outputs_;
   ResultBlock<double> results_;
-  Eigen::VectorXd position_;  // of a sample
-  std::vector<Load> loads_;   // of the samples
+  Motion shifted_;           // a sample
+  std::vector<Load> loads_;  // of the samples
   std::vector<bool> known_;
 };
 
@@ -93,21 +126,24 @@ class ShiftedChain : public ShiftedSamples {
 /// of shifts of the others are not computed.
 class ShiftedLoops : public ShiftedSamples {
  public:
-  /// @param dynamics must outlive it
+  /// @param dynamics must outlive it, like mechanism and plan
   /// @param own the scene's load
-  ShiftedLoops(const ClosedLoopDynamics& dynamics, const Load& own,
-               const std::vector<bool>& independent, int levels);
+  ShiftedLoops(const Mechanism& mechanism, const ClosedLoopDynamics& dynamics,
+               const ShiftPlan& plan, const Load& own, const std::vector<bool>& independent);
 
-  void compute(const Motion& motion, const Eigen::MatrixXd& shifts, const LoadLaw& law) override;
+  void compute(const Motion& motion, const SampleShifts& shifts, const LoadLaw& law) override;
   const double* values(std::size_t number) const override {
     return values_.data() + number * samples_;
   }
   const std::vector<bool>& known() const override { return known_; }
 
  private:
-  bool computeSample(std::size_t sample, const LoadLaw& law);
+  bool computeSample(std::size_t sample, const LoadLaw& law, int shifted_wrench = -1);
+  bool computeCoordinates(const Motion& motion, const SampleShifts& shifts, const LoadLaw& law);
 
+  const Mechanism& mechanism_;
   const ClosedLoopDynamics& dynamics_;
+  const ShiftPlan& plan_;
   const std::vector<bool> independent_;
   ClosedLoopDynamics::Workspace workspace_;
   const ResultNumbers numbers_;

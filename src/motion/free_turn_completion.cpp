@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "motion/root_coordinates.h"
+
 namespace virtual_work_dynamics {
 
 std::vector<RootEstimate> estimateFreeTurns(const Mechanism& mechanism, const MotionTable& motion,
@@ -31,6 +33,9 @@ std::vector<RootEstimate> estimateFreeTurns(const Mechanism& mechanism, const Mo
     const Eigen::Quaterniond back = root.orientation.conjugate();
     turns.rows[row] = {root.orientation, back * root.angular_velocity,
                        back * root.angular_acceleration};
+    if (roots.root_covariances.empty()) continue;
+    turns.covariances.push_back(
+        inBodyAxes(turns.rows[row], roots.root_covariances[row].topLeftCorner<9, 9>()));
   }
   turns.lack.clear();
   return estimates;

@@ -35,9 +35,11 @@ struct Group {
   bool with_velocities;
 };
 
+// `each` receives the covariances by row unless it is empty.
 CompletionReport estimate(const Mechanism& mechanism, const CompletionSettings& settings,
                           const std::vector<double>& times, const Group& group,
-                          std::vector<RootCoordinates>& rows) {
+                          std::vector<RootCoordinates>& rows,
+                          std::vector<RootCoordinateCovariances>& each) {
   MotionTable table;
   table.times = times;
   table.joints = group.names;
@@ -56,7 +58,20 @@ CompletionReport estimate(const Mechanism& mechanism, const CompletionSettings& 
     to.col(1) = table.velocities.row(row).transpose();
     to.col(2) = table.accelerations.row(row).transpose();
   }
+  const auto count = static_cast<std::size_t>(group.count);
+  for (std::size_t row = 0; row < each.size(); ++row) {
+    std::copy_n(table.covariances.begin() + static_cast<std::ptrdiff_t>(row * count), count,
+                each[row].begin() + group.first);
+  }
   return report;
+}
+
+// Of orientations and angular accelerations that are given, nothing is estimated.
+void makeExact(RootCovariance& covariance) {
+  for (const Eigen::Index first : {0, 6}) {
+    covariance.middleRows<3>(first).setZero();
+    covariance.middleCols<3>(first).setZero();
+  }
 }
 
 }  // namespace
@@ -71,6 +86,7 @@ std::vector<RootEstimate> completeRoots(const Mechanism& mechanism, MotionTable&
   CompletionSettings own;
   own.lag = settings.lag;
   own.max_gap = settings.max_gap;
+  own.covariances = settings.covariances;
   own.noise.use_velocity = settings.noise.use_velocity;
   own.noise.stamp_noise = 0;  // see RootEstimator
   own.other_columns = true;
@@ -90,8 +106,12 @@ std::vector<RootEstimate> completeRoots(const Mechanism& mechanism, MotionTable&
   }
   std::vector<RootEstimate> estimates;
   std::vector<RootCoordinates> rows = coordinatesOfRows(motion);
+  RootCoordinateCovariances nothing;
+  nothing.fill(Eigen::Matrix3d::Zero());
+  std::vector<RootCoordinateCovariances> each(settings.covariances ? rows.size() : 0, nothing);
   for (const Group& group : groups)
-    estimates.push_back({group.names, estimate(mechanism, own, motion.times, group, rows)});
+    estimates.push_back({group.names, estimate(mechanism, own, motion.times, group, rows, each)});
+  motion.root_covariances.clear();
   for (std::size_t row = 0; row < rows.size(); ++row) {
     RootMotion& root = motion.roots[row];
     const RootMotion found = rootMotionOf(rows[row]);
@@ -101,9 +121,13 @@ std::vector<RootEstimate> completeRoots(const Mechanism& mechanism, MotionTable&
       root.acceleration = found.acceleration;
     }
     if (rates || angular) root.angular_velocity = found.angular_velocity;
-    if (!angular) continue;
-    root.orientation = found.orientation;
-    root.angular_acceleration = found.angular_acceleration;
+    if (angular) {
+      root.orientation = found.orientation;
+      root.angular_acceleration = found.angular_acceleration;
+    }
+    if (each.empty()) continue;
+    motion.root_covariances.push_back(rootCovarianceOf(found, each[row]));
+    if (!angular) makeExact(motion.root_covariances.back());
   }
   motion.roots_lack.clear();
   return estimates;

@@ -19,7 +19,9 @@ struct RootEstimate {
 /// from positions, and angular velocities and accelerations from orientations, by the
 /// RootCoordinates and completeMotion(). Velocities that are given count by their own noise. Where
 /// accelerations are estimated, positions, orientations and velocities become the smoothed ones as
-/// well; accelerations that are given stay. Does nothing where nothing is missing. Allocates.
+/// well; accelerations that are given stay. Does nothing where nothing is missing. With
+/// CompletionSettings::covariances it fills in MotionTable::root_covariances, in which what is
+/// given is exact. Allocates.
 /// @param settings of the joints; noises and bandwidth are found from the rows all the same
 /// @returns what was estimated
 /// @throws MotionError for accelerations without positions, too few rows, or times that do not

@@ -1,7 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
+#include "virtual_work_dynamics/free_turn.h"
+#include "virtual_work_dynamics/motion_covariance.h"
+#include "virtual_work_dynamics/noise_settings.h"
 #include "virtual_work_dynamics/root_motion.h"
 
 namespace virtual_work_dynamics {
@@ -25,6 +29,27 @@ RootCoordinates coordinatesOf(const RootMotion& motion);
 /// unit length: that of q / |q|, w = 2 vec(q' q*) / |q|^2. The quaternion must not be zero. Does
 /// not allocate.
 RootMotion rootMotionOf(const RootCoordinates& coordinates);
+
+/// Covariances of each of the RootCoordinates and its derivatives, estimated one by one.
+using RootCoordinateCovariances = std::array<Eigen::Matrix3d, RootCoordinates::RowsAtCompileTime>;
+
+/// The covariance of rootMotionOf() coordinates that were estimated one by one. Errors of attitudes
+/// are taken to be alike about all axes: in the four numbers of a quaternion they are then spread
+/// evenly over the three directions that turn it, so that the sum of four covariances tells them,
+/// and no attitude is special. Does not allocate.
+RootCovariance rootCovarianceOf(const RootMotion& motion, const RootCoordinateCovariances& each);
+
+/// The covariance of how a body turns, of which `motion` says orientation, angular velocity and
+/// acceleration: the turn about its own axes, the others in inertial axes.
+TurnCovariance turnCovarianceOf(const RootMotion& motion, const RootCoordinateCovariances& each);
+
+/// What the streams of a quaternion's four numbers say of the turn: noises in rad and rad/s about
+/// each axis, as turnCovarianceOf() has them.
+StreamQuality turnQuality(const std::array<StreamQuality, 4>& quaternion);
+
+/// Of a turn whose angular velocity and acceleration are in the axes of the body, what
+/// turnCovarianceOf() says of them in axes of the parent.
+TurnCovariance inBodyAxes(const FreeTurn& turn, const TurnCovariance& covariance);
 
 /// Makes the quaternion, with its derivatives, that of the two opposite ones which is the closer to
 /// that of `before`.

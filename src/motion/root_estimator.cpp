@@ -1,5 +1,6 @@
 #include "motion/root_estimator.h"
 
+#include <array>
 #include <cstdlib>
 
 namespace virtual_work_dynamics {
@@ -36,17 +37,34 @@ RootEstimator::Verdict RootEstimator::push(const RootPose& pose) {
   return tracks_.push(pose.stamp_ns, coordinates.col(0).data(), coordinates.col(1).data());
 }
 
-bool RootEstimator::read(std::int64_t stamp_ns, RootMotion& motion) {
-  if (!estimate_) return readAsItCame(stamp_ns, motion);
+bool RootEstimator::read(std::int64_t stamp_ns, RootMotion& motion, RootCovariance* covariance) {
+  if (!estimate_) {
+    if (covariance) covariance->setZero();
+    return readAsItCame(stamp_ns, motion);
+  }
   if (!tracks_.knows(stamp_ns, timeout_ns_)) return false;
   RootCoordinates coordinates;
-  for (std::size_t i = 0; i < kCoordinates; ++i)
-    coordinates.row(static_cast<Eigen::Index>(i)) = tracks_.evaluate(i, stamp_ns).transpose();
+  RootCoordinateCovariances each;
+  for (std::size_t i = 0; i < kCoordinates; ++i) {
+    coordinates.row(static_cast<Eigen::Index>(i)) =
+        tracks_.evaluate(i, stamp_ns, covariance ? &each[i] : nullptr).transpose();
+  }
   const RootMotion found = rootMotionOf(coordinates);
   if (!found.finite()) return false;
   motion = found;
+  if (covariance) *covariance = rootCovarianceOf(found, each);
   foreseen_ = stamp_ns > last();
   return true;
+}
+
+void RootEstimator::getStreams(std::vector<RootStream>& streams) const {
+  std::array<StreamQuality, 4> quaternion;
+  for (std::size_t i = 0; i < quaternion.size(); ++i) quaternion[i] = quality(3 + i);
+  streams.clear();
+  streams.push_back({"root.position.x", "m", "position noise", quality(0)});
+  streams.push_back({"root.position.y", "m", "position noise", quality(1)});
+  streams.push_back({"root.position.z", "m", "position noise", quality(2)});
+  streams.push_back({"root.orientation", "rad", "noise", turnQuality(quaternion)});
 }
 
 // Where nothing is estimated, the newest pose holds, with its rates where they are given.

@@ -42,7 +42,8 @@ class RootEstimator : public RootCourse {
   using Verdict = TrackGroup::Verdict;
   Verdict push(const RootPose& pose);
 
-  bool read(std::int64_t stamp_ns, RootMotion& motion) override;
+  using RootCourse::read;
+  bool read(std::int64_t stamp_ns, RootMotion& motion, RootCovariance* covariance) override;
   bool foreseen() const override { return foreseen_; }
   bool empty() const override { return tracks_.empty(); }
   std::int64_t first() const override { return tracks_.first(); }
@@ -52,6 +53,7 @@ class RootEstimator : public RootCourse {
   /// What the poses were found to be: the coordinates of the position, then those of the
   /// quaternion.
   StreamQuality quality(std::size_t coordinate) const { return tracks_.quality(coordinate); }
+  void getStreams(std::vector<RootStream>& streams) const override;
 
  private:
   bool readAsItCame(std::int64_t stamp_ns, RootMotion& motion);

@@ -3,6 +3,8 @@
 #include <array>
 #include <limits>
 
+#include "base/cross_matrix.h"
+
 namespace virtual_work_dynamics {
 namespace {
 
@@ -16,6 +18,32 @@ EstimatorSettings ofSamples(EstimatorSettings settings) {
   settings.noise = NoiseSettings();
   settings.noise.stamp_noise = 0;
   return settings;
+}
+
+// Of the components of angular velocity and specific force in their units, with their derivatives.
+struct SampleCovariances {
+  std::array<Eigen::Matrix3d, 3> rate, force;
+};
+
+// The orientation that is made up counts as exact: no result depends on it.
+RootCovariance covarianceOf(const SampleCovariances& of, const Eigen::Vector3d& w,
+                            const Eigen::Vector3d& at) {
+  Eigen::Matrix<double, 9, 9> measured = Eigen::Matrix<double, 9, 9>::Zero();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const auto component = static_cast<std::size_t>(i);
+    const Eigen::Matrix3d rate = kRateUnit * kRateUnit * of.rate[component];
+    measured(i, i) = rate(0, 0);
+    measured(3 + i, 3 + i) = rate(1, 1);
+    measured(i, 3 + i) = measured(3 + i, i) = rate(0, 1);
+    measured(6 + i, 6 + i) = kForceUnit * kForceUnit * of.force[component](0, 0);
+  }
+  // The acceleration is f - e x at - w x (w x at).
+  Eigen::Matrix<double, 9, 9> by = Eigen::Matrix<double, 9, 9>::Identity();
+  by.block<3, 3>(6, 0) = crossMatrix(w.cross(at)) + crossMatrix(w) * crossMatrix(at);
+  by.block<3, 3>(6, 3) = crossMatrix(at);
+  RootCovariance covariance = RootCovariance::Zero();
+  covariance.bottomRightCorner<9, 9>() = by * measured * by.transpose();
+  return covariance;
 }
 
 }  // namespace
@@ -36,24 +64,40 @@ RootImu::Verdict RootImu::push(const ImuSample& sample) {
   return tracks_.push(sample.stamp_ns, values.data(), rates.data());
 }
 
-bool RootImu::read(std::int64_t stamp_ns, RootMotion& motion) {
+bool RootImu::read(std::int64_t stamp_ns, RootMotion& motion, RootCovariance* covariance) {
   if (!tracks_.knows(stamp_ns, timeout_ns_)) return false;
   RootMotion found;
   Eigen::Vector3d force;
+  SampleCovariances of;
   for (std::size_t i = 0; i < 3; ++i) {
     const auto component = static_cast<Eigen::Index>(i);
-    const Eigen::Vector3d rate = kRateUnit * tracks_.evaluate(i, stamp_ns);
+    const Eigen::Vector3d rate =
+        kRateUnit * tracks_.evaluate(i, stamp_ns, covariance ? &of.rate[i] : nullptr);
     found.angular_velocity[component] = rate[0];
     found.angular_acceleration[component] = rate[1];
-    force[component] = kForceUnit * tracks_.evaluate(i + 3, stamp_ns)[0];
+    force[component] =
+        kForceUnit * tracks_.evaluate(i + 3, stamp_ns, covariance ? &of.force[i] : nullptr)[0];
   }
   const Eigen::Vector3d& w = found.angular_velocity;
   found.acceleration =
       force - found.angular_acceleration.cross(at_) - w.cross(w.cross(at_)) + gravity_;
   if (!found.finite()) return false;
   motion = found;
+  if (covariance) *covariance = covarianceOf(of, w, at_);
   foreseen_ = stamp_ns > last();
   return true;
+}
+
+void RootImu::getStreams(std::vector<RootStream>& streams) const {
+  constexpr std::array<const char*, 6> kNames = {
+      "root.angular_velocity.x", "root.angular_velocity.y", "root.angular_velocity.z",
+      "root.specific_force.x",   "root.specific_force.y",   "root.specific_force.z"};
+  streams.clear();
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    const bool rate = i < 3;
+    streams.push_back({kNames[i], rate ? "rad/s" : "m/s^2", "noise", tracks_.quality(i)});
+    streams.back().quality.position_noise *= rate ? kRateUnit : kForceUnit;
+  }
 }
 
 }  // namespace virtual_work_dynamics

@@ -36,12 +36,14 @@ class RootImu : public RootCourse {
   using Verdict = TrackGroup::Verdict;
   Verdict push(const ImuSample& sample);
 
-  bool read(std::int64_t stamp_ns, RootMotion& motion) override;
+  using RootCourse::read;
+  bool read(std::int64_t stamp_ns, RootMotion& motion, RootCovariance* covariance) override;
   bool foreseen() const override { return foreseen_; }
   bool empty() const override { return tracks_.empty(); }
   std::int64_t first() const override { return tracks_.first(); }
   std::int64_t last() const override { return tracks_.last(); }
   double interval() const override { return tracks_.interval(); }
+  void getStreams(std::vector<RootStream>& streams) const override;
 
  private:
   const std::int64_t timeout_ns_;

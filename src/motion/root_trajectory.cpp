@@ -29,7 +29,8 @@ void RootTrajectory::take(const std::vector<RootPoint>& points) {
   while (pieces_.size() > most) pieces_.pop_front();
 }
 
-bool RootTrajectory::read(std::int64_t stamp_ns, RootMotion& motion) {
+bool RootTrajectory::read(std::int64_t stamp_ns, RootMotion& motion, RootCovariance* covariance) {
+  if (covariance) covariance->setZero();
   const auto later = std::upper_bound(
       pieces_.begin(), pieces_.end(), stamp_ns,
       [](std::int64_t stamp, const Piece& piece) { return stamp < piece.from.stamp_ns; });

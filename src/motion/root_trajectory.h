@@ -33,7 +33,8 @@ class RootTrajectory : public RootCourse {
   /// @param points at least one, stamps increasing
   void take(const std::vector<RootPoint>& points);
 
-  bool read(std::int64_t stamp_ns, RootMotion& motion) override;
+  using RootCourse::read;
+  bool read(std::int64_t stamp_ns, RootMotion& motion, RootCovariance* covariance) override;
   bool foreseen() const override { return foreseen_; }
   bool empty() const override { return pieces_.empty(); }
   std::int64_t first() const override { return pieces_.front().from.stamp_ns; }

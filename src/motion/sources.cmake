@@ -34,6 +34,7 @@ vwd_core(
   track_group.cpp
   track_samples.cpp
   trajectory_curve.cpp
+  turn_estimator.cpp
   unwrap.cpp
   velocity_judge.cpp
   wrench_columns.cpp)

@@ -152,7 +152,8 @@ void StreamLearner::startIdentification(double least_position, double interval) 
     wanted_blocks_ = StreamIdentification::kFewest / 2;
     return;
   }
-  judge(least_position);
+  // At rest there is only noise to compare.
+  if (travel.range >= kMovingSteps * deviation) judge(least_position);
   StreamKnowledge known = knowledge(least_position);
   if (settings_.stamp_noise < 0 && travel.at_speed < kBlocksAtSpeed) {
     known.stamp_noise = learnt_ ? std::sqrt(model_.stamp_variance) : 0;

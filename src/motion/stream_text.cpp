@@ -23,8 +23,9 @@ std::string frequency(double hertz) {
 
 }  // namespace
 
-std::string streamText(const StreamQuality& quality, const std::string& unit) {
-  std::string text = frequency(std::round(1e3 / quality.interval) / 1e3) + ", position noise " +
+std::string streamText(const StreamQuality& quality, const std::string& unit,
+                       const std::string& noise) {
+  std::string text = frequency(std::round(1e3 / quality.interval) / 1e3) + ", " + noise + " " +
                      brief(quality.position_noise) + " " + unit;
   if (quality.velocity_noise >= 0)
     text += ", velocity noise " + brief(quality.velocity_noise) + " " + unit + "/s";

@@ -7,7 +7,9 @@
 namespace virtual_work_dynamics {
 
 /// Text like "1 kHz, position noise 2.1e-05 rad, bandwidth 12 Hz". @param unit rad or m
-std::string streamText(const StreamQuality& quality, const std::string& unit);
+/// @param noise whose deviation StreamQuality::position_noise is
+std::string streamText(const StreamQuality& quality, const std::string& unit,
+                       const std::string& noise = "position noise");
 
 /// Why the velocities of a joint are not used, with what they may be instead.
 /// @param ratio of velocities over slopes of positions

@@ -36,9 +36,11 @@ class TrackGroup {
   /// Whether the coordinates can be estimated at an instant: at most `timeout_ns` behind the newest
   /// sample, not before the first one that is kept, and not in a gap.
   bool knows(std::int64_t stamp_ns, std::int64_t timeout_ns) const;
-  /// The coordinate with its first and second derivative; to be called where it is known.
-  Eigen::Vector3d evaluate(std::size_t coordinate, std::int64_t stamp_ns) const {
-    return tracks_[coordinate].evaluate(stamp_ns, nullptr);
+  /// The coordinate with its first and second derivative, and their covariance unless null; to be
+  /// called where it is known.
+  Eigen::Vector3d evaluate(std::size_t coordinate, std::int64_t stamp_ns,
+                           Eigen::Matrix3d* covariance = nullptr) const {
+    return tracks_[coordinate].evaluate(stamp_ns, covariance);
   }
 
   bool empty() const { return tracks_.front().empty(); }

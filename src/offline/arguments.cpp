@@ -53,11 +53,12 @@ Eigen::Vector3d parseGravity(const std::string& text) {
   return gravity;
 }
 
-bool parseChildAxes(const std::string& text) {
-  if (text != "root" && text != "child") {
-    throw UsageError("--axes: " + inQuotes(text) + " is neither root nor child");
+void parseAxes(const std::string& text, Arguments& arguments) {
+  if (text != "root" && text != "child" && text != "inertial") {
+    throw UsageError("--axes: " + inQuotes(text) + " is neither root nor child nor inertial");
   }
-  return text == "child";
+  arguments.child_axes = text == "child";
+  arguments.inertial_axes = text == "inertial";
 }
 
 void parseReactions(const std::string& text, Arguments& arguments) {
@@ -171,8 +172,7 @@ const std::map<std::string, Setter>& optionsWithValue() {
       {"--output", [](const auto& value, auto& arguments) { arguments.output = value; }},
       {"--gravity",
        [](const auto& value, auto& arguments) { arguments.gravity = parseGravity(value); }},
-      {"--axes",
-       [](const auto& value, auto& arguments) { arguments.child_axes = parseChildAxes(value); }},
+      {"--axes", parseAxes},
       {"--reactions", parseReactions},
       {"--regressor", [](const auto& value, auto& arguments) { arguments.regressor = value; }},
       {"--parameters", parseParameters},
@@ -320,7 +320,7 @@ namespace {
 void checkForBag(const Arguments& arguments) {
   const bool lagrange = arguments.method == Method::kLagrange;
   const std::pair<bool, const char*> kRefused[] = {
-      {arguments.child_axes, "--axes: a bag has reactions in both axes"},
+      {arguments.child_axes || arguments.inertial_axes, "--axes: a bag has reactions in both axes"},
       {arguments.no_efforts, "--no-efforts: a bag has the topics of the node"},
       {lagrange, "--method lagrange: its results are written as CSV only"},
       {arguments.certificates, "--certificates: they are written as CSV only"},
@@ -389,6 +389,9 @@ Arguments parseArguments(const std::vector<std::string>& words) {
   }
   if (arguments.deviation_warn && !arguments.deviations) {
     throw UsageError("--deviation-warn is of use with --deviations only");
+  }
+  if (arguments.inertial_axes && arguments.deviations) {
+    throw UsageError("--axes inertial: --deviations are of root or child axes");
   }
   if (arguments.method == Method::kLagrange) {
     if (arguments.threads != 1) {

@@ -35,6 +35,7 @@ struct Arguments {
   std::string scene;
   std::string output;                      ///< empty: standard output
   std::optional<Eigen::Vector3d> gravity;  ///< m/s^2, inertial axes; replaces the scene's
+  bool inertial_axes = false;              ///< reactions in inertial axes rather than root axes
   bool child_axes = false;                 ///< reactions in child link axes rather than root axes
   std::optional<ReactionSelection> reactions;  ///< replaces the scene's choice
   std::vector<std::string> reaction_names;     ///< names for ReactionSelection::kNamed

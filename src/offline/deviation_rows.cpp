@@ -1,7 +1,9 @@
 #include "offline/deviation_rows.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "base/printable.h"
 #include "dynamics/sample_rows.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -33,24 +35,49 @@ void addCells(const StandardDeviations& deviations, bool efforts, std::vector<do
   }
 }
 
+// Whether there is anything that a share of the motion comes from.
+bool anyDoubt(const Scene& scene, const MotionTable& table) {
+  const auto doubtful = [](const AppliedWrench& wrench) { return wrench.deviation.has_value(); };
+  const auto estimated = [](const FreeTurns& turns) { return !turns.covariances.empty(); };
+  return table.hasCovariances() || !table.root_covariances.empty() ||
+         std::any_of(table.turns.begin(), table.turns.end(), estimated) ||
+         std::any_of(scene.applied_wrenches.begin(), scene.applied_wrenches.end(), doubtful);
+}
+
+// What has no deviation, as nothing of it is estimated, or as the scene does not say it.
+std::vector<std::string> exactParts(const Scene& scene, const MotionTable& table) {
+  std::vector<std::string> parts;
+  if (scene.root_moves && table.root_covariances.empty())
+    parts.emplace_back("the root's motion, as it is given");
+  for (const FreeTurns& turns : table.turns) {
+    if (turns.covariances.empty())
+      parts.push_back("the orientation of " + inQuotes(turns.joint) + ", as its rates are given");
+  }
+  for (const std::string& wrench : exactWrenches(scene))
+    parts.push_back("the wrench " + inQuotes(wrench) + ", which the scene gives no deviation");
+  return parts;
+}
+
 }  // namespace
 
 DeviationRows::DeviationRows(const Mechanism& mechanism, const Scene& scene, const Request& request,
                              const MotionTable& table, const std::string& path)
-    : table_(table),
+    : mechanism_(mechanism),
+      table_(table),
       path_(path),
-      of_motion_(table.hasCovariances()),
+      of_motion_(anyDoubt(scene, table)),
       deviations_(mechanism, scene, request),
-      workspace_(deviations_.makeWorkspace()) {
+      workspace_(deviations_.makeWorkspace()),
+      exact_(exactParts(scene, table)) {
   if (!of_motion_ && !deviations_.hasTolerances()) {
     throw Error(path +
                 ": --deviations: the error of this motion is not known, as nothing of it is "
-                "estimated, and the scene has no tolerances");
+                "estimated, and the scene has no tolerances and no deviations of wrenches");
   }
   covariance_.coordinates.resize(table.joints.size());
   if (request.efforts) {
-    doubts_.emplace(deviations_.effortNames(), deviations_.residuals(),
-                    mechanism.coordinateNames());
+    doubts_.emplace(deviations_.effortNames(), deviations_.residuals(), mechanism.coordinateNames(),
+                    otherCauses(scene));
   }
 }
 
@@ -66,9 +93,9 @@ void DeviationRows::add(std::size_t row, const Motion& motion, const Load& load,
   const bool of_description = deviations_.hasTolerances();
   const bool efforts = doubts_.has_value();
   if (of_motion_) {
-    takeCovariance(table_, row, covariance_);
+    takeCovariance(mechanism_, table_, row, covariance_);
     deviations_.computeMotion(
-        motion, covariance_, [&load](const Eigen::VectorXd&, Load& to) { to = load; }, workspace_);
+        motion, covariance_, [&load](const Motion&, Load& to) { to = load; }, workspace_);
     addCells(workspace_.motion(), efforts, cells);
   }
   if (of_description) {
@@ -87,6 +114,9 @@ double DeviationRows::ofEffort(Eigen::Index effort) const {
 
 std::string DeviationRows::notes(double threshold) const {
   std::string text;
+  if (!exact_.empty()) {
+    text = "note: " + printable(path_) + ": deviations take as exact: " + joined(exact_) + "\n";
+  }
   if (!doubts_) return text;
   for (const EffortDoubt& doubt : doubts_->above(threshold)) {
     text += "note: " + path_ + ": " + toString(doubt) + "\n";

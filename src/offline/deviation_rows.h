@@ -17,8 +17,9 @@ namespace virtual_work_dynamics {
 class DeviationRows {
  public:
   /// @param request of what is written, in child axes or in root axes
-  /// @param table whose rows are computed, which must outlive it
-  /// @throws Error, one line, when there is neither a covariance nor a tolerance.
+  /// @param mechanism must outlive it   @param table whose rows are computed, which must, too
+  /// @throws Error, one line, when neither a covariance nor a tolerance nor a wrench's deviation is
+  ///   known.
   DeviationRows(const Mechanism& mechanism, const Scene& scene, const Request& request,
                 const MotionTable& table, const std::string& path);
 
@@ -32,16 +33,18 @@ class DeviationRows {
   double ofEffort(Eigen::Index effort) const;
 
   /// A line for each effort whose deviation, as rms of all rows, is more than `threshold` times its
-  /// own rms.
+  /// own rms, and one for what counts as exact because its deviation is not known.
   std::string notes(double threshold) const;
 
  private:
+  const Mechanism& mechanism_;
   const MotionTable& table_;
   std::string path_;
   bool of_motion_;
   Deviations deviations_;
   Deviations::Workspace workspace_;
   MotionCovariance covariance_;
+  std::vector<std::string> exact_;
   std::optional<EffortDoubts> doubts_;  // none without efforts
 };
 

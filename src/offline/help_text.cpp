@@ -58,7 +58,9 @@ How missing derivatives are estimated
 
 What is computed
   --gravity "X Y Z"     gravity in axes of a root link that rests, m/s^2 (default: 0 0 -9.81)
-  --axes root|child     axes of the reactions: of the root link (default) or of the child link
+  --axes root|child|inertial
+                        axes of the reactions: of the root link (default), of the child link, or of the
+                        inertial frame that a root link moves against
   --reactions LIST      all (every movable joint; the default), none, or joints separated by
                         commas; fixed joints and "ground" by name only
   --no-efforts          reactions only

@@ -53,6 +53,11 @@ std::string prefixOf(const Arguments& arguments) {
   return arguments.scene.empty() ? "" : arguments.scene + ": ";
 }
 
+ReactionAxes axesOf(const Arguments& arguments) {
+  if (arguments.inertial_axes) return ReactionAxes::kInertial;
+  return arguments.child_axes ? ReactionAxes::kChild : ReactionAxes::kRoot;
+}
+
 // The request of what is written.
 Request requestOf(const Mechanism& mechanism, const Scene& scene, const Arguments& arguments) {
   Request request;
@@ -168,15 +173,8 @@ MeasuredEfforts readMeasured(const Arguments& arguments) {
 }
 
 // Says what was found about the rows that were computed.
-void printNotes(const Arguments& arguments, const Mechanism& mechanism, const Scene& scene,
-                const DeviationRows* deviations, const ResidualRows* residuals) {
-  const std::string begin = "note: " + printable(arguments.motion.name()) + ": ";
-  if (deviations && scene.root_moves) {
-    std::cerr << begin << "deviations take the root's motion as exact\n";
-  }
-  if (deviations && mechanism.orientations() > 0) {
-    std::cerr << begin << "deviations take orientations of joints as exact\n";
-  }
+void printNotes(const Arguments& arguments, const DeviationRows* deviations,
+                const ResidualRows* residuals) {
   if (deviations) std::cerr << deviations->notes(arguments.deviation_warn.value_or(kDeviationWarn));
   if (!residuals) return;
   std::cerr << "note: " << printable(arguments.measuredSource().name())
@@ -255,6 +253,11 @@ void writeRegressor(const Arguments& arguments, const Mechanism& mechanism, Scen
 
 void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene) {
   const Request written = requestOf(mechanism, scene, arguments);
+  if (arguments.inertial_axes && !scene.root_moves) {
+    throw UsageError(
+        "--axes inertial: the scene does not say 'root: moving', and root axes are "
+        "inertial axes");
+  }
   RecordedMotion recorded = readStart(arguments, mechanism, scene);
   if (arguments.deviations && recorded.drivenNumbers() > 0) {
     throw UsageError("--deviations: the motion gives more than joints, whose errors are not known");
@@ -302,7 +305,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   ResultWriter writer(file, header);
   std::string warning;
   {
-    Rows rows(motion.file(), columns, arguments.child_axes, dynamics.closed(),
+    Rows rows(motion.file(), columns, axesOf(arguments), dynamics.closed(),
               arguments.positions ? &mechanism : nullptr, certified ? &*certified : nullptr,
               deviations ? &*deviations : nullptr, residuals ? &*residuals : nullptr, writer);
     Computation(dynamics, motion, loads, arguments.threads)
@@ -317,8 +320,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
               << ": certificates judge arithmetic, not input: "
               << certified->summary(motion.file().row_name) << "\n";
   }
-  printNotes(arguments, mechanism, scene, deviations ? &*deviations : nullptr,
-             residuals ? &*residuals : nullptr);
+  printNotes(arguments, deviations ? &*deviations : nullptr, residuals ? &*residuals : nullptr);
   writer.finish();
 }
 

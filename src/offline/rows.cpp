@@ -6,6 +6,7 @@
 
 #include "base/number_text.h"
 #include "base/printable.h"
+#include "dynamics/inertial_axes.h"
 #include "motion/free_columns.h"
 
 namespace virtual_work_dynamics {
@@ -47,12 +48,13 @@ std::string Conditions::worst(const MotionFile& file) const {
   return text.str();
 }
 
-Rows::Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool loops,
+Rows::Rows(const MotionFile& file, const Columns& columns, ReactionAxes axes, bool loops,
            const Mechanism* motion_of, CertifiedRows* certified, DeviationRows* deviations,
            ResidualRows* residuals, ResultWriter& writer)
     : file_(file),
       columns_(columns),
-      child_axes_(child_axes),
+      child_axes_(axes == ReactionAxes::kChild),
+      inertial_axes_(axes == ReactionAxes::kInertial),
       loops_(loops),
       motion_of_(motion_of),
       certified_(certified),
@@ -63,7 +65,7 @@ Rows::Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool
       reactions_(columns.reactions.size()) {}
 
 void Rows::write(std::size_t row, const Motion& motion, const Load& load, const Results& results) {
-  take(row, results);
+  take(row, motion, results);
   more_.clear();
   if (loops_) {
     if (results.singular() && ++singular_ == 1) first_singular_row_ = row;
@@ -82,15 +84,29 @@ void Rows::write(std::size_t row, const Motion& motion, const Load& load, const 
   progress_.update(row + 1, file_.table.times.size());
 }
 
-void Rows::take(std::size_t row, const Results& results) {
+void Rows::take(std::size_t row, const Motion& motion, const Results& results) {
   effort_ = results.effort.head(effort_.size());
   const std::vector<Wrench>& reactions = child_axes_ ? results.child_axes : results.root_axes;
   std::copy_n(reactions.begin(), reactions_.size(), reactions_.begin());
+  if (inertial_axes_) {
+    for (Wrench& wrench : reactions_) wrench = inInertialAxes(motion.root, wrench);
+  }
   const bool finite = effort_.allFinite() &&
                       std::all_of(reactions_.begin(), reactions_.end(), [](const Wrench& wrench) {
                         return wrench.force.allFinite() && wrench.torque.allFinite();
                       });
   if (!finite && ++overflowed_ == 1) first_row_ = row;
+}
+
+// Of components in root axes: turned into inertial axes, each has a share of all of its vector.
+Determined Rows::inAxes(const Determined& components) const {
+  if (!inertial_axes_) return components;
+  Determined turned = components;
+  for (const std::size_t first : {std::size_t{0}, std::size_t{3}}) {
+    const bool all = components[first] && components[first + 1] && components[first + 2];
+    std::fill_n(turned.begin() + static_cast<std::ptrdiff_t>(first), 3, all);
+  }
+  return turned;
 }
 
 // Turns results without a value into NaN, which is written as an empty cell.
@@ -100,7 +116,8 @@ void Rows::leaveOut(const Results& results) {
     if (!results.effortExists(static_cast<std::size_t>(i))) effort_[i] = kNothing;
   }
   for (std::size_t i = 0; i < reactions_.size(); ++i) {
-    const Determined exist = child_axes_ ? results.childAxesExist(i) : results.rootAxesExist(i);
+    const Determined exist =
+        inAxes(child_axes_ ? results.childAxesExist(i) : results.rootAxesExist(i));
     for (int axis = 0; axis < 3; ++axis) {
       const auto j = static_cast<std::size_t>(axis);
       if (!exist[j]) reactions_[i].force[axis] = kNothing;
@@ -116,7 +133,7 @@ void Rows::addLoopCells(const Results& results) {
   }
   const auto& flags = child_axes_ ? loops.child_axes_determined : loops.root_axes_determined;
   for (std::size_t i = 0; i < columns_.reactions.size(); ++i) {
-    for (const bool flag : flags[i]) more_.push_back(flag ? 1 : 0);
+    for (const bool flag : inAxes(flags[i])) more_.push_back(flag ? 1 : 0);
   }
   for (const auto level :
        {&ClosureResidual::position, &ClosureResidual::velocity, &ClosureResidual::acceleration}) {

@@ -38,17 +38,19 @@ class Conditions {
   std::size_t close_ = 0;
 };
 
+/// The axes of the reactions that are written.
+enum class ReactionAxes { kRoot, kChild, kInertial };
+
 /// Writes rows in their order, and tells of those that overflowed or lack values. Shows progress
 /// until it is destroyed.
 class Rows {
  public:
-  /// @param child_axes whether reactions are in child link axes rather than root axes
   /// @param loops whether the columns include loopColumns()
   /// @param motion_of whose motionColumns() the columns end with; null: they do not
   /// @param certified null when no certificates are asked for
   /// @param deviations null when no deviations are asked for
   /// @param residuals null when no measured efforts are asked for
-  Rows(const MotionFile& file, const Columns& columns, bool child_axes, bool loops,
+  Rows(const MotionFile& file, const Columns& columns, ReactionAxes axes, bool loops,
        const Mechanism* motion_of, CertifiedRows* certified, DeviationRows* deviations,
        ResidualRows* residuals, ResultWriter& writer);
 
@@ -59,13 +61,14 @@ class Rows {
   std::string warning() const;
 
  private:
-  void take(std::size_t row, const Results& results);
+  void take(std::size_t row, const Motion& motion, const Results& results);
+  Determined inAxes(const Determined& components) const;
   void leaveOut(const Results& results);
   void addLoopCells(const Results& results);
 
   const MotionFile& file_;
   const Columns& columns_;
-  const bool child_axes_, loops_;
+  const bool child_axes_, inertial_axes_, loops_;
   const Mechanism* const motion_of_;
   CertifiedRows* certified_;
   DeviationRows* deviations_;

@@ -62,6 +62,11 @@ void refuseOtherInputs(const Arguments& arguments, const RobotTask& task) {
     throw SceneError(arguments.scene +
                      ": root: moving: its motion is not read from bags; play the bag to the node");
   }
+  if (task.mechanism.orientations() > 0) {
+    throw SceneError("joint " + inQuotes(task.mechanism.freeJoint(0).name) +
+                     ": turns freely, and its orientation is not read from bags; play the bag to "
+                     "the node");
+  }
   if (!task.wrench_topics.empty()) {
     throw SceneError(arguments.scene +
                      ": live wrenches are not read from bags; play the bag to the node");

@@ -31,11 +31,11 @@ ReplayedStates::ReplayedStates(const RobotTask& task, const MotionSource& source
       estimator_(task.mechanism, task.estimator),
       completer_(task.mechanism, task.scene, task.everything, limits.tolerance),
       wrenches_(task.mechanism, task.scene, kWrenchTimeout),
-      samples_(task.everything.coordinates(), task.scene, completer_, wrenches_,
+      samples_(task.everything, task.scene, completer_, wrenches_,
                {counters_, certificates_, loops_}),
       plan_(task.mechanism, task.scene, task.outputs, task.reactions, audience, PlanChecks()),
-      computation_(task.mechanism, task.estimator.estimate, estimator_, completer_, samples_,
-                   counters_, *this) {
+      computation_(task.mechanism, task.estimator, estimator_, completer_, samples_, counters_,
+                   *this) {
   if (task.everything.closed()) estimator_.waitFor(completer_.needed());
   for (const auto& [coordinate, position] : task.rest) estimator_.setRest(coordinate, position);
   loops_.setPassiveGiven(completer_.allGiven());

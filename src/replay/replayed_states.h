@@ -54,6 +54,9 @@ class ReplayedStates : private JointStateUser {
   ActivePlan& plan() override { return plan_; }
   void publish(const ActivePlan& plan) override;
   void dropJointState(DropReason reason, const std::string& text) override;
+  void dropFreeJoints(DropReason reason, const std::string& text) override {
+    dropJointState(reason, text);
+  }
   void leaveForeign(const std::string& text) override;
   void dropSample(SampleComputation::Outcome outcome, ActivePlan& plan,
                   std::int64_t stamp_ns) override;

@@ -29,6 +29,7 @@ struct Counters {
   Counter
       payloads;   ///< messages of payloads and gravity received, counted by the node's own thread
   Counter roots;  ///< messages received that tell how the root link moves
+  Counter free_joints;  ///< messages received that tell of joints that turn freely
   Counter accepted_joint_states;
   Counter restarts;             ///< as time went back
   Counter gaps;                 ///< joint states after a gap of one of their joints
@@ -40,6 +41,7 @@ struct Counters {
   Counter root_restarts;        ///< of the root's poses, as time went back
   Counter root_gaps;            ///< poses of the root after a gap
   Counter root_reordered;       ///< poses of the root that came late and took their place
+  Counter root_twist_left;      ///< poses of the root with rates that are not finite
   Counter root_foreseen;        ///< samples with a root's motion behind all that is known of it
   Counter samples;              ///< samples computed from joint states
   Counter points;               ///< points of trajectories computed

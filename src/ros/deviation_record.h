@@ -15,9 +15,11 @@ namespace virtual_work_dynamics {
 /// takes reports; the recording one neither waits nor allocates.
 class DeviationRecord {
  public:
+  /// With the arguments of EffortDoubts.
   DeviationRecord(std::vector<std::string> efforts, std::vector<bool> residuals,
-                  std::vector<std::string> coordinates)
-      : doubts_(std::move(efforts), std::move(residuals), std::move(coordinates)) {}
+                  std::vector<std::string> coordinates, std::vector<std::string> others = {})
+      : doubts_(std::move(efforts), std::move(residuals), std::move(coordinates),
+                std::move(others)) {}
 
   /// Records the deviations of a sample, of which the share of the motion is computed. A sample
   /// that comes while a report is taken is left out.

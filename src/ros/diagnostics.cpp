@@ -151,6 +151,7 @@ void Diagnostics::addRunTimes(DiagnosticStatusWrapper& status) {
 
 void Diagnostics::addCounts(DiagnosticStatusWrapper& status) const {
   status.add("joint states received", counters_.joint_states.value());
+  status.add("messages of joints that turn freely received", counters_.free_joints.value());
   status.add("trajectories received", counters_.trajectories.value());
   status.add("samples computed", counters_.samples.value());
   status.add("trajectory points computed", counters_.points.value());
@@ -170,6 +171,7 @@ void Diagnostics::addCounts(DiagnosticStatusWrapper& status) const {
   status.add("restarts of the root", counters_.root_restarts.value());
   status.add("gaps of the root", counters_.root_gaps.value());
   status.add("root messages put in order", counters_.root_reordered.value());
+  status.add("root messages with rates that are not finite", counters_.root_twist_left.value());
   status.add("samples with the root foreseen", counters_.root_foreseen.value());
   status.add("late outputs", counters_.late.value());
   status.add("dropped", counters_.allDropped());

@@ -41,10 +41,10 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       wrenches_(task_.mechanism, task_.scene, parameters.wrench_timeout),
       root_inputs_(parameters.root, task_.mechanism, parameters.frame_prefix, task_.scene.gravity,
                    task_.estimator, counters_, [this](const auto&... what) { drop(what...); }),
-      samples_(task_.everything.coordinates(), task_.scene, completer_, wrenches_,
+      samples_(task_.everything, task_.scene, completer_, wrenches_,
                {counters_, certificates_, loops_}, root_inputs_.course()),
-      joint_states_(task_.mechanism, task_.estimator.estimate, estimator_, completer_, samples_,
-                    counters_, *this),
+      joint_states_(task_.mechanism, task_.estimator, estimator_, completer_, samples_, counters_,
+                    *this),
       played_(parameters.trajectory_rate),
       streams_(task_.mechanism.coordinates().size()),
       gap_throttles_(task_.mechanism.coordinates().size(), Throttle(kGapPeriod)),
@@ -81,6 +81,10 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       node.subscribe("joint_states", queue, &InverseDynamicsNode::receiveJointState, this, hints);
   trajectory_subscriber_ = node.subscribe("joint_trajectory", queue,
                                           &InverseDynamicsNode::receiveTrajectory, this, hints);
+  if (task_.mechanism.orientations() > 0) {
+    free_joint_subscriber_ = node.subscribe("multi_dof_joint_states", queue,
+                                            &InverseDynamicsNode::receiveFreeJoints, this, hints);
+  }
   root_inputs_.subscribe(node, queue);
   wrench_inputs_.subscribe(ros::NodeHandle("~"), task_.wrench_topics, queue);
   scene_inputs_.subscribe(ros::NodeHandle("~"), manage_queue_);
@@ -114,8 +118,25 @@ void InverseDynamicsNode::receiveJointState(
   counters_.joint_states.add();
   receipt_ = event.getReceiptTime();
   guard(joint_state_subscriber_, [&] {
-    if (joint_states_.take(*event.getConstMessage())) streams_.update(estimator_);
+    if (joint_states_.take(*event.getConstMessage())) updateStreams();
   });
+}
+
+void InverseDynamicsNode::receiveFreeJoints(
+    const ros::MessageEvent<const sensor_msgs::MultiDOFJointState>& event) {
+  // Poses of the root may come by the same topic.
+  const sensor_msgs::MultiDOFJointState& message = *event.getConstMessage();
+  if (root_inputs_.isOfRoot(message) && !namesFreeJoint(task_.mechanism, message.joint_names))
+    return;
+  counters_.free_joints.add();
+  receipt_ = event.getReceiptTime();
+  guard(free_joint_subscriber_, [&] {
+    if (joint_states_.take(message)) updateStreams();
+  });
+}
+
+void InverseDynamicsNode::updateStreams() {
+  streams_.update(estimator_, root_inputs_.course(), joint_states_.freeJoints());
 }
 
 void InverseDynamicsNode::publish(const ActivePlan& plan) {
@@ -125,6 +146,10 @@ void InverseDynamicsNode::publish(const ActivePlan& plan) {
 
 void InverseDynamicsNode::dropJointState(DropReason reason, const std::string& text) {
   drop(joint_state_subscriber_.getTopic(), reason, text);
+}
+
+void InverseDynamicsNode::dropFreeJoints(DropReason reason, const std::string& text) {
+  drop(free_joint_subscriber_.getTopic(), reason, text);
 }
 
 // Joint states of other robots on the topic are nothing to warn of again and again.
@@ -185,6 +210,12 @@ void InverseDynamicsNode::take(const trajectory_msgs::JointTrajectory& message, 
   const ros::Time start = message.header.stamp.isZero() ? receipt : message.header.stamp;
   if (start.isZero()) {
     drop(topic, DropReason::kNoTime, "its stamp is zero, and /clock has not been received yet");
+    return;
+  }
+  if (task_.mechanism.orientations() > 0) {
+    drop(topic, DropReason::kOrientation,
+         "joint " + inQuotes(task_.mechanism.freeJoint(0).name) +
+             " turns freely, and a trajectory of joints does not tell its orientation");
     return;
   }
   auto rejection = trajectories_.convert(message, static_cast<std::int64_t>(start.toNSec()),
@@ -291,6 +322,11 @@ void InverseDynamicsNode::dropResult(const ros::Subscriber& source, Outcome outc
   } else if (outcome == Outcome::kNoWrench) {
     drop(topic, DropReason::kNoWrench,
          wrench_inputs_.problem(samples_.unknownWrench()) + ", at " + where);
+  } else if (outcome == Outcome::kNoTurn) {
+    drop(topic, DropReason::kNoTurn,
+         free_joint_subscriber_.getTopic() + " does not tell the orientation of " +
+             inQuotes(task_.mechanism.freeJoint(joint_states_.unknownTurn()).name) + " at " +
+             where);
   } else if (outcome == Outcome::kNoRoot) {
     drop(topic, DropReason::kNoRoot, root_inputs_.problem() + ", at " + where);
   } else {

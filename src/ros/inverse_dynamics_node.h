@@ -6,6 +6,7 @@
 #include <ros/steady_timer.h>
 #include <ros/subscriber.h>
 #include <sensor_msgs/JointState.h>
+#include <sensor_msgs/MultiDOFJointState.h>
 #include <trajectory_msgs/JointTrajectory.h>
 
 #include <array>
@@ -61,12 +62,14 @@ class InverseDynamicsNode : private JointStateUser {
 
   // Receiving thread.
   void receiveJointState(const ros::MessageEvent<const sensor_msgs::JointState>& event);
+  void receiveFreeJoints(const ros::MessageEvent<const sensor_msgs::MultiDOFJointState>& event);
   void receiveTrajectory(const ros::MessageEvent<const trajectory_msgs::JointTrajectory>& event);
   template <typename Work>
   void guard(const ros::Subscriber& source, Work work);
   ActivePlan& plan() override { return plans_.current(); }
   void publish(const ActivePlan& plan) override;
   void dropJointState(DropReason reason, const std::string& text) override;
+  void dropFreeJoints(DropReason reason, const std::string& text) override;
   void leaveForeign(const std::string& text) override;
   void dropSample(SampleComputation::Outcome outcome, ActivePlan& plan,
                   std::int64_t stamp_ns) override;
@@ -80,6 +83,7 @@ class InverseDynamicsNode : private JointStateUser {
   void playDue();
   void play(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t place);
   void publishSample(const ActivePlan& plan);
+  void updateStreams();
   void dropPoint(SampleComputation::Outcome outcome, const TrajectoryMotion& trajectory,
                  std::size_t point);
   void dropResult(const ros::Subscriber& source, SampleComputation::Outcome outcome,
@@ -138,6 +142,7 @@ class InverseDynamicsNode : private JointStateUser {
   const bool sim_time_;
   ros::Subscriber joint_state_subscriber_;
   ros::Subscriber trajectory_subscriber_;
+  ros::Subscriber free_joint_subscriber_;  // where joints turn freely
   WrenchInputs wrench_inputs_;
   ros::SteadyTimer player_;  // runs while played_ has points
   std::atomic<bool> stopping_{false};

@@ -183,6 +183,7 @@ RootSettings readRoot(PrivateParameters& parameters) {
   RootSettings settings;
   settings.source = readRootSource(parameters);
   settings.inertial_frame = parameters.text("root/inertial_frame", settings.inertial_frame);
+  settings.axes = readRootAxes(parameters, settings.source);
   settings.link = parameters.text("root/link", settings.link);
   settings.timeout = readPeriod(parameters, "root/timeout", settings.timeout);
   return settings;

@@ -13,6 +13,7 @@ subscribes
   joint_trajectory   trajectory_msgs/JointTrajectory  one result for every point
   odom, multi_dof_joint_trajectory, multi_dof_joint_states, /tf, imu
                      by ~root/source                  how the root link moves, where the scene says so
+  multi_dof_joint_states                              joints that turn freely, by name
   ~wrench/<name>     geometry_msgs/WrenchStamped      each live applied wrench of the scene
   ~payload/<link>    geometry_msgs/InertiaStamped     what a link carries from now on; mass 0: nothing
   ~gravity           geometry_msgs/Vector3Stamped     gravity from now on
@@ -22,6 +23,7 @@ publishes (each only while somebody subscribes)
   ~effort_deviation  sensor_msgs/JointState           standard deviations of efforts by the motion's error
   ~effort_tolerance  sensor_msgs/JointState           the same by the scene's tolerances, where it has any
   ~reactions         sensor_msgs/MultiDOFJointState   joint poses and wrenches, axes of the root link
+  ~reactions_inertial                                 the same in inertial axes, by ~root/axes
   ~reaction/<joint>  geometry_msgs/WrenchStamped      the same wrench, frame of the child link
   ~markers           visualization_msgs/MarkerArray   RViz: arrows and numbers at the joints, a legend
   ~joint_trajectory  trajectory_msgs/JointTrajectory  the input trajectory with efforts
@@ -48,6 +50,7 @@ parameters
                              an older one are dropped (0.1)
   ~root/source               odometry | trajectory | states | tf | imu: who tells how a root link moves ("")
   ~root/inertial_frame       frame that it moves against, with the axes of gravity (odom)
+  ~root/axes                 root | inertial | both: axes of reactions (root)
   ~root/link                 what messages call the root link; "": as frame_ids do ("")
   ~root/timeout              longest time that its motion is foreseen, s; results that need more are
                              dropped (0.1)

@@ -6,19 +6,20 @@ namespace virtual_work_dynamics {
 
 using Outcome = SampleComputation::Outcome;
 
-JointStateComputation::JointStateComputation(const Mechanism& mechanism, bool covariances,
+JointStateComputation::JointStateComputation(const Mechanism& mechanism,
+                                             const EstimatorSettings& settings,
                                              MotionEstimator& estimator, MotionCompleter& completer,
                                              SampleComputation& samples, Counters& counters,
                                              JointStateUser& user)
-    : covariances_(covariances),
+    : covariances_(settings.estimate),
       conversion_(mechanism),
+      free_joints_(mechanism, settings),
       estimator_(estimator),
       completer_(completer),
       samples_(samples),
       counters_(counters),
-      user_(user) {
-  covariance_.coordinates.resize(mechanism.coordinates().size());
-}
+      user_(user),
+      covariance_(samples.makeCovariance()) {}
 
 bool JointStateComputation::take(const sensor_msgs::JointState& message) {
   JointSample sample;
@@ -38,23 +39,37 @@ bool JointStateComputation::take(const sensor_msgs::JointState& message) {
   if (!sample.velocity_problem.empty()) {
     user_.warn(sample.velocity_problem + "; velocities that are not finite are not used");
   }
-  if (!push(sample)) return false;
+  if (!push(sample, &JointStateUser::dropJointState)) return false;
   while (estimator_.ready()) evaluate();
   return true;
 }
 
-bool JointStateComputation::push(const JointSample& sample) {
+bool JointStateComputation::take(const sensor_msgs::MultiDOFJointState& message) {
+  JointSample sample;
+  const auto rejection = free_joints_.take(message, sample);
+  const std::string doubt = free_joints_.takeDoubt();
+  if (!doubt.empty()) user_.warn(doubt);
+  if (rejection) {
+    user_.dropFreeJoints(rejection->reason, rejection->text);
+    return false;
+  }
+  if (!push(sample, &JointStateUser::dropFreeJoints)) return false;
+  while (estimator_.ready()) evaluate();
+  return true;
+}
+
+bool JointStateComputation::push(const JointSample& sample, Drop drop) {
   using Verdict = MotionEstimator::Verdict;
   const Verdict verdict =
       estimator_.push(sample.stamp_ns, sample.coordinates, sample.q, sample.qd, sample.count);
   if (verdict == Verdict::kEqualStamp) {
-    user_.dropJointState(DropReason::kEqualStamp,
-                         "its stamp " + stampText(sample.stamp_ns) + " was received before");
+    (user_.*drop)(DropReason::kEqualStamp,
+                  "its stamp " + stampText(sample.stamp_ns) + " was received before");
     return false;
   }
   if (verdict == Verdict::kTooLate) {
-    user_.dropJointState(DropReason::kTooLate, "its stamp " + stampText(sample.stamp_ns) +
-                                                   " is too far behind those received before");
+    (user_.*drop)(DropReason::kTooLate, "its stamp " + stampText(sample.stamp_ns) +
+                                            " is too far behind those received before");
     return false;
   }
   if (verdict == Verdict::kReordered) counters_.reordered.add();
@@ -85,6 +100,12 @@ void JointStateComputation::evaluate() {
   MotionCovariance* covariance = plan.wantsCovariance() && covariances_ ? &covariance_ : nullptr;
   const std::int64_t stamp_ns = estimator_.evaluate(samples_.motion(), covariance);
   if (estimator_.anyHeld()) counters_.held.add();
+  const auto unknown = free_joints_.set(stamp_ns, estimator_, samples_.motion(), covariance);
+  if (unknown) {
+    unknown_turn_ = *unknown;
+    user_.dropSample(Outcome::kNoTurn, plan, stamp_ns);
+    return;
+  }
   const Outcome outcome = samples_.compute(plan, stamp_ns, covariance);
   if (outcome != Outcome::kDone) {
     user_.dropSample(outcome, plan, stamp_ns);

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <sensor_msgs/JointState.h>
+#include <sensor_msgs/MultiDOFJointState.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
 #include "ros/active_plan.h"
 #include "ros/counters.h"
+#include "ros/free_joints.h"
 #include "ros/joint_state_conversion.h"
 #include "ros/motion_completer.h"
 #include "ros/sample_computation.h"
@@ -28,6 +31,8 @@ class JointStateUser {
 
   /// A joint state is not used. @param text names the culprit
   virtual void dropJointState(DropReason reason, const std::string& text) = 0;
+  /// A message that tells of joints that turn freely is not used.
+  virtual void dropFreeJoints(DropReason reason, const std::string& text) = 0;
   /// A joint state is not used, as it has joints of other robots only.
   virtual void leaveForeign(const std::string& text) = 0;
   /// A sample has no result.
@@ -51,20 +56,31 @@ class JointStateUser {
 class JointStateComputation {
  public:
   /// All but the mechanism are also used by others; everything must outlive this.
-  JointStateComputation(const Mechanism& mechanism, bool covariances, MotionEstimator& estimator,
-                        MotionCompleter& completer, SampleComputation& samples, Counters& counters,
-                        JointStateUser& user);
+  /// @param settings of `estimator`
+  JointStateComputation(const Mechanism& mechanism, const EstimatorSettings& settings,
+                        MotionEstimator& estimator, MotionCompleter& completer,
+                        SampleComputation& samples, Counters& counters, JointStateUser& user);
 
   /// Takes a joint state, and computes what is due then. Allocates only for what is told.
   /// @returns whether it is used
   bool take(const sensor_msgs::JointState& message);
+  /// Takes a message that tells of joints that turn freely, and computes what is due then.
+  bool take(const sensor_msgs::MultiDOFJointState& message);
+
+  const FreeJoints& freeJoints() const { return free_joints_; }
+  /// Which joint that turns freely was not known when the outcome was kNoTurn.
+  std::size_t unknownTurn() const { return unknown_turn_; }
 
  private:
-  bool push(const JointSample& sample);
+  using Drop = void (JointStateUser::*)(DropReason reason, const std::string& text);
+
+  bool push(const JointSample& sample, Drop drop);
   void evaluate();
 
   const bool covariances_;
   JointStateConversion conversion_;
+  FreeJoints free_joints_;
+  std::size_t unknown_turn_ = 0;
   MotionEstimator& estimator_;
   MotionCompleter& completer_;
   SampleComputation& samples_;

@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "dynamics/inertial_axes.h"
 #include "ros/closure_frames.h"
 #include "ros/determinacy_message.h"
 #include "ros/deviation_output.h"
@@ -150,13 +151,17 @@ class MotionOutput : public Output {
   std::string frame_;
 };
 
-// --- ~reactions: every reaction in root axes (4.3), with the poses of the joint frames
+// --- ~reactions: every reaction in root axes (4.3), with the poses of the joint frames;
+// --- ~reactions_inertial: the same in inertial axes
 
 class ReactionsMessage : public MessageOf<sensor_msgs::MultiDOFJointState> {
  public:
   ReactionsMessage(const Dynamics& plan, const Names& reactions, const std::string& frame,
-                   bool twist)
-      : names_(reactions), places_(placesIn(reactions, plan.request().root_axes)), twist_(twist) {
+                   bool twist, bool inertial)
+      : names_(reactions),
+        places_(placesIn(reactions, plan.request().root_axes)),
+        twist_(twist),
+        inertial_(inertial) {
     message_.header.frame_id = frame;
     message_.joint_names = names_;
     resize(names_.size());
@@ -176,9 +181,15 @@ class ReactionsMessage : public MessageOf<sensor_msgs::MultiDOFJointState> {
       const std::size_t from = places_[i];
       if (!exists(sample.results, from)) continue;
       if (!as_before) message_.joint_names.push_back(names_[i]);
-      copyWrench(sample.results.root_axes[from], message_.wrench[to]);
-      copyPose(sample.results.poses[from], message_.transforms[to]);
-      if (twist_) copyTwist(sample.results.twists[from], message_.twist[to]);
+      const Pose& pose = sample.results.poses[from];
+      const RootMotion& root = sample.motion.root;
+      const Wrench& wrench = sample.results.root_axes[from];
+      copyWrench(inertial_ ? inInertialAxes(root, wrench) : wrench, message_.wrench[to]);
+      copyPose(inertial_ ? inInertialFrame(root, pose) : pose, message_.transforms[to]);
+      if (twist_) {
+        const Twist& twist = sample.results.twists[from];
+        copyTwist(inertial_ ? inInertialFrame(root, pose, twist) : twist, message_.twist[to]);
+      }
       ++to;
     }
   }
@@ -195,15 +206,18 @@ class ReactionsMessage : public MessageOf<sensor_msgs::MultiDOFJointState> {
 
   const Names names_;  // all names; the message has those of existing results
   const std::vector<std::size_t> places_;
-  const bool twist_;
+  const bool twist_, inertial_;
 };
 
 class ReactionsOutput : public Output {
  public:
-  ReactionsOutput(Names reactions, std::string frame, bool twist)
-      : reactions_(std::move(reactions)), frame_(std::move(frame)), twist_(twist) {}
+  ReactionsOutput(Names reactions, std::string frame, bool twist, bool inertial)
+      : reactions_(std::move(reactions)),
+        frame_(std::move(frame)),
+        twist_(twist),
+        inertial_(inertial) {}
 
-  std::string topic() const override { return "reactions"; }
+  std::string topic() const override { return inertial_ ? "reactions_inertial" : "reactions"; }
   ros::AdvertiseOptions options(const std::string& topic, std::uint32_t queue) const override {
     return advertised<sensor_msgs::MultiDOFJointState>(topic, queue);
   }
@@ -213,13 +227,13 @@ class ReactionsOutput : public Output {
     request.twists = request.twists || twist_;
   }
   std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan, const Scene&) const override {
-    return std::make_unique<ReactionsMessage>(plan, reactions_, frame_, twist_);
+    return std::make_unique<ReactionsMessage>(plan, reactions_, frame_, twist_, inertial_);
   }
 
  private:
   Names reactions_;
   std::string frame_;
-  bool twist_;
+  bool twist_, inertial_;
 };
 
 // --- ~reaction/<name>: the wrench in the child link's or the closure's own frame
@@ -332,9 +346,14 @@ Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
   if (settings.scene.tolerances.any()) {
     outputs.push_back(makeToleranceOutput(mechanism, root_frame));
   }
-  if (!settings.reactions.empty()) {
+  const RootAxes axes = settings.root.axes;
+  if (!settings.reactions.empty() && axes != RootAxes::kInertial) {
     outputs.push_back(
-        std::make_unique<ReactionsOutput>(settings.reactions, root_frame, settings.twist));
+        std::make_unique<ReactionsOutput>(settings.reactions, root_frame, settings.twist, false));
+  }
+  if (!settings.reactions.empty() && axes != RootAxes::kRoot) {
+    outputs.push_back(std::make_unique<ReactionsOutput>(
+        settings.reactions, settings.root.inertial_frame, settings.twist, true));
   }
   outputs.push_back(makeTrajectoryOutput());
   Names frames;

@@ -11,6 +11,7 @@
 
 #include "ros/deviation_record.h"
 #include "ros/message_recorder.h"
+#include "ros/root_settings.h"
 #include "ros/trajectory_conversion.h"
 #include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/motion_covariance.h"
@@ -107,6 +108,7 @@ struct OutputSettings {
   Scene scene;                               ///< whose closures and springs are shown
   std::shared_ptr<DeviationRecord> deviations;  ///< what they are recorded in; null: no deviations
   double marker_rate = 20;                      ///< largest rate of ~markers, Hz
+  RootSettings root;                            ///< in which axes reactions are
 };
 
 /// All outputs of the node for a mechanism and a scene.

@@ -28,16 +28,17 @@ enum class DropReason : std::size_t {
   kOrientation,
   kNoRoot,
   kNoBody,
+  kNoTurn,
   kInternal
 };
 
 /// The reasons as diagnostics show them, in the order of DropReason.
-constexpr std::array<const char*, 21> kDropReasonNames = {
-    "array length",  "not finite",     "no known joint", "joint twice",    "zero stamp",
-    "equal stamp",   "too late",       "no points",      "times",          "joint never seen",
-    "overflow",      "passive joints", "open loop",      "no time yet",    "backlog",
-    "unknown frame", "no wrench",      "orientation",    "no root motion", "no such body",
-    "internal"};
+constexpr std::array<const char*, 22> kDropReasonNames = {
+    "array length",   "not finite",     "no known joint", "joint twice",    "zero stamp",
+    "equal stamp",    "too late",       "no points",      "times",          "joint never seen",
+    "overflow",       "passive joints", "open loop",      "no time yet",    "backlog",
+    "unknown frame",  "no wrench",      "orientation",    "no root motion", "no such body",
+    "no orientation", "internal"};
 
 constexpr std::size_t index(DropReason reason) {
   return static_cast<std::size_t>(reason);
@@ -46,7 +47,8 @@ constexpr std::size_t index(DropReason reason) {
 /// Whether it is a result that is dropped, rather than a message.
 constexpr bool concernsResult(DropReason reason) {
   return reason == DropReason::kOverflow || reason == DropReason::kOpenLoop ||
-         reason == DropReason::kNoWrench || reason == DropReason::kNoRoot;
+         reason == DropReason::kNoWrench || reason == DropReason::kNoRoot ||
+         reason == DropReason::kNoTurn;
 }
 
 /// Why a message is dropped, with a line that names the culprit.

@@ -69,12 +69,11 @@ Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const s
     throw UrdfError("parameter " + key + ": robot " + inQuotes(mechanism.name()) +
                     " has no joint that moves");
   }
-  if (mechanism.orientations() > 0) {
-    throw UrdfError(
-        "joint " + inQuotes(mechanism.freeJoint(0).name) + ": is " +
-        nameOf(mechanism.freeJoint(0).type) +
-        ", and joint states cannot tell its orientation; inverse_dynamics_offline takes "
-        "it from columns");
+  if (mechanism.orientations() > 0 && needsClosedLoops(scene)) {
+    throw SceneError("joint " + inQuotes(mechanism.freeJoint(0).name) + ": is " +
+                     nameOf(mechanism.freeJoint(0).type) +
+                     ", which the node does not follow beside closures, springs or passive joints; "
+                     "inverse_dynamics_offline does");
   }
   Request request;
   request.child_axes = request.root_axes = requestedReactions(mechanism, scene);
@@ -99,11 +98,11 @@ RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
   }
   closure_frames = closureFrames(mechanism, scene, reactions, parameters.frame_prefix);
   deviations = std::make_shared<DeviationRecord>(everything.effortNames(), everything.residuals(),
-                                                 mechanism.coordinateNames());
-  outputs =
-      makeOutputs(mechanism, everything,
-                  {reactions, reaction_topics, parameters.frame_prefix, parameters.twist,
-                   parameters.loop_limits.condition, scene, deviations, parameters.marker_rate});
+                                                 mechanism.coordinateNames(), otherCauses(scene));
+  outputs = makeOutputs(mechanism, everything,
+                        {reactions, reaction_topics, parameters.frame_prefix, parameters.twist,
+                         parameters.loop_limits.condition, scene, deviations,
+                         parameters.marker_rate, parameters.root});
   plan_lines = everything.closed()
                    ? loopLines(mechanism, scene, everything, parameters.loop_limits.condition)
                    : everything.summary().lines();
@@ -150,6 +149,11 @@ void RobotTask::log(const InverseDynamicsParameters& parameters) const {
       reactions.empty() ? "none" : shortList(reactions).c_str(), numberText(g.x()).c_str(),
       numberText(g.y()).c_str(), numberText(g.z()).c_str(), accelerations.c_str(),
       parameters.scene_given ? ("scene from " + privateName("scene")).c_str() : "default scene");
+  const std::vector<std::string> exact = exactWrenches(scene);
+  if (!exact.empty()) {
+    ROS_INFO("%s takes as exact the applied wrenches that the scene gives no deviation: %s",
+             privateName("effort_deviation").c_str(), shortList(exact).c_str());
+  }
   std::string plan;
   for (const std::string& line : plan_lines) plan += (plan.empty() ? "" : "\n  ") + line;
   ROS_INFO("With subscribers to everything (%s instructions): %s",

@@ -19,19 +19,6 @@ std::optional<Rejection> readStamp(const std_msgs::Header& header, std::int64_t&
   return std::nullopt;
 }
 
-// Copies three numbers; refuses those that are not finite, or are beyond any robot's.
-template <typename Message>
-std::optional<Rejection> readVector(const Message& message, const std::string& what,
-                                    Eigen::Vector3d& vector) {
-  vector << message.x, message.y, message.z;
-  for (int i = 0; i < 3; ++i) {
-    if (std::abs(vector[i]) <= kLargestMotion) continue;
-    return Rejection{DropReason::kNotFinite,
-                     "its " + what + "." + "xyz"[i] + " is " + numberText(vector[i])};
-  }
-  return std::nullopt;
-}
-
 std::optional<Rejection> readTwist(const geometry_msgs::Twist& message, const std::string& what,
                                    Eigen::Vector3d& linear, Eigen::Vector3d& angular) {
   if (auto rejection = readVector(message.linear, what + ".linear", linear)) return rejection;
@@ -75,65 +62,36 @@ std::optional<Rejection> RootConversion::columnOf(const std::vector<std::string>
   return std::nullopt;
 }
 
-std::optional<Rejection> RootConversion::readOrientation(const geometry_msgs::Quaternion& message,
-                                                         const std::string& where,
-                                                         Eigen::Quaterniond& orientation) {
-  orientation = Eigen::Quaterniond(message.w, message.x, message.y, message.z);
-  for (int i = 0; i < 4; ++i) {
-    if (std::isfinite(orientation.coeffs()[i])) continue;
-    return Rejection{DropReason::kNotFinite, "its " + where + "." + "xyzw"[i] + " is " +
-                                                 numberText(orientation.coeffs()[i])};
-  }
-  const double length = orientation.norm();
-  const double off = std::abs(length - 1);
-  if (!(off <= kOrientationOff)) {
-    return Rejection{DropReason::kOrientation,
-                     "its " + where + " has the length " + numberText(length) + ", not 1"};
-  }
-  if (off > kOrientationDoubt && !doubted_) {
-    doubted_ = true;
-    doubt_ = "the quaternion " + where + " has the length " + numberText(length) +
-             "; it and those like it are scaled to 1";
-  }
-  orientation.normalize();
-  return std::nullopt;
-}
-
-std::string RootConversion::takeDoubt() {
-  std::string doubt;
-  doubt.swap(doubt_);
-  return doubt;
-}
-
 std::optional<Rejection> RootConversion::convert(const nav_msgs::Odometry& message,
                                                  RootPose& pose) {
+  poses_.begin();
   if (auto rejection = checkFrame(message.header)) return rejection;
   if (auto rejection = checkLink("child_frame_id", message.child_frame_id)) return rejection;
   if (auto rejection = readStamp(message.header, pose.stamp_ns)) return rejection;
   const geometry_msgs::Pose& from = message.pose.pose;
   if (auto rejection = readVector(from.position, "position", pose.position)) return rejection;
-  if (auto rejection = readOrientation(from.orientation, "orientation", pose.orientation))
+  if (auto rejection = poses_.readOrientation(from.orientation, "orientation", pose.orientation))
     return rejection;
-  Eigen::Vector3d linear, angular;
-  if (auto rejection = readTwist(message.twist.twist, "twist", linear, angular)) return rejection;
-  pose.velocity = pose.orientation * linear;
-  pose.angular_velocity = pose.orientation * angular;
+  poses_.takeTwist(message.twist.twist, pose.velocity, pose.angular_velocity);
+  pose.velocity = pose.orientation * pose.velocity;
+  pose.angular_velocity = pose.orientation * pose.angular_velocity;
   return std::nullopt;
 }
 
 std::optional<Rejection> RootConversion::convert(const geometry_msgs::TransformStamped& message,
                                                  RootPose& pose) {
+  poses_.begin();
   if (auto rejection = checkFrame(message.header)) return rejection;
   if (auto rejection = checkLink("child_frame_id", message.child_frame_id)) return rejection;
   if (auto rejection = readStamp(message.header, pose.stamp_ns)) return rejection;
-  return readTransform(message.transform, "", pose.position, pose.orientation);
+  return poses_.readTransform(message.transform, "", pose.position, pose.orientation);
 }
 
 std::optional<Rejection> RootConversion::check(geometry_msgs::TransformStamped& message) {
   Eigen::Vector3d position;
   Eigen::Quaterniond orientation;
   geometry_msgs::Transform& transform = message.transform;
-  auto rejection = readTransform(transform, "", position, orientation);
+  auto rejection = poses_.readTransform(transform, "", position, orientation);
   if (rejection) {
     rejection->text = "of frame " + inQuotes(message.child_frame_id) + ", " + rejection->text;
     return rejection;
@@ -149,6 +107,7 @@ std::optional<Rejection> RootConversion::convert(const sensor_msgs::MultiDOFJoin
                                                  RootPose& pose) {
   const std::size_t names = message.joint_names.size();
   std::size_t column = 0;
+  poses_.begin();
   if (auto rejection = checkFrame(message.header)) return rejection;
   if (auto rejection = columnOf(message.joint_names, column)) return rejection;
   if (message.transforms.size() != names)
@@ -158,10 +117,10 @@ std::optional<Rejection> RootConversion::convert(const sensor_msgs::MultiDOFJoin
     return wrongLength("it", message.twist.size(), "twists", names);
   if (auto rejection = readStamp(message.header, pose.stamp_ns)) return rejection;
   if (auto rejection =
-          readTransform(message.transforms[column], "", pose.position, pose.orientation))
+          poses_.readTransform(message.transforms[column], "", pose.position, pose.orientation))
     return rejection;
-  if (!twists) return std::nullopt;
-  return readTwist(message.twist[column], "twist", pose.velocity, pose.angular_velocity);
+  if (twists) poses_.takeTwist(message.twist[column], pose.velocity, pose.angular_velocity);
+  return std::nullopt;
 }
 
 std::optional<Rejection> RootConversion::convert(
@@ -203,22 +162,13 @@ std::optional<Rejection> RootConversion::readPoint(
     const trajectory_msgs::MultiDOFJointTrajectoryPoint& from, std::size_t column,
     const std::string& where, RootMotion& motion) {
   if (auto rejection =
-          readTransform(from.transforms[column], where, motion.position, motion.orientation))
+          poses_.readTransform(from.transforms[column], where, motion.position, motion.orientation))
     return rejection;
   if (auto rejection = readTwist(from.velocities[column], where + "velocity", motion.velocity,
                                  motion.angular_velocity))
     return rejection;
   return readTwist(from.accelerations[column], where + "acceleration", motion.acceleration,
                    motion.angular_acceleration);
-}
-
-std::optional<Rejection> RootConversion::readTransform(const geometry_msgs::Transform& from,
-                                                       const std::string& where,
-                                                       Eigen::Vector3d& position,
-                                                       Eigen::Quaterniond& orientation) {
-  if (auto rejection = readVector(from.translation, where + "translation", position))
-    return rejection;
-  return readOrientation(from.rotation, where + "rotation", orientation);
 }
 
 }  // namespace virtual_work_dynamics

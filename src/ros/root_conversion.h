@@ -16,12 +16,13 @@
 
 #include "motion/root_estimator.h"
 #include "motion/root_trajectory.h"
+#include "ros/pose_reading.h"
 #include "ros/rejection.h"
 
 namespace virtual_work_dynamics {
 
-/// Checks messages that tell how the root link moves, and turns their vectors into inertial axes.
-/// Quaternions whose length is within 1e-3 of 1 are scaled to 1. Each function allocates only for a
+/// Checks messages that tell how the root link moves, as PoseReading does, and turns their vectors
+/// into inertial axes. Each function allocates only for a
 /// rejection, except for the points of a trajectory, and returns why the message is to be dropped,
 /// or nothing.
 class RootConversion {
@@ -48,9 +49,9 @@ class RootConversion {
   /// Checks the numbers of a transform between any two frames, and scales its quaternion to 1.
   std::optional<Rejection> check(geometry_msgs::TransformStamped& message);
 
-  /// Text about the first quaternion whose length is farther from 1 than single precision explains;
-  /// empty before there is one, and once it has been taken.
-  std::string takeDoubt();
+  /// Of poses and twists, see PoseReading.
+  std::string takeDoubt() { return poses_.takeDoubt(); }
+  bool twistLeftOut() const { return poses_.twistLeftOut(); }
 
  private:
   std::optional<Rejection> checkFrame(const std_msgs::Header& header) const;
@@ -60,16 +61,9 @@ class RootConversion {
   std::optional<Rejection> readPoint(const trajectory_msgs::MultiDOFJointTrajectoryPoint& from,
                                      std::size_t column, const std::string& where,
                                      RootMotion& motion);
-  std::optional<Rejection> readTransform(const geometry_msgs::Transform& from,
-                                         const std::string& where, Eigen::Vector3d& position,
-                                         Eigen::Quaterniond& orientation);
-  std::optional<Rejection> readOrientation(const geometry_msgs::Quaternion& message,
-                                           const std::string& where,
-                                           Eigen::Quaterniond& orientation);
 
   const std::string inertial_frame_, link_;
-  bool doubted_ = false;
-  std::string doubt_;
+  PoseReading poses_;
 };
 
 }  // namespace virtual_work_dynamics

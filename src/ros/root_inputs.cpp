@@ -3,12 +3,14 @@
 #include <ros/console.h>
 #include <ros/transport_hints.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <utility>
 
 #include "base/number_text.h"
 #include "base/printable.h"
+#include "ros/free_joint_conversion.h"
 #include "ros/message_text.h"
 #include "ros/private_name.h"
 
@@ -17,7 +19,8 @@ namespace virtual_work_dynamics {
 RootInputs::RootInputs(const RootSettings& settings, const Mechanism& mechanism,
                        const std::string& frame_prefix, const Eigen::Vector3d& gravity,
                        const EstimatorSettings& estimator, Counters& counters, Drop drop)
-    : settings_(settings),
+    : mechanism_(mechanism),
+      settings_(settings),
       max_gap_(estimator.max_gap),
       counters_(counters),
       drop_(std::move(drop)),
@@ -135,10 +138,28 @@ void RootInputs::takeStatic(const tf2_msgs::TFMessage& message) {
   }
 }
 
+bool RootInputs::isOfRoot(const sensor_msgs::MultiDOFJointState& message) const {
+  const std::vector<std::string>& names = message.joint_names;
+  return settings_.source == RootSource::kStates &&
+         std::find(names.begin(), names.end(), conversion_.link()) != names.end();
+}
+
+// Joints that turn freely may come by the same topic.
+std::optional<Rejection> RootInputs::take(const sensor_msgs::MultiDOFJointState& message,
+                                          ros::Time) {
+  if (!isOfRoot(message) && namesFreeJoint(mechanism_, message.joint_names)) return std::nullopt;
+  return takePose(message);
+}
+
+std::optional<Rejection> RootInputs::take(const nav_msgs::Odometry& message, ros::Time) {
+  return takePose(message);
+}
+
 template <typename Message>
-std::optional<Rejection> RootInputs::take(const Message& message, ros::Time) {
+std::optional<Rejection> RootInputs::takePose(const Message& message) {
   RootPose pose;
   if (auto rejection = conversion_.convert(message, pose)) return rejection;
+  if (conversion_.twistLeftOut()) counters_.root_twist_left.add();
   return report(estimator_->push(pose), pose.stamp_ns);
 }
 

@@ -47,6 +47,8 @@ class RootInputs {
 
   /// How the root moves; null without a source.
   RootCourse* course() const { return course_; }
+  /// Whether a message names the root link, of which it so tells.
+  bool isOfRoot(const sensor_msgs::MultiDOFJointState& message) const;
   /// Why the motion of the root is not known at an instant, in one line.
   std::string problem() const;
 
@@ -59,11 +61,14 @@ class RootInputs {
                                 ros::Time receipt);
   std::optional<Rejection> take(const tf2_msgs::TFMessage& message, ros::Time receipt);
   std::optional<Rejection> take(const sensor_msgs::Imu& message, ros::Time receipt);
+  std::optional<Rejection> take(const sensor_msgs::MultiDOFJointState& message, ros::Time receipt);
   void takeStatic(const tf2_msgs::TFMessage& message);
   template <typename Message>
-  std::optional<Rejection> take(const Message& message, ros::Time receipt);
+  std::optional<Rejection> takePose(const Message& message);
+  std::optional<Rejection> take(const nav_msgs::Odometry& message, ros::Time receipt);
   std::optional<Rejection> report(TrackGroup::Verdict verdict, std::int64_t stamp_ns);
 
+  const Mechanism& mechanism_;
   const RootSettings settings_;
   const double max_gap_;  // s
   Counters& counters_;

@@ -23,4 +23,23 @@ RootSource readRootSource(PrivateParameters& parameters) {
                        inQuotes(source) + " is none of odometry, trajectory, states, tf and imu");
 }
 
+RootAxes readRootAxes(PrivateParameters& parameters, RootSource source) {
+  constexpr std::pair<const char*, RootAxes> kAxes[] = {
+      {"root", RootAxes::kRoot}, {"inertial", RootAxes::kInertial}, {"both", RootAxes::kBoth}};
+  const std::string text = parameters.text("root/axes", "root");
+  for (const auto& [name, axes] : kAxes) {
+    if (text != name) continue;
+    if (axes == RootAxes::kRoot) return axes;
+    if (source == RootSource::kImu) {
+      throw parameterError("root/axes", inQuotes(text) +
+                                            ": an IMU does not tell the orientation of the root "
+                                            "link, without which there are no inertial axes");
+    }
+    if (source == RootSource::kNone)
+      throw parameterError("root/axes", inQuotes(text) + ": the root link rests");
+    return axes;
+  }
+  throw parameterError("root/axes", inQuotes(text) + " is none of root, inertial and both");
+}
+
 }  // namespace virtual_work_dynamics

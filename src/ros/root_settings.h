@@ -13,10 +13,19 @@ enum class RootSource { kNone, kOdometry, kTrajectory, kStates, kTf, kImu };
 /// @throws ParameterError for a word that is no source.
 RootSource readRootSource(PrivateParameters& parameters);
 
+/// In which axes ~reactions and ~reactions_inertial have wrenches and poses.
+enum class RootAxes { kRoot, kInertial, kBoth };
+
+/// Reads ~root/axes.
+/// @throws ParameterError for a word that is none of root, inertial and both, and for inertial axes
+///   where `source` does not tell the orientation of the root link.
+RootAxes readRootAxes(PrivateParameters& parameters, RootSource source);
+
 /// How the node learns how the root link moves.
 struct RootSettings {
   RootSource source = RootSource::kNone;
   std::string inertial_frame = "odom";  ///< frame_id of the frame that motions are against
+  RootAxes axes = RootAxes::kRoot;      ///< of results
   std::string link;      ///< what messages call the root link; empty: as its own frame_id is
   double timeout = 0.1;  ///< longest time that a motion is foreseen behind the newest message, s
 };

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "virtual_work_dynamics/deviations.h"
+
 namespace virtual_work_dynamics {
 
-SampleComputation::SampleComputation(Eigen::Index coordinates, const Scene& scene,
+SampleComputation::SampleComputation(const Dynamics& dynamics, const Scene& scene,
                                      MotionCompleter& completer, LiveWrenches& wrenches,
                                      const SampleRecords& records, RootCourse* root)
     : static_motion_(scene.static_motion),
@@ -12,20 +14,29 @@ SampleComputation::SampleComputation(Eigen::Index coordinates, const Scene& scen
       wrenches_(wrenches),
       root_(root),
       records_(records),
-      motion_(coordinates),
+      motion_(dynamics.coordinates(), dynamics.orientations()),
+      wrench_covariances_(wrenchCovariances(scene)),
       load_(scene),
-      law_([this](const Eigen::VectorXd& q, Load& load) {
+      law_([this](const Motion& motion, Load& load) {
         load.wrenches = load_.wrenches;
-        wrenches_.getLoad(q, load);
+        wrenches_.getLoad(motion, load);
       }),
       point_loads_(wrenches.size() == 0 ? 0 : ActivePlan::kPointsAtOnce, load_),
-      tree_effort_(coordinates) {}
+      tree_effort_(dynamics.coordinates()) {}
+
+MotionCovariance SampleComputation::makeCovariance() const {
+  MotionCovariance covariance;
+  covariance.coordinates.resize(static_cast<std::size_t>(motion_.q.size()));
+  covariance.turns.resize(motion_.orientations.size());
+  covariance.wrenches = wrench_covariances_;
+  return covariance;
+}
 
 SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan, std::int64_t stamp_ns,
-                                                      const MotionCovariance* covariance) {
+                                                      MotionCovariance* covariance) {
   if (static_motion_) motion_.qd.setZero();
   records_.counters.samples.add();
-  if (!setRoot(stamp_ns, motion_.root)) return Outcome::kNoRoot;
+  if (!setRoot(stamp_ns, motion_.root, covariance)) return Outcome::kNoRoot;
   const auto start = Clock::now();
   if (!completer_.complete(motion_, plan.dynamics, plan.workspace)) return Outcome::kOpenLoop;
   const Outcome outcome = computeOne(plan, stamp_ns, start, covariance);
@@ -83,7 +94,7 @@ void SampleComputation::computeBlock(ActivePlan& plan, const TrajectoryMotion& t
   for (std::size_t i = 0; i < count && !point_loads_.empty(); ++i) {
     if (wrenches_.read(trajectory.stamps_ns[first + i])) continue;
     takeRow(trajectory.table, first + i, motion_);
-    wrenches_.getLoad(motion_.q, point_loads_[i]);
+    wrenches_.getLoad(motion_, point_loads_[i]);
   }
   plan.points.compute(trajectory.table, first, count,
                       point_loads_.empty() ? nullptr : point_loads_.data());
@@ -95,9 +106,9 @@ void SampleComputation::computeBlock(ActivePlan& plan, const TrajectoryMotion& t
 
 SampleComputation::Outcome SampleComputation::computeOne(ActivePlan& plan, std::int64_t stamp_ns,
                                                          Clock::time_point start,
-                                                         const MotionCovariance* covariance) {
+                                                         MotionCovariance* covariance) {
   if (!motion_.finite()) return Outcome::kNotFinite;
-  if (!setLoad(stamp_ns)) return Outcome::kNoWrench;
+  if (!setLoad(stamp_ns, covariance)) return Outcome::kNoWrench;
   plan.dynamics.compute(motion_, load_, plan.workspace);
   const std::chrono::nanoseconds time = Clock::now() - start;
   records_.counters.run_times.record(time.count());
@@ -115,21 +126,23 @@ void SampleComputation::setRoots(TrajectoryMotion& trajectory) {
 }
 
 // Sets the motion of the root at an instant, where it moves. Returns false where it is not known.
-bool SampleComputation::setRoot(std::int64_t stamp_ns, RootMotion& motion) {
+bool SampleComputation::setRoot(std::int64_t stamp_ns, RootMotion& motion,
+                                MotionCovariance* covariance) {
   if (!root_) return true;
-  if (!root_->read(stamp_ns, motion)) return false;
+  if (!root_->read(stamp_ns, motion, covariance ? &covariance->root : nullptr)) return false;
   if (root_->foreseen()) records_.counters.root_foreseen.add();
   return true;
 }
 
 // Sets the load of motion_ at an instant. Returns false where a live wrench is not known.
-bool SampleComputation::setLoad(std::int64_t stamp_ns) {
+bool SampleComputation::setLoad(std::int64_t stamp_ns, MotionCovariance* covariance) {
   if (const auto unknown = wrenches_.read(stamp_ns)) {
     unknown_wrench_ = *unknown;
     return false;
   }
   if (wrenches_.anyHeld()) records_.counters.wrench_held.add();
-  wrenches_.getLoad(motion_.q, load_);
+  wrenches_.getLoad(motion_, load_);
+  if (covariance) wrenches_.getCovariances(covariance->wrenches);
   return true;
 }
 

@@ -30,11 +30,11 @@ struct SampleRecords {
 /// checked as the plan says. Serves one thread. Does not allocate after construction.
 class SampleComputation {
  public:
-  /// @param static_motion whether the scene takes velocities and accelerations as zero.
+  /// @param dynamics of the scene, with any request.
   /// @param completer of motions of joint states; must outlive this.
   /// @param wrenches the live ones of `scene`; must outlive this.
   /// @param root how the root moves, where it moves; must outlive this. Null: it rests.
-  SampleComputation(Eigen::Index coordinates, const Scene& scene, MotionCompleter& completer,
+  SampleComputation(const Dynamics& dynamics, const Scene& scene, MotionCompleter& completer,
                     LiveWrenches& wrenches, const SampleRecords& records,
                     RootCourse* root = nullptr);
   SampleComputation(const SampleComputation&) = delete;
@@ -43,13 +43,16 @@ class SampleComputation {
   /// The motion of the sample to compute next, to be set by the caller except for the root's.
   Motion& motion() { return motion_; }
 
-  /// What became of a sample. Messages change only when it is kDone.
-  enum class Outcome { kDone, kNotFinite, kOpenLoop, kNoWrench, kNoRoot };
+  /// What became of a sample. Messages change only when it is kDone. kNoTurn is for who sets the
+  /// motion: how a joint that turns freely does so is not known.
+  enum class Outcome { kDone, kNotFinite, kOpenLoop, kNoWrench, kNoRoot, kNoTurn };
 
   /// Computes the sample whose motion is motion() and writes messages of samples.
-  /// @param covariance of motion(), of all coordinates; null: not known
-  Outcome compute(ActivePlan& plan, std::int64_t stamp_ns,
-                  const MotionCovariance* covariance = nullptr);
+  /// @param covariance of all coordinates of motion(); it gets those of the root and of live
+  ///   wrenches, and must have come from makeCovariance(). Null: not known
+  Outcome compute(ActivePlan& plan, std::int64_t stamp_ns, MotionCovariance* covariance = nullptr);
+  /// A covariance with all entries that samples need.
+  MotionCovariance makeCovariance() const;
   /// Gives the points of a trajectory the motion of the root, as it is known now. Allocates where
   /// the root moves.
   void setRoots(TrajectoryMotion& trajectory);
@@ -69,11 +72,11 @@ class SampleComputation {
   using Clock = std::chrono::steady_clock;
 
   void takePoint(const TrajectoryMotion& trajectory, std::size_t point);
-  bool setRoot(std::int64_t stamp_ns, RootMotion& motion);
-  bool setLoad(std::int64_t stamp_ns);
+  bool setRoot(std::int64_t stamp_ns, RootMotion& motion, MotionCovariance* covariance = nullptr);
+  bool setLoad(std::int64_t stamp_ns, MotionCovariance* covariance = nullptr);
   void computeBlock(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t first);
   Outcome computeOne(ActivePlan& plan, std::int64_t stamp_ns, Clock::time_point start,
-                     const MotionCovariance* covariance);
+                     MotionCovariance* covariance);
   enum class Of { kSample, kTrajectory, kBoth };  // messages
   Outcome finish(ActivePlan& plan, std::int64_t stamp_ns, const Results& results, Of messages,
                  const MotionCovariance* covariance = nullptr);
@@ -85,8 +88,9 @@ class SampleComputation {
   RootCourse* const root_;  // null: it rests
   SampleRecords records_;
   Motion motion_;
-  Load load_;                      // of motion_
-  const LoadLaw law_;              // that load_ is of, as the position changes
+  std::vector<WrenchCovariance> wrench_covariances_;  // of applied wrenches, as the scene says
+  Load load_;                                         // of motion_
+  const LoadLaw law_;                                 // that load_ is of, as the position changes
   std::vector<Load> point_loads_;  // of the points of a block; none without live wrenches
   std::size_t unknown_wrench_ = 0;
   Eigen::VectorXd tree_effort_;  // without efforts of actuated closures

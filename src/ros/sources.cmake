@@ -10,6 +10,8 @@ foreach(file
     deviation_report.cpp
     diagnostics.cpp
     fixed_frames.cpp
+    free_joint_conversion.cpp
+    free_joints.cpp
     imu_conversion.cpp
     inverse_dynamics_node.cpp
     inverse_dynamics_parameters.cpp
@@ -24,6 +26,7 @@ foreach(file
     output_topics.cpp
     outputs.cpp
     plan_switch.cpp
+    pose_reading.cpp
     private_name.cpp
     private_parameters.cpp
     robot_task.cpp

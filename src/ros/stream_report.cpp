@@ -47,7 +47,7 @@ void StreamReport::warnOfFarPositions(std::size_t joint) {
 }
 
 void StreamReport::add(diagnostic_updater::DiagnosticStatusWrapper& status) {
-  if (!record_.read(streams_)) return;
+  if (!record_.read(streams_, root_)) return;
   std::vector<std::string> held;
   for (std::size_t i = 0; i < streams_.size(); ++i) {
     const JointStream& stream = streams_[i];
@@ -66,7 +66,22 @@ void StreamReport::add(diagnostic_updater::DiagnosticStatusWrapper& status) {
     if (!warned_[i]) ROS_WARN("%s", text.c_str());
     warned_[i] = true;
   }
+  addRoot(status);
   status.add("joints held at their last position", held.empty() ? "none" : shortList(held));
+}
+
+void StreamReport::addRoot(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  for (std::size_t i = 0; i < root_.size(); ++i) {
+    const RootStream& stream = root_[i];
+    if (!(stream.quality.interval > 0)) continue;
+    status.add(std::string("samples of ") + stream.name,
+               streamText(stream.quality, stream.unit, stream.noise));
+    if (stream.quality.velocity_ratio == 1) continue;
+    const std::string text = velocityProblem(stream.name, stream.quality.velocity_ratio);
+    status.mergeSummary(DiagnosticStatus::WARN, text);
+    if (!root_warned_[i]) ROS_WARN("%s", text.c_str());
+    root_warned_[i] = true;
+  }
 }
 
 }  // namespace virtual_work_dynamics

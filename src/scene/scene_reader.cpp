@@ -19,7 +19,9 @@ const Names kSceneKeys = {
     "tolerances",    "payload",        "joint_types"};
 // Bytes, beyond those of the most values that a scene may have.
 constexpr std::size_t kLongestScene = std::size_t{64} << 20;
-const Names kWrenchKeys = {"name", "link", "at", "axes", "force", "torque", "live", "invert"};
+const Names kWrenchKeys = {"name",   "link", "at",     "axes",     "force",
+                           "torque", "live", "invert", "deviation"};
+const Names kWrenchDeviationKeys = {"force", "torque"};
 // What the messages or columns of a live wrench say instead.
 const Names kMeasured = {"at", "axes", "force", "torque"};
 const Names kPayloadKeys = {"link", "mass", "at", "inertia"};
@@ -42,6 +44,18 @@ void readReactions(const YAML::Node& node, Scene& scene) {
   scene.reactions = text == "all" ? ReactionSelection::kAll : ReactionSelection::kNone;
 }
 
+WrenchDeviation readWrenchDeviation(const YAML::Node& node, const std::string& where) {
+  WrenchDeviation deviation;
+  readMap(node, where, kWrenchDeviationKeys,
+          [&](const auto& key, const auto& value, const auto& path) {
+            const double number = readNumber(value, path);
+            if (!(number >= 0)) failAt(path, numberText(number) + " is not zero or more");
+            if (key == "force") deviation.force = number;
+            if (key == "torque") deviation.torque = number;
+          });
+  return deviation;
+}
+
 AppliedWrench readAppliedWrench(const YAML::Node& node, const std::string& where) {
   AppliedWrench wrench;
   std::string fixed;  // a key of kMeasured that is given
@@ -57,6 +71,7 @@ AppliedWrench readAppliedWrench(const YAML::Node& node, const std::string& where
     }
     if (key == "force") wrench.force = readVector3(value, path);
     if (key == "torque") wrench.torque = readVector3(value, path);
+    if (key == "deviation") wrench.deviation = readWrenchDeviation(value, path);
   });
   if (wrench.link.empty()) failAt(where, "names no link");
   if (wrench.live && !fixed.empty()) {

@@ -23,10 +23,12 @@ set(core_test_files
   test/core/compound_joints_loops_test.cpp
   test/core/compound_joints_published_test.cpp
   test/core/compound_joints_refusals_test.cpp
+  test/core/compound_joints_sdfast_test.cpp
   test/core/compound_joints_test.cpp
   test/core/description_deviations_test.cpp
   test/core/description_messages_test.cpp
   test/core/deviation_rows_test.cpp
+  test/core/deviations_sources_test.cpp
   test/core/deviations_test.cpp
   test/core/dirty_descriptions.cpp
   test/core/dirty_descriptions_test.cpp
@@ -110,6 +112,7 @@ set(core_test_files
   test/core/reference_test.cpp
   test/core/regressor_test.cpp
   test/core/root_coordinates_test.cpp
+  test/core/root_covariance_test.cpp
   test/core/root_estimator_test.cpp
   test/core/root_imu_test.cpp
   test/core/root_law_test.cpp
@@ -135,6 +138,7 @@ set(core_test_files
   test/core/summation_test.cpp
   test/core/table_law_test.cpp
   test/core/trajectory_curve_test.cpp
+  test/core/turn_estimator_test.cpp
   test/core/unwrap_test.cpp
   test/core/urdf_reader_test.cpp
   test/core/urdf_writer_test.cpp

@@ -46,7 +46,7 @@ struct TwoArms {
     wrenches.push(0, {kStamp, frame, wrench});
     EXPECT_FALSE(wrenches.read(kStamp));
     Load load(scene);
-    wrenches.getLoad(motion.q, load);
+    wrenches.getLoad(motion, load);
     return load;
   }
 
@@ -122,14 +122,14 @@ TEST(LiveWrenches, AreInterpolatedAndInverted) {
     wrenches.push(0, {kStamp + 80000000, 3, later});
     Load load(scene);
     ASSERT_FALSE(wrenches.read(kStamp + 20000000));
-    wrenches.getLoad(Eigen::VectorXd::Zero(6), load);
+    wrenches.getLoad(Motion(6), load);
     const double sign = invert ? -1 : 1;
     EXPECT_EQ(load.wrenches[0].force, sign * Eigen::Vector3d(12.5, -15, 2.5));
     EXPECT_EQ(load.wrenches[0].torque, sign * Eigen::Vector3d(1.5, 1, -2));
     EXPECT_FALSE(wrenches.anyHeld());
     ASSERT_FALSE(wrenches.read(kStamp + 90000000));
     EXPECT_TRUE(wrenches.anyHeld());
-    wrenches.getLoad(Eigen::VectorXd::Zero(6), load);
+    wrenches.getLoad(Motion(6), load);
     EXPECT_EQ(load.wrenches[0].force, sign * later.force);
   }
 }
@@ -152,7 +152,7 @@ TEST(LiveWrenches, LeaveOthersAloneAndNameWhatIsNotKnown) {
   wrenches.push(1, {kStamp, 3, arms.wrench});
   EXPECT_EQ(wrenches.read(kStamp), std::nullopt);
   Load load(scene);
-  wrenches.getLoad(Eigen::VectorXd::Zero(6), load);
+  wrenches.getLoad(Motion(6), load);
   EXPECT_EQ(load.wrenches[0].force, constant.force);
   EXPECT_EQ(load.wrenches[1].force, arms.wrench.force);
   scene.applied_wrenches[2].link = "nowhere";
@@ -187,7 +187,7 @@ TEST(LiveWrenches, OfOtherLinksMakeEffortsUncertain) {
   covariance.coordinates.assign(2, Eigen::Matrix3d::Zero());
   const double deviation = 1e-4;
   covariance.coordinates[0](0, 0) = deviation * deviation;
-  const LoadLaw law = [&](const Eigen::VectorXd& q, Load& load) { wrenches.getLoad(q, load); };
+  const LoadLaw law = [&](const Motion& at, Load& load) { wrenches.getLoad(at, load); };
   deviations.computeMotion(motion, covariance, law, workspace);
   // The elbow at 0.5 (cos, sin) moves by 0.5 (-sin, cos) per radian.
   const double slope = 0.5 * (std::sin(-0.6) * -40 + std::cos(-0.6) * 30);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -229,8 +230,90 @@ TEST_F(OfflineRoot, WhatIsNotUsedOrNotQuiteRightIsSaid) {
   write("doubtful.yaml", std::string(kMoving) + "tolerances: {mass: 0.1}\n");
   const Run doubtful =
       compute(motion(all, ",1,0,0,0,0,0,3,0,0,0,0,0,0.7"), "--scene doubtful.yaml --deviations");
-  EXPECT_NE(doubtful.err.find("deviations take the root's motion as exact"), std::string::npos)
+  EXPECT_NE(doubtful.err.find("deviations take as exact: the root's motion, as it is given"),
+            std::string::npos)
       << doubtful.err;
+}
+
+// Poses of noise 1e-4 m and rad: deviations hold against the closed form.
+TEST_F(OfflineRoot, DeviationsCoverWhatIsEstimated) {
+  constexpr int kRows = 1200, kEnd = 80;
+  std::mt19937 generator(5);
+  std::normal_distribution<double> normal;
+  const auto table = [&](bool noisy) {
+    std::ostringstream text;
+    text.precision(17);
+    text << kMotion << kOrientation
+         << (noisy ? ",root.position.x,root.position.y,root.position.z" : kRates) << "\n";
+    for (int i = 0; i < kRows; ++i) {
+      const double t = 0.005 * i;
+      RootMotion root = TumblingRoot{{0.4, 0.2, -0.3}, 0.6}.at(t);
+      text << t << "," << std::sin(t) << "," << std::cos(t) << "," << -std::sin(t);
+      const auto print = [&](const Eigen::Vector3d& vector) {
+        for (int axis = 0; axis < 3; ++axis) text << "," << vector[axis];
+      };
+      const auto drawn = [&] {
+        const double x = normal(generator), y = normal(generator);
+        return Eigen::Vector3d(1e-4 * x, 1e-4 * y, 1e-4 * normal(generator));
+      };
+      if (noisy) {
+        const Eigen::Vector3d turn = drawn();
+        root.orientation =
+            root.orientation * Eigen::AngleAxisd(turn.norm(), turn.stableNormalized());
+      }
+      const Eigen::Quaterniond& q = root.orientation;
+      text << "," << q.w() << "," << q.x() << "," << q.y() << "," << q.z();
+      if (noisy) {
+        print(root.position + drawn());
+      } else {
+        print(root.angular_velocity);
+        print(root.acceleration);
+        print(root.angular_acceleration);
+      }
+      text << "\n";
+    }
+    return text.str();
+  };
+  const Run exact = compute(table(false));
+  const Run found = compute(table(true), "--scene moving.yaml --deviations");
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  EXPECT_EQ(found.err.find("as exact"), std::string::npos) << found.err;
+  int inside = 0, all = 0;
+  for (int i = kEnd; i < kRows - kEnd; i += 5) {
+    const std::vector<double> right = row(exact.out, i), numbers = row(found.out, i);
+    ASSERT_EQ(right.size(), 14u);
+    ASSERT_EQ(numbers.size(), 27u);
+    for (std::size_t j = 1; j < right.size(); ++j, ++all) {
+      EXPECT_GT(numbers[13 + j], 0);
+      if (std::abs(numbers[j] - right[j]) <= 2 * numbers[13 + j]) ++inside;
+    }
+  }
+  EXPECT_GT(inside, 0.9 * all);
+  const Run noted = compute(table(true), "--scene moving.yaml --deviations --deviation-warn 1e-9");
+  EXPECT_NE(noted.err.find("mostly from the noise of the root's "), std::string::npos) << noted.err;
+}
+
+TEST_F(OfflineRoot, ReactionsInInertialAxesAreThoseOfTheRootTurned) {
+  const std::string csv =
+      motion(std::string(kOrientation) + kRates, ",0.5,-0.5,0.5,0.5,1,-2,3,4,-5,6,0.5,2,-3");
+  const std::vector<double> in_root = row(compute(csv).out, 1);
+  const Run found = compute(csv, "--scene moving.yaml --axes inertial");
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  const std::vector<double> inertial = row(found.out, 1);
+  ASSERT_EQ(inertial.size(), in_root.size());
+  EXPECT_EQ(inertial[1], in_root[1]);
+  // (w, x, y, z) = (1, -1, 1, 1) / 2 turns x into -y, y into z and z into -x.
+  for (std::size_t first = 2; first < in_root.size(); first += 3) {
+    EXPECT_NEAR(inertial[first + 1], -in_root[first], 1e-12);
+    EXPECT_NEAR(inertial[first + 2], in_root[first + 1], 1e-12);
+    EXPECT_NEAR(inertial[first], -in_root[first + 2], 1e-12);
+  }
+  const Run rests = compute(motion("", ""), "--axes inertial");
+  EXPECT_EQ(rests.exit_code, 2);
+  EXPECT_NE(rests.err.find("--axes inertial: the scene does not say 'root: moving'"),
+            std::string::npos)
+      << rests.err;
+  EXPECT_EQ(compute(csv, "--scene moving.yaml --axes inertial --deviations").exit_code, 2);
 }
 
 }  // namespace

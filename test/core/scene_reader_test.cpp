@@ -46,7 +46,7 @@ strict_inertia: true
 applied_wrenches:
   - {link: hand, at: [1, 2, 3], axes: root, force: [4, 5, 6], torque: [7, 8, 9]}
   - {link: foot}
-  - {name: sole, link: foot, live: true, invert: true}
+  - {name: sole, link: foot, live: true, invert: true, deviation: {force: 2, torque: 0.5}}
 joints:
   - {name: hip, stiffness: 1e9, rest: -1, damping: 2, coulomb: "3", coulomb_velocity: 4, rotor_inertia: 5, offset: -6}
   - {name: knee}
@@ -70,6 +70,10 @@ use_urdf_dynamics: true
   EXPECT_EQ(scene.applied_wrenches[2].name, "sole");
   EXPECT_TRUE(scene.applied_wrenches[2].live);
   EXPECT_TRUE(scene.applied_wrenches[2].invert);
+  EXPECT_FALSE(scene.applied_wrenches[0].deviation);
+  ASSERT_TRUE(scene.applied_wrenches[2].deviation);
+  EXPECT_EQ(scene.applied_wrenches[2].deviation->force, 2);
+  EXPECT_EQ(scene.applied_wrenches[2].deviation->torque, 0.5);
   ASSERT_EQ(scene.joints.size(), 2u);
   EXPECT_EQ(scene.joints[0].joint, "hip");
   EXPECT_EQ(scene.joints[0].stiffness, 1e9);

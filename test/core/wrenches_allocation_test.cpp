@@ -42,7 +42,7 @@ TEST(LiveWrenches, AreReadWithoutAllocation) {
   const AllocationGuard guard;
   for (int i = 0; i < 10; ++i) wrenches.push(0, measured(1, kStamp + 1000 * i));
   const bool unknown = wrenches.read(kStamp + 1500).has_value();
-  wrenches.getLoad(motion.q, load);
+  wrenches.getLoad(motion, load);
   const std::size_t allocations = guard.allocations();
   EXPECT_FALSE(unknown);
   EXPECT_EQ(allocations, 0u);
@@ -60,7 +60,7 @@ TEST(LiveWrenches, EnterDeviationsWithoutAllocation) {
   const Motion motion = builder.motion();
   MotionCovariance covariance;
   covariance.coordinates.assign(3, 1e-8 * Eigen::Matrix3d::Identity());
-  const LoadLaw law = [&](const Eigen::VectorXd& q, Load& load) { wrenches.getLoad(q, load); };
+  const LoadLaw law = [&](const Motion& at, Load& load) { wrenches.getLoad(at, load); };
   deviations.computeMotion(motion, covariance, law, workspace);
   const AllocationGuard guard;
   deviations.computeMotion(motion, covariance, law, workspace);

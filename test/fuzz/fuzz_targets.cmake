@@ -24,7 +24,12 @@ find_path(VWD_ROS_MESSAGES_DIR trajectory_msgs/JointTrajectory.h)
 find_library(VWD_ROS_TIME rostime)
 if(VWD_ROS_MESSAGES_DIR AND VWD_ROS_TIME)
   vwd_add_fuzz_target(messages
+    src/ros/fixed_frames.cpp
+    src/ros/free_joint_conversion.cpp
+    src/ros/free_joints.cpp
+    src/ros/imu_conversion.cpp
     src/ros/joint_state_conversion.cpp
+    src/ros/pose_reading.cpp
     src/ros/root_conversion.cpp
     src/ros/sample_times.cpp
     src/ros/trajectory_conversion.cpp

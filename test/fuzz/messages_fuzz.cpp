@@ -1,5 +1,5 @@
-// Joint states, trajectories, wrenches and motions of the root whose values come from bytes, up to
-// the core's motions.
+// Joint states, joints that turn freely, trajectories, wrenches, motions of the root and
+// measurements of its IMU whose values come from bytes, up to the core's motions.
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include <algorithm>
@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "fuzz_target.h"
+#include "ros/free_joints.h"
+#include "ros/imu_conversion.h"
 #include "ros/joint_state_conversion.h"
 #include "ros/private_name.h"
 #include "ros/root_conversion.h"
@@ -158,8 +160,7 @@ void useWrenches(Values& values) {
     if (const auto rejection = conversion.take(0, message)) requireWord(*rejection);
     const auto stamp = static_cast<std::int64_t>(message.header.stamp.toNSec());
     if (wrenches.read(stamp + values.integer<std::int32_t>())) continue;
-    wrenches.getLoad(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(robot().coordinates().size())),
-                     load);
+    wrenches.getLoad(Motion(static_cast<Eigen::Index>(robot().coordinates().size())), load);
   }
 }
 
@@ -209,6 +210,69 @@ void useRootPoses(Values& values) {
   }
 }
 
+void useImu(Values& values) {
+  ImuConversion conversion(robot(), values.yes() ? "" : "left/");
+  RootImu imu(EstimatorSettings(), 100000000, {0, 0, -9.81});
+  sensor_msgs::Imu message;
+  message.header.stamp.sec = values.integer<std::uint32_t>();
+  for (std::size_t left = values.count(32); left > 0; --left) {
+    const std::size_t link = values.count(robot().links().size());
+    message.header.frame_id = link < robot().links().size() ? robot().links()[link].name : "a";
+    message.header.stamp.nsec = values.integer<std::uint32_t>() % 1000000000;
+    geometry_msgs::Vector3& rate = message.angular_velocity;
+    geometry_msgs::Vector3& force = message.linear_acceleration;
+    for (double* number : {&rate.x, &rate.y, &rate.z, &force.x, &force.y, &force.z})
+      *number = values.number();
+    message.linear_acceleration_covariance[0] = values.count(8) == 0 ? -1 : 0;
+    ImuSample sample;
+    if (const auto rejection = conversion.convert(message, sample)) {
+      requireWord(*rejection);
+      continue;
+    }
+    imu.push(sample);
+    RootMotion motion;
+    RootCovariance covariance;
+    const std::int64_t at = sample.stamp_ns + values.integer<std::int32_t>();
+    if (imu.read(at, motion, &covariance) && !motion.finite())
+      failFuzz("a motion of the root that is not finite");
+  }
+}
+
+const Mechanism& ball() {
+  static const Mechanism ball = readUrdf(
+      "<robot name='r'><link name='base'/><link name='body'/><joint name='a' type='floating'>"
+      "<parent link='base'/><child link='body'/></joint></robot>");
+  return ball;
+}
+
+void useFreeJoints(Values& values) {
+  const EstimatorSettings settings;
+  FreeJoints joints(ball(), settings);
+  MotionEstimator estimator(ball(), settings);
+  Motion motion(static_cast<Eigen::Index>(ball().coordinates().size()), ball().orientations());
+  sensor_msgs::MultiDOFJointState message;
+  message.header.stamp.sec = values.integer<std::uint32_t>();
+  for (std::size_t left = values.count(32); left > 0; --left) {
+    message.joint_names = values.yes() ? std::vector<std::string>{"a"} : values.names();
+    message.header.stamp.nsec = values.integer<std::uint32_t>() % 1000000000;
+    message.transforms.assign(values.yes() ? message.joint_names.size() : values.count(3),
+                              transformOf(values));
+    message.twist.assign(values.count(2), twistOf(values));
+    JointSample sample;
+    if (const auto rejection = joints.take(message, sample)) {
+      requireWord(*rejection);
+      continue;
+    }
+    joints.takeDoubt();
+    estimator.push(sample.stamp_ns, sample.coordinates, sample.q, sample.qd, sample.count);
+    while (estimator.ready()) {
+      const std::int64_t at = estimator.evaluate(motion);
+      if (!joints.set(at, estimator, motion, nullptr) && !motion.finite())
+        failFuzz("a motion that is not finite");
+    }
+  }
+}
+
 void useRootTrajectory(Values& values) {
   RootConversion conversion("odom", "a");
   RootTrajectory trajectory(100000000);
@@ -246,6 +310,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
      : values.yes() ? useTrajectory
      : values.yes() ? useWrenches
      : values.yes() ? useRootPoses
+     : values.yes() ? useImu
+     : values.yes() ? useFreeJoints
                     : useRootTrajectory)(values);
   });
   return 0;

@@ -109,6 +109,10 @@ class CarriedArm:
         turn = reaction.pose[:3, :3].T
         return turn @ reaction.force, turn @ reaction.torque
 
+    def whole_reaction(self, name, ns):
+        """Of a joint of the carrier or the arm, in inertial axes."""
+        return self._bodies.reaction(name, *self._whole(ns))
+
     def _whole(self, ns):
         return tuple(dict(one, **other)
                      for one, other in zip(self.joints(ns), self._carrier(ns)))

@@ -36,7 +36,7 @@ class DeviationOutputs : public testing::Test {
   }
 
   SampleComputation::Outcome compute(PlanMaker& maker, ActivePlan& plan,
-                                     const MotionCovariance* covariance) {
+                                     MotionCovariance* covariance) {
     maker.samples.motion() = motion_;
     return maker.samples.compute(plan, 7, covariance);
   }

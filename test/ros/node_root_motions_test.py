@@ -9,7 +9,7 @@ from sensor_msgs.msg import Imu, JointState, MultiDOFJointState
 from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import JointTrajectory, MultiDOFJointTrajectory
 
-from carried_arm import ARM, JOINTS, ROOT, CarriedArm
+from carried_arm import ARM, JOINTS, ROOT, CarriedArm, twist
 from node_under_test import (EPOCH, Node, NodeTest, joint_state, ros_time, run, trajectory_point,
                              vector, wait_until)
 from root_messages import (HANGS_AT, HANGS_BY, WITH_UNIT, frame, frames, imu, odometry,
@@ -316,6 +316,37 @@ class RootPoses(RootTest):
                       values['last drop'])
         self.assertEqual(values['gaps of the root'], '9')
 
+    def test_poses_count_without_rates_that_are_not_finite(self):
+        self.start('odometry')
+
+        def unmeasured(ns):
+            message = odometry(self.arm, ns)
+            message.twist.twist.angular.y = math.nan
+            message.twist.twist.linear.z = math.inf
+            return message
+        worst = self.follow(unmeasured, 50)
+        self.assertLess(worst[0], 0.05)
+        self.assertLess(worst[1], 0.1)
+        values = self.node.diagnostics()
+        self.assertEqual(values['dropped'], '0')
+        self.assertEqual(int(values['root messages with rates that are not finite']), self.SECONDS * 50 + 1)
+        said = [line for line in self.node.lines('WARN') if 'not finite' in line]
+        self.assertEqual(len(said), 1, said)
+        self.assertIn(self.topic + ': its twist.linear.z is inf: poses count without rates', said[0])
+
+    def test_twists_in_other_axes_are_named(self):
+        self.start('odometry')
+
+        def other(ns):
+            message = odometry(self.arm, ns)
+            root = self.arm.root(ns)
+            message.twist.twist = twist(root.velocity, root.angular)  # of the inertial frame
+            return message
+        self.follow(other, 50)
+        self.node.diagnostics(lambda values: [
+            status for status in self.node.statuses()
+            if 'velocities of ' in status.message and 'root.' in status.message], 'the WARN')
+
     def test_bad_odometry(self):
         self.start('odometry')
         stamps = [EPOCH + i * 2 * MS for i in range(100)]
@@ -324,11 +355,11 @@ class RootPoses(RootTest):
         child = odometry(self.arm, stamps[-1] + MS)
         child.child_frame_id = 'base_footprint'
         broken = odometry(self.arm, stamps[-1] + MS)
-        broken.twist.twist.angular.y = math.nan
+        broken.pose.pose.position.y = math.nan
         for message, reason, text in (
                 (child, 'unknown frame',
                  "its child_frame_id 'base_footprint' is not the root link 'base'"),
-                (broken, 'not finite', 'its twist.angular.y is nan'),
+                (broken, 'not finite', 'its position.y is nan'),
                 (odometry(self.arm, stamps[80]), 'equal stamp', 'was received before'),
                 (late, 'too late', 'is too far behind those received before')):
             self.send(message)

@@ -33,8 +33,7 @@ struct PlanMaker {
         loops(everything, reactions.size(), limits),
         completer(mechanism, scene, everything),
         wrenches(mechanism, scene, 0.1),
-        samples(everything.coordinates(), scene, completer, wrenches,
-                {counters, certificates, loops}) {}
+        samples(everything, scene, completer, wrenches, {counters, certificates, loops}) {}
 
   /// The audience of these topics.
   Audience audience(const Topics& topics) const {

@@ -21,6 +21,7 @@ MAPS = {
     "kSceneKeys": ("",),
     "kMomentKeys": ("moments_about",),
     "kWrenchKeys": ("applied_wrenches",),
+    "kWrenchDeviationKeys": ("applied_wrenches.deviation",),
     "kPayloadKeys": ("payload",),
     "kJointKeys": ("joints",),
     "kTypeKeys": ("joint_types",),
@@ -34,6 +35,7 @@ MAPS = {
 NAMED_NUMBERS = {"position": "assembly", "stiffness": "redundancy.stiffness",
                  "weight": "redundancy.effort_weights"}
 STRUCTS = {"": "Scene", "moments_about": "MomentPoint", "applied_wrenches": "AppliedWrench",
+           "applied_wrenches.deviation": "WrenchDeviation",
            "payload": "Payload", "joints": "JointTerms",
            "tolerances": "Tolerances",
            "closures.parent": "LinkFrame", "closures.child": "LinkFrame", "springs": "PointSpring",
@@ -43,7 +45,7 @@ MEMBERS = {"motion": "static_motion", "root": "root_moves", "payload": "payloads
 VALUES = {"motion": {False: "full", True: "static"}, "root": {False: "fixed", True: "moving"}}
 # Which tables of the page stand for which maps: the heading, or the line before a table in it.
 TABLES = {"Top level": [""], "moments_about": ["moments_about"],
-          "applied_wrenches": ["applied_wrenches"], "payload": ["payload"], "joints": ["joints"],
+          "applied_wrenches": ["applied_wrenches", "applied_wrenches.deviation"], "payload": ["payload"], "joints": ["joints"],
           "joint_types": ["joint_types"],
           "tolerances": ["tolerances"],
           "closures": ["closures", ("closures.parent", "closures.child")], "springs": ["springs"],
