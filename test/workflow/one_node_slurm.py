@@ -1,8 +1,10 @@
 """A Slurm of one node, this machine, with its own folders and ports, for tests: munged, slurmctld and slurmd
 in the foreground, ended with the test. A start that fails is an error with the last lines of the logs."""
+import ctypes
 import os
 import pathlib
 import shutil
+import signal
 import socket
 import subprocess
 import time
@@ -56,6 +58,12 @@ def memory_of_machine():
     return os.sysconf('SC_PAGE_SIZE') * os.sysconf('SC_PHYS_PAGES') // 2 ** 20
 
 
+def end_with_parent():
+    """In a child: it is ended when its parent is, however that ends."""
+    PR_SET_PDEATHSIG = 1
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
+
+
 class OneNodeSlurm:
     """A context; `environment` is for programs that use it."""
 
@@ -105,7 +113,8 @@ class OneNodeSlurm:
             raise RuntimeError('%s is not installed: scripts/install_dependencies.sh --workflow' % program)
         log = open(self.folder / 'logs' / program, 'wb')
         process = subprocess.Popen([found] + list(words), stdin=subprocess.DEVNULL, stdout=log, stderr=log,
-                                   env=self.environment, start_new_session=True)
+                                   env=self.environment, start_new_session=True,
+                                   preexec_fn=end_with_parent)
         log.close()
         self.daemons.append((program, process))
 
