@@ -52,7 +52,7 @@ Eigen and yaml-cpp.")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "$run_packages")
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "catkin, libeigen3-dev, libyaml-cpp-dev, rviz")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "catkin, libeigen3-dev, libyaml-cpp-dev, python3-matplotlib, python3-scipy, rviz, snakemake")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS
   "$(dirname "$(find "$build/devel" -name 'libvirtual_work_dynamics.so')")")
