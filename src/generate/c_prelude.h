@@ -185,10 +185,10 @@ $N_WITHIN int $n_sines(double a, double b, double c, double d, double e, double 
 #endif
   int i, every = 1;
   for (i = 0; i < 8 / $N_FEW_WIDTH; ++i) {
-    $n_few s, c;
-    every &= $n_few_sine_cosine(angle[i], &s, &c);
-    $n_few_store(sine + i * $N_FEW_WIDTH, s);
-    $n_few_store(cosine + i * $N_FEW_WIDTH, c);
+    $n_few sines, cosines;
+    every &= $n_few_sine_cosine(angle[i], &sines, &cosines);
+    $n_few_store(sine + i * $N_FEW_WIDTH, sines);
+    $n_few_store(cosine + i * $N_FEW_WIDTH, cosines);
   }
   return every;
 }

@@ -41,7 +41,9 @@ set(core_test_files
   test/core/error_bound_test.cpp
   test/core/exact_products_test.cpp
   test/core/existence_test.cpp
+  test/core/expression_graph_test.cpp
   test/core/free_motion_test.cpp
+  test/core/generated_code_test.cpp
   test/core/given_motions_test.cpp
   test/core/instruction_set_test.cpp
   test/core/inverse_dynamics_test.cpp
@@ -79,6 +81,7 @@ set(core_test_files
   test/core/offline_errors_test.cpp
   test/core/offline_loops_checks_test.cpp
   test/core/offline_free_turns_test.cpp
+  test/core/offline_generate_test.cpp
   test/core/offline_given_test.cpp
   test/core/offline_inputs_test.cpp
   test/core/offline_loops_errors_test.cpp
