@@ -34,6 +34,7 @@ struct Arguments {
   MotionSource motion;
   std::string scene;
   std::string output;                      ///< empty: standard output
+  std::string report;                      ///< folder of the load report; empty: none
   std::optional<Eigen::Vector3d> gravity;  ///< m/s^2, inertial axes; replaces the scene's
   bool child_axes = false;                 ///< reactions in child link axes rather than root axes
   std::optional<ReactionSelection> reactions;  ///< replaces the scene's choice
@@ -56,6 +57,8 @@ struct Arguments {
 
   /// Whether the output is a bag, by its name.
   bool toBag() const;
+  /// Whether the output is an .npz, by its name.
+  bool toNpz() const;
 };
 
 /// Reads a command line without the program's name, with `--option value` or `--option=value`.

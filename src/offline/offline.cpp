@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -19,8 +20,12 @@
 #include "offline/deviation_rows.h"
 #include "offline/inputs.h"
 #include "offline/lagrange_rows.h"
+#include "offline/load_report.h"
 #include "offline/loop_report.h"
+#include "offline/mechanism_json.h"
+#include "offline/npz_result_writer.h"
 #include "offline/recorded_motion.h"
+#include "offline/report_columns.h"
 #include "offline/result_writer.h"
 #include "offline/root_rows.h"
 #include "offline/row_loads.h"
@@ -201,6 +206,25 @@ void explain(const Arguments& arguments, const Mechanism& mechanism, const Scene
   std::cout << std::flush;
 }
 
+std::unique_ptr<ResultTable> tableOf(const Arguments& arguments, OutputFile& file,
+                                     const std::string& header, const Columns& columns,
+                                     std::size_t rows, const std::string& described) {
+  if (!arguments.toNpz()) return std::make_unique<ResultWriter>(file, header);
+  try {
+    return std::make_unique<NpzResultWriter>(file, columns, rows, described);
+  } catch (const FileError& error) {
+    throw FileError(arguments.output + ": " + error.what());
+  }
+}
+
+void printDeviationNotes(const Arguments& arguments, const Mechanism& mechanism, const Scene& scene,
+                         const DeviationRows& deviations) {
+  const std::string begin = "note: " + printable(arguments.motion.name()) + ": deviations take ";
+  if (scene.root_moves) std::cerr << begin << "the root's motion as exact\n";
+  if (mechanism.orientations() > 0) std::cerr << begin << "orientations of joints as exact\n";
+  std::cerr << deviations.notes(arguments.deviation_warn.value_or(kDeviationWarn));
+}
+
 void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene) {
   const Request written = requestOf(mechanism, scene, arguments);
   RecordedMotion recorded = readStart(arguments, mechanism, scene);
@@ -229,18 +253,29 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
     const Names more = deviations->columns(columns);
     columns.more.insert(columns.more.end(), more.begin(), more.end());
   }
+  std::optional<ReportColumns> for_report;
+  if (dynamics.closed() && !arguments.report.empty()) {
+    for_report.emplace(mechanism, scene);
+    columns.more.insert(columns.more.end(), for_report->names().begin(), for_report->names().end());
+  }
   if (arguments.positions) {
     const Names motion_columns = motionColumns(mechanism);
     columns.more.insert(columns.more.end(), motion_columns.begin(), motion_columns.end());
   }
-  const std::string header = resultHeader(columns);
+  const bool reports = !arguments.report.empty();
+  const std::string described = reports || arguments.toNpz()
+                                    ? mechanismJson(arguments, mechanism, scene, dynamics, columns)
+                                    : "";
+  if (reports) makeReportFolder(arguments);
+  const std::string header = arguments.toNpz() ? "" : resultHeader(columns);
   OutputFile file(arguments.output);
-  ResultWriter writer(file, header);
+  const std::unique_ptr<ResultTable> table =
+      tableOf(arguments, file, header, columns, motion.file().lines.size(), described);
   std::string warning;
   {
     Rows rows(motion.file(), columns, arguments.child_axes, dynamics.closed(),
-              arguments.positions ? &mechanism : nullptr, certified ? &*certified : nullptr,
-              deviations ? &*deviations : nullptr, writer);
+              for_report ? &*for_report : nullptr, arguments.positions ? &mechanism : nullptr,
+              certified ? &*certified : nullptr, deviations ? &*deviations : nullptr, *table);
     Computation(dynamics, motion, loads, arguments.threads)
         .run([&](std::size_t row, const Motion& at, const Load& load, const Results& results) {
           rows.write(row, at, load, lagrange ? lagrange->compute(at, load, results) : results);
@@ -253,16 +288,9 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
               << ": certificates judge arithmetic, not input: "
               << certified->summary(motion.file().row_name) << "\n";
   }
-  if (deviations && scene.root_moves) {
-    std::cerr << "note: " << printable(arguments.motion.name())
-              << ": deviations take the root's motion as exact\n";
-  }
-  if (deviations && mechanism.orientations() > 0) {
-    std::cerr << "note: " << printable(arguments.motion.name())
-              << ": deviations take orientations of joints as exact\n";
-  }
-  if (deviations) std::cerr << deviations->notes(arguments.deviation_warn.value_or(kDeviationWarn));
-  writer.finish();
+  if (deviations) printDeviationNotes(arguments, mechanism, scene, *deviations);
+  table->finish();
+  if (reports) makeLoadReport(arguments, described);
 }
 
 }  // namespace

@@ -13,10 +13,15 @@ foreach(file
     joint_renaming.cpp
     joint_state_rows.cpp
     lagrange_rows.cpp
+    load_report.cpp
     loop_report.cpp
+    mechanism_json.cpp
     motion_file.cpp
+    npz_motion.cpp
+    npz_result_writer.cpp
     offline.cpp
     recorded_motion.cpp
+    report_columns.cpp
     result_writer.cpp
     root_rows.cpp
     row_loads.cpp
