@@ -46,6 +46,7 @@ install(DIRECTORY config urdf DESTINATION ${vwd_data})
 set(vwd_report ${vwd_programs})
 if(VWD_CORE_ONLY)
   set(vwd_report ${vwd_data})
+  #catkin_lint: ignore_once wrong_bin_install_destination
   install(PROGRAMS scripts/load_report.py DESTINATION ${vwd_report})
   execute_process(COMMAND ${CMAKE_COMMAND} -E create_symlink
     ${CMAKE_CURRENT_SOURCE_DIR}/scripts/load_report.py ${CMAKE_CURRENT_BINARY_DIR}/load_report.py)
