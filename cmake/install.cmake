@@ -42,6 +42,21 @@ install(TARGETS ${PROJECT_NAME} EXPORT ${PROJECT_NAME}
 install(DIRECTORY include/${PROJECT_NAME} DESTINATION ${vwd_headers} FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY config urdf DESTINATION ${vwd_data})
 
+# The program that makes load reports: beside the tool that starts it, or among the data of the core.
+set(vwd_report ${vwd_programs})
+if(VWD_CORE_ONLY)
+  set(vwd_report ${vwd_data})
+  #catkin_lint: ignore_once wrong_bin_install_destination
+  install(PROGRAMS scripts/load_report.py DESTINATION ${vwd_report})
+  execute_process(COMMAND ${CMAKE_COMMAND} -E create_symlink
+    ${CMAKE_CURRENT_SOURCE_DIR}/scripts/load_report.py ${CMAKE_CURRENT_BINARY_DIR}/load_report.py)
+endif()
+install(DIRECTORY scripts/vwd_loads DESTINATION ${vwd_report}
+  FILES_MATCHING PATTERN "*.py" PATTERN "*.css" PATTERN "__pycache__" EXCLUDE)
+
+install(DIRECTORY workflow DESTINATION ${vwd_data} USE_SOURCE_PERMISSIONS
+  PATTERN "__pycache__" EXCLUDE)
+
 install(EXPORT ${PROJECT_NAME}
   NAMESPACE ${PROJECT_NAME}::
   FILE ${PROJECT_NAME}Targets.cmake
@@ -61,6 +76,6 @@ else()
   export(EXPORT ${PROJECT_NAME}
     NAMESPACE ${PROJECT_NAME}::
     FILE ${CATKIN_DEVEL_PREFIX}/share/${PROJECT_NAME}/cmake/${PROJECT_NAME}Targets.cmake)
-  catkin_install_python(PROGRAMS scripts/read_input.py DESTINATION ${vwd_programs})
+  catkin_install_python(PROGRAMS scripts/load_report.py scripts/read_input.py DESTINATION ${vwd_programs})
   install(DIRECTORY launch DESTINATION ${vwd_data})
 endif()

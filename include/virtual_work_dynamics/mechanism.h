@@ -68,6 +68,9 @@ struct Joint {
   /// Limits as described, rad or m; equal: none. They do not limit motions, and serve only to tell
   /// what a driver that wraps has left out (TurnCounter).
   double lower = 0, upper = 0;
+  /// Limits as described, N m or N and rad/s or m/s; 0: none, as descriptions that know none write
+  /// it. They limit nothing, and serve to tell how close to them a motor runs.
+  double effort_limit = 0, velocity_limit = 0;
 };
 
 /// What the position of a joint that moves measures.

@@ -96,7 +96,7 @@ def as_markdown(title, blocks, folder):
 
 
 def _inline(text):
-    text = html.escape(text, quote=False)
+    text = html.escape(text, quote=False).replace('N m', 'N\u00a0m')
     text = re.sub(r'·10\^(−?\d+)', r'·10<sup>\1</sup>', text)
     return re.sub(r'`([^`]*)`', r'<code>\1</code>', text)
 

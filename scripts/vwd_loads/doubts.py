@@ -1,6 +1,8 @@
 """Rows of results that are not to be trusted, and why."""
 import numpy as np
 
+from vwd_loads.mechanism import COMPONENTS
+
 CLOSE = 1e4  # condition from which on the tool says that a position is close to a singular one
 CERTIFIED = 1e-9  # what a certificate of a right result is far below
 UNCERTAIN = 0.5  # a deviation so large a part of the rms of its effort says little of the effort
@@ -9,10 +11,15 @@ UNCERTAIN = 0.5  # a deviation so large a part of the rms of its effort says lit
 class Doubt:
     """A reason, the rows that it holds for, and what they are about."""
 
-    def __init__(self, words, rows, of=()):
+    def __init__(self, words, rows, part=None, quantities=None):
         self.words = words
         self.rows = rows  # booleans
-        self.of = set(of)  # names of parts; empty: all
+        self.part = part  # name; None: all
+        self.quantities = quantities  # names; None: all of the part
+
+    def concerns(self, part, quantity):
+        return (self.part in (None, part)
+                and (self.quantities is None or quantity is None or quantity in self.quantities))
 
 
 def doubts_of(table, parts):
@@ -26,10 +33,14 @@ def _missing(table, parts):
     doubts = []
     for part in parts:
         missing = np.zeros(len(table), dtype=bool)
+        lacking = set()
         for quantity in part.quantities:
-            missing |= ~np.isfinite(quantity.values)
+            of_quantity = ~np.isfinite(quantity.values)
+            missing |= of_quantity
+            if np.any(of_quantity):
+                lacking.add(quantity.name)
         doubts.append(Doubt('%s: no value, as in a singular position or where it overflowed' % part.name,
-                            missing, [part.name]))
+                            missing, part.name, lacking))
     return doubts
 
 
@@ -42,16 +53,20 @@ def _singular(table):
 
 
 def _chosen(table, parts):
+    """What the policy of a scene chooses, by component, as in a plane mechanism only what is across it."""
     doubts = []
     for part in parts:
-        names = ['determined.' + (part.effort.column if part.effort else '')]
-        names += ['determined.%s.%s' % (part.name, c) for c in ('fx', 'fy', 'fz', 'tx', 'ty', 'tz')]
-        columns = [table.get(name) for name in names if table.get(name) is not None]
-        if not columns:
-            continue
-        chosen = np.any(np.column_stack(columns) == 0, axis=1)
-        doubts.append(Doubt('%s: rigid-body mechanics does not determine all of it; the policy of the scene '
-                            'chooses' % part.name, chosen, [part.name]))
+        rows, names = np.zeros(len(table), dtype=bool), []
+        for name in (['effort'] if part.effort else []) + (list(COMPONENTS) if part.reaction else []):
+            determined = table.get('determined.' + (part.effort.column if name == 'effort'
+                                                    else '%s.%s' % (part.name, name)))
+            if determined is not None and np.any(determined == 0):
+                rows |= determined == 0
+                names.append(name)
+        if names:
+            quantities = {q.name for q in part.quantities if q.components & set(names)}
+            doubts.append(Doubt('%s: rigid-body mechanics does not determine %s; the policy of the scene chooses'
+                                % (part.name, ', '.join(names)), rows, part.name, quantities))
     return doubts
 
 
@@ -81,15 +96,15 @@ def _uncertain(table, parts):
         rms = float(np.sqrt(np.nanmean(effort.values ** 2))) if np.any(np.isfinite(effort.values)) else 0.0
         with np.errstate(invalid='ignore'):
             doubts.append(Doubt('%s: the standard deviation of the effort is more than %.0f %% of its rms'
-                                % (part.name, 100 * UNCERTAIN), deviation > UNCERTAIN * rms, [part.name]))
+                                % (part.name, 100 * UNCERTAIN), deviation > UNCERTAIN * rms, part.name, {'effort'}))
     return doubts
 
 
-def rows_of(doubts, name, length):
-    """The rows that are doubted of a part."""
+def rows_of(doubts, part, quantity, length):
+    """The rows that are doubted of a quantity of a part, of all of them where it is None."""
     rows = np.zeros(length, dtype=bool)
     for doubt in doubts:
-        if not doubt.of or name in doubt.of:
+        if doubt.concerns(part, quantity):
             rows |= doubt.rows
     return rows
 

@@ -10,6 +10,7 @@ from vwd_loads.quantities import parts_of, state_columns
 
 SUMS = 'sums.json'
 SUMS_FORMAT = 1
+ROUNDING = 1e-12  # of the largest load of a unit
 
 
 class Settings:
@@ -54,6 +55,19 @@ class Loads:
                 self.of[part.name, quantity.name] = self._load(part, quantity)
                 if progress:
                     progress.update(len(self.of), total)
+
+        self._largest = {}  # by unit
+        for load in self.of.values():
+            unit = load.quantity.unit
+            self._largest[unit] = max(self._largest.get(unit, 0.0), abs(load.peak or 0.0))
+
+    def is_rounding(self, load, value):
+        """Whether a value is nothing beside the largest of its unit: zero, but for rounding."""
+        return value is not None and abs(value) <= ROUNDING * self._largest[load.quantity.unit]
+
+    def matters(self, load):
+        """Whether a load exists and is more than rounding."""
+        return load is not None and load.peak is not None and not self.is_rounding(load, load.peak)
 
     def get(self, part, quantity):
         return self.of.get((part.name, quantity))

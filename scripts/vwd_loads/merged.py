@@ -25,6 +25,7 @@ class Merged:
         self.peaks = []
         self.cycles, self.travel = 0.0, 0.0
         self.counted = first['cycles'] is not None  # whether it has cycles, or could have
+        self.turns = False  # whether it turns in any
         self._once, self._ball, self._roller = [], [], []
 
     def add(self, load, motion):
@@ -39,6 +40,7 @@ class Merged:
         self.cycles += load['cycles'] or 0.0
         self._once.append((load['range_once'] or 0.0, 1.0))
         if load['ball'] is not None:
+            self.turns = True
             self.travel += load['travel']
             self._ball.append((load['ball'], load['travel']))
             self._roller.append((load['roller'], load['travel']))
@@ -159,7 +161,8 @@ def _write_csv(fleet, path):
                          'equivalent_roller', 'travel', 'woehler', 'range', 'cycles', 'range_once', 'peak',
                          'peak_time', 'peak_motion'])
         for merged in fleet.merged.values():
-            figures = [merged.seconds, merged.mean, merged.rms, merged.ball, merged.roller, merged.travel,
+            figures = [merged.seconds, merged.mean, merged.rms, merged.ball, merged.roller,
+                       merged.travel if merged.turns else None,
                        fleet.woehler, merged.range(fleet.woehler),
                        merged.cycles if merged.counted else None,
                        merged.range_once(fleet.woehler), merged.peak, merged.peak_time]
@@ -211,7 +214,8 @@ def _tables(fleet):
         rows.append([merged.name, merged.words, merged.unit, number_text(merged.peak), merged.peak_motion,
                      number_text(merged.peak_time, 5)]
                     + [number_text(x) for x in (merged.mean, merged.rms, merged.ball, merged.roller,
-                                                merged.range(fleet.woehler), merged.cycles)])
+                                                merged.range(fleet.woehler),
+                                                merged.cycles if merged.counted else None)])
     if not rows:
         return []
     return [Heading(2, 'Loads'),

@@ -3,6 +3,7 @@ import matplotlib
 matplotlib.use('Agg')
 from matplotlib import pyplot as plt  # noqa: E402
 from matplotlib.colors import LogNorm  # noqa: E402
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 import numpy as np  # noqa: E402
 
 COLORS = {'effort': '#1d2733', 'fx': '#14596b', 'fy': '#c8553d', 'fz': '#e0a030', 'tx': '#14596b',
@@ -54,23 +55,26 @@ def _shade(axes, times, doubted):
         axes.axvspan(times[first] - least, times[last] + least, color=DOUBT, linewidth=0, zorder=0)
 
 
+def history_rows(loads, part):
+    """What is drawn over time: names of quantities, forces above moments."""
+    names = (('radial_force', 'axial_force') if part.quantity('radial_force') else ('force',),
+             ('tilting_moment', 'effort') if part.quantity('tilting_moment') else ('moment', 'effort'))
+    rows = [[name for name in row if loads.matters(loads.get(part, name))] for row in names]
+    return [row for row in rows if row]
+
+
 def history(loads, part, doubted, path):
-    """Forces above moments over time."""
-    rows = [[name for name in names if loads.get(part, name) is not None] for names in (
-        ('radial_force', 'axial_force') if part.quantity('radial_force') else ('force',),
-        ('tilting_moment', 'effort') if part.quantity('tilting_moment') else ('moment', 'effort'))]
-    rows = [names for names in rows if names]
+    """Forces above moments over time; `doubted`: rows by name of the quantity."""
+    rows = history_rows(loads, part)
     times = loads.table.times
     with plt.rc_context(STYLE):
         figure, all_axes = _axes(9.2, 1.9 * len(rows) + 0.4, rows=len(rows), sharex=True, squeeze=False)
         for axes, names in zip(all_axes[:, 0], rows):
-            _shade(axes, times, doubted)
-            units = []
+            _shade(axes, times, np.any([doubted[name] for name in names], axis=0))
             for name, color in zip(names, ('#14596b', '#c8553d')):
                 load = loads.get(part, name)
                 _curve(axes, times, load.quantity.values, load.pieces, color, load.quantity.words)
-                units.append(load.quantity.unit)
-            axes.set_ylabel(units[0])
+                axes.set_ylabel(load.quantity.unit)
             axes.legend(loc='upper left', bbox_to_anchor=(1.0, 1.0))
             axes.margins(x=0.01)
         all_axes[-1, 0].set_xlabel('time, s')
@@ -141,6 +145,10 @@ def cycles(loads_of, path):
                 axes.step(counted[keep], ranges[keep], where='pre', color=COLORS[load.quantity.name],
                           linewidth=1.1, label=load.quantity.words)
             axes.set_xscale('log')
+            if axes.get_xlim()[1] < 100 * axes.get_xlim()[0]:
+                axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+            axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: '%g' % value))
+            axes.xaxis.set_minor_formatter(NullFormatter())
             axes.set_ylim(bottom=0)
             axes.set_ylabel('range, ' + unit)
             axes.legend(loc='upper right')

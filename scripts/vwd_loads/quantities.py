@@ -4,15 +4,18 @@ import numpy as np
 from vwd_loads import bearings
 from vwd_loads.mechanism import COMPONENTS
 
+TINY = 1e-12  # components of unit vectors that are rounding
+
 
 class Quantity:
     """A series of one joint or closure."""
 
-    def __init__(self, name, unit, values, words):
+    def __init__(self, name, unit, values, words, components=None):
         self.name = name  # effort, force, fx, ...
         self.unit = unit
         self.values = values
         self.words = words  # for people
+        self.components = components or {name}  # what it is made of: effort, fx, ...
 
     @property
     def signed(self):
@@ -74,20 +77,32 @@ def _add_reaction(part, table):
     wrench = np.column_stack([table.columns[reaction.column(c)] for c in COMPONENTS])
     forces, moments = wrench[:, :3], wrench[:, 3:]
     add = part.quantities.append
-    add(Quantity('force', 'N', np.linalg.norm(forces, axis=1), 'force'))
-    add(Quantity('moment', 'N m', np.linalg.norm(moments, axis=1), 'moment'))
+    add(Quantity('force', 'N', np.linalg.norm(forces, axis=1), 'force', set(COMPONENTS[:3])))
+    add(Quantity('moment', 'N m', np.linalg.norm(moments, axis=1), 'moment', set(COMPONENTS[3:])))
     axis = reaction.axis
     if axis is not None:
-        add(Quantity('radial_force', 'N', bearings.across(forces, axis), 'radial force'))
-        add(Quantity('axial_force', 'N', bearings.along(forces, axis), 'axial force'))
-        add(Quantity('tilting_moment', 'N m', bearings.across(moments, axis), 'tilting moment'))
-        add(Quantity('moment_about_axis', 'N m', bearings.along(moments, axis), 'moment about the axis'))
+        along, across = parts_of_axis(axis)
+        add(Quantity('radial_force', 'N', bearings.across(forces, axis), 'radial force',
+                     {COMPONENTS[i] for i in across}))
+        add(Quantity('axial_force', 'N', bearings.along(forces, axis), 'axial force',
+                     {COMPONENTS[i] for i in along}))
+        add(Quantity('tilting_moment', 'N m', bearings.across(moments, axis), 'tilting moment',
+                     {COMPONENTS[3 + i] for i in across}))
+        add(Quantity('moment_about_axis', 'N m', bearings.along(moments, axis), 'moment about the axis',
+                     {COMPONENTS[3 + i] for i in along}))
     for i, component in enumerate(COMPONENTS):
         add(Quantity(component, 'N' if i < 3 else 'N m', wrench[:, i].copy(), component))
     if reaction.turn:
         velocity = table.get(reaction.turn['velocity'])
         if velocity is not None:
             part.turning = reaction.turn.get('factor', 1.0) * velocity
+
+
+def parts_of_axis(axis):
+    """Which components, 0 to 2, are in what is along an axis, and in what is across it."""
+    along = [i for i in range(3) if abs(axis[i]) > TINY]
+    across = [i for i in range(3) if 1 - abs(axis[i]) > TINY]
+    return along, across
 
 
 def state_columns(table):

@@ -31,8 +31,7 @@ class Report:
         self.parts = self.loads.parts
         self.clock = spectra.Clock(table.times, self.loads.gap)
         self.doubts = doubting.doubts_of(table, self.parts)
-        self.doubted = {part.name: doubting.rows_of(self.doubts, part.name, len(table))
-                        for part in self.parts}
+        self.doubted = {key: doubting.rows_of(self.doubts, key[0], key[1], len(table)) for key in self.loads.of}
         self.short_spectra = False  # whether pieces were too short for one
 
     # --- files ---------------------------------------------------------------------------------------
@@ -91,20 +90,24 @@ class Report:
     def _peak_text(self, load):
         if load is None or load.peak is None:
             return '–'
-        mark = DAGGER if self.doubted[load.part.name][load.peak_row] else ''
-        return number_text(load.peak) + mark
+        mark = DAGGER if self.doubted[load.part.name, load.quantity.name][load.peak_row] else ''
+        return self._text(load, load.peak) + mark
+
+    def _text(self, load, value):
+        """A figure in the load's own unit, without rounding errors."""
+        return '0' if self.loads.is_rounding(load, value) else number_text(value)
 
     def _summary(self):
         columns = [('peak effort', 'effort', self._peak_text),
-                   ('rms effort', 'effort', lambda load: number_text(load.rms)),
-                   ('range of effort, equivalent', 'effort', lambda load: number_text(load.range)),
+                   ('rms effort', 'effort', lambda load: self._text(load, load.rms)),
+                   ('range of effort, equivalent', 'effort', lambda load: self._text(load, load.range)),
                    ('peak radial force, N', 'radial_force', self._peak_text),
                    ('peak axial force, N', 'axial_force', self._peak_text),
                    ('peak tilting moment, N m', 'tilting_moment', self._peak_text),
                    ('peak force, N', 'force', self._peak_text),
                    ('peak moment, N m', 'moment', self._peak_text),
-                   ('equivalent force, ball, N', 'force', lambda load: number_text(load.ball)),
-                   ('equivalent force, roller, N', 'force', lambda load: number_text(load.roller))]
+                   ('equivalent force, ball, N', 'force', lambda load: self._text(load, load.ball)),
+                   ('equivalent force, roller, N', 'force', lambda load: self._text(load, load.roller))]
         loads = [[self.loads.get(part, quantity) for _, quantity, _ in columns] for part in self.parts]
         used = [any(row[i] is not None and row[i].peak is not None for row in loads)
                 for i in range(len(columns))]
@@ -139,10 +142,10 @@ class Report:
                 bars.append((part.name, bar))
         if not rows:
             return []
-        blocks = [Heading(2, 'Motors')] + self._beyond() + [
-            Table(['', 'effort in', 'limit of effort', 'peak / limit', 'rms / limit', 'rows beyond',
-                   'first beyond, s', 'limit of speed', 'peak speed', 'peak / limit', 'peak power, W',
-                   'mean driving power, W'], rows, 2)]
+        header = ['', 'effort in', 'limit of effort', 'peak / limit', 'rms / limit', 'rows beyond',
+                  'first beyond, s', 'limit of speed', 'peak speed', 'peak / limit', 'peak power, W',
+                  'mean driving power, W']
+        blocks = [Heading(2, 'Motors')] + self._beyond() + [_without_empty(header, rows, 2)]
         if bars:
             from vwd_loads import plots
             path = plots.limits_used(bars, self._figure_path('limits'))
@@ -230,7 +233,7 @@ class Report:
         for part in self.parts:
             for name in POSTURES:
                 load = self.loads.get(part, name)
-                if load is None or load.peak is None or (name == 'moment' and part.quantity('tilting_moment')):
+                if not self.loads.matters(load) or (name == 'moment' and part.quantity('tilting_moment')):
                     continue
                 state = [number_text(float(self.table.columns[c][load.peak_row])) for c in columns]
                 rows.append([part.name, load.quantity.words, '%s %s' % (self._peak_text(load), load.quantity.unit),
@@ -257,7 +260,7 @@ class Report:
         if reaction is not None and reaction.moment_elsewhere:
             texts.append('The scene reports its moments about a point of its own, not about the joint.')
         if reaction is not None and reaction.kind == 'closure' and part.turning is None:
-            texts.append('How a closure turns is not among the results, so it has no equivalent bearing load.')
+            texts.append('How it turns is not among the results, so it has no equivalent bearing load.')
         elif part.turning is not None and not np.any(part.turning):
             texts.append('It does not turn, so it has no equivalent bearing load.')
         return [Text(' '.join(texts), 'note')] if texts else []
@@ -266,22 +269,24 @@ class Report:
         rows = []
         for quantity in part.quantities:
             load = self.loads.get(part, quantity.name)
-            numbers = [load.mean, load.rms] + load.percentiles + [load.ball, load.roller, load.range, load.cycles]
+            numbers = [load.mean, load.rms] + load.percentiles + [load.ball, load.roller, load.range]
             rows.append([quantity.words, quantity.unit, self._peak_text(load), number_text(load.peak_time, 5)]
-                        + [number_text(number) for number in numbers])
+                        + [self._text(load, number) for number in numbers]
+                        + [number_text(load.cycles if self.loads.matters(load) else None)])
         header = ['', 'in', 'peak', 'at, s', 'mean', 'rms', '1 %', '5 %', 'median', '95 %', '99 %',
                   'equivalent, ball', 'equivalent, roller', 'equivalent range', 'of cycles']
-        keep = [i for i in range(len(header)) if i < 6 or any(row[i] != '–' for row in rows)]
-        return Table([header[i] for i in keep], [[row[i] for i in keep] for row in rows], 2)
+        return _without_empty(header, rows, 2)
 
     def _part_figures(self, part):
         from vwd_loads import plots
         name = part.name
-        if all(self.loads.get(part, q.name).peak is None for q in part.quantities):
-            return []
-        shaded = '; rows to distrust are shaded' if np.any(self.doubted[name]) else ''
-        figures = [Figure(plots.history(self.loads, part, self.doubted[name], self._figure_path(name, 'history')),
-                          '%s over time%s.' % (name, shaded))]
+        figures = []
+        drawn = [quantity for row in plots.history_rows(self.loads, part) for quantity in row]
+        if drawn:
+            doubted = {quantity: self.doubted[name, quantity] for quantity in drawn}
+            shaded = '; rows to distrust are shaded' if any(map(np.any, doubted.values())) else ''
+            path = plots.history(self.loads, part, doubted, self._figure_path(name, 'history'))
+            figures.append(Figure(path, '%s over time%s.' % (name, shaded)))
         effort = self.loads.get(part, 'effort')
         if effort is not None and part.velocity is not None and np.any(part.velocity) and effort.peak is not None:
             limits = ', the limits of the description dashed' if (
@@ -293,7 +298,9 @@ class Report:
             figures.append(Figure(plots.spectra(drawn, self._figure_path(name, 'spectrum')),
                                   '%s: power spectral density.' % name, half=True))
         counted = [self.loads.get(part, quantity) for quantity in COUNTED]
-        counted = [load for load in counted if load is not None and load.range]
+        counted = [load for load in counted if self.loads.matters(load) and load.range]
+        if counted and counted[0] is effort:  # a component along the axis may be the same
+            counted = [effort] + [load for load in counted[1:] if load.range != effort.range]
         if counted:
             figures.append(Figure(plots.cycles(counted, self._figure_path(name, 'cycles')),
                                   '%s: ranges of cycles by rainflow count.' % name, half=True))
@@ -304,7 +311,7 @@ class Report:
         for words, unit, names in (('effort', None, ['effort']), ('force', 'N', ['fx', 'fy', 'fz']),
                                    ('moment', 'N m', ['tx', 'ty', 'tz'])):
             loads = [self.loads.get(part, name) for name in names]
-            if any(load is None or load.peak is None for load in loads):
+            if any(load is None or load.peak is None for load in loads) or not any(map(self.loads.matters, loads)):
                 continue
             exists = np.all([np.isfinite(load.quantity.values) for load in loads], axis=0)
             pieces = pieces_of(self.table.times, exists, self.loads.gap)
@@ -315,6 +322,12 @@ class Report:
             if density is not None and np.max(density.density) > ROUNDED * variance:
                 drawn.append((words, unit or loads[0].quantity.unit, density))
         return drawn
+
+
+def _without_empty(header, rows, names):
+    """A table without columns that hold nothing."""
+    keep = [i for i in range(len(header)) if i < names or any(row[i] != '–' for row in rows)]
+    return Table([header[i] for i in keep], [[row[i] for i in keep] for row in rows], names)
 
 
 def _percent(part):

@@ -16,6 +16,7 @@ namespace virtual_work_dynamics {
 namespace {
 
 constexpr char kBag[] = ".bag";
+constexpr char kNpz[] = ".npz";
 
 bool endsWith(const std::string& text, const std::string& end) {
   return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -170,6 +171,7 @@ const std::map<std::string, Setter>& optionsWithValue() {
        }},
       {"--scene", [](const auto& value, auto& arguments) { arguments.scene = value; }},
       {"--output", [](const auto& value, auto& arguments) { arguments.output = value; }},
+      {"--report", [](const auto& value, auto& arguments) { arguments.report = value; }},
       {"--gravity",
        [](const auto& value, auto& arguments) { arguments.gravity = parseGravity(value); }},
       {"--axes", parseAxes},
@@ -254,6 +256,7 @@ class Parser {
   Arguments parse() {
     while (next_ < words_.size() && !arguments_.help && !arguments_.version) parseOption();
     if (!arguments_.generate.empty()) checkForGenerating();
+    if (!arguments_.report.empty()) completeForReport();
     return arguments_;
   }
 
@@ -292,6 +295,17 @@ class Parser {
     }
   }
 
+  // A report judges reactions along and across the axes of joints, which rest in child axes, and
+  // how joints turn.
+  void completeForReport() {
+    if (seen_.count("--axes") > 0 && !arguments_.child_axes) {
+      throw UsageError("--axes root: a report needs reactions in the axes of the child links");
+    }
+    arguments_.child_axes = true;
+    arguments_.positions = true;
+    if (arguments_.output.empty()) arguments_.output = arguments_.report + "/results" + kNpz;
+  }
+
   // A shell makes `--motion run_0.bag run_1.bag` of `--motion run_*.bag`.
   bool isPart(const std::string& word) const {
     return latest_ == "--motion" && word[0] != '-' && endsWith(word, kBag);
@@ -320,6 +334,7 @@ namespace {
 void checkForBag(const Arguments& arguments) {
   const bool lagrange = arguments.method == Method::kLagrange;
   const std::pair<bool, const char*> kRefused[] = {
+      {!arguments.report.empty(), "--report: it is made of results as .npz or CSV, not of a bag"},
       {arguments.child_axes || arguments.inertial_axes, "--axes: a bag has reactions in both axes"},
       {arguments.no_efforts, "--no-efforts: a bag has the topics of the node"},
       {lagrange, "--method lagrange: its results are written as CSV only"},
@@ -358,6 +373,10 @@ MotionSource Arguments::measuredSource() const {
   return source;
 }
 
+bool Arguments::toNpz() const {
+  return endsWith(output, kNpz);
+}
+
 bool Arguments::toBag() const {
   return endsWith(output, kBag) && !check && !explain;
 }
@@ -386,6 +405,9 @@ Arguments parseArguments(const std::vector<std::string>& words) {
   }
   if (arguments.residuals && arguments.no_efforts) {
     throw UsageError("--residuals: need the efforts that --no-efforts leaves out");
+  }
+  if (!arguments.report.empty() && (arguments.check || arguments.explain)) {
+    throw UsageError("--report cannot be used with --check or --explain");
   }
   if (arguments.deviation_warn && !arguments.deviations) {
     throw UsageError("--deviation-warn is of use with --deviations only");

@@ -34,6 +34,7 @@ struct Arguments {
   MotionSource motion;
   std::string scene;
   std::string output;                      ///< empty: standard output
+  std::string report;                      ///< folder of the load report; empty: none
   std::optional<Eigen::Vector3d> gravity;  ///< m/s^2, inertial axes; replaces the scene's
   bool inertial_axes = false;              ///< reactions in inertial axes rather than root axes
   bool child_axes = false;                 ///< reactions in child link axes rather than root axes
@@ -50,7 +51,7 @@ struct Arguments {
   bool deviations = false;
   bool positions = false;
   bool residuals = false;                ///< of measured efforts, which are in the motion unless…
-  std::optional<double> observer_gain;  ///< 1/s; none: no momentum observer
+  std::optional<double> observer_gain;   ///< 1/s; none: no momentum observer
   MotionSource measured;                 ///< …they are from here
   std::optional<double> deviation_warn;  ///< over the effort's rms; none: kDeviationWarn
   int threads = 1;
@@ -65,6 +66,8 @@ struct Arguments {
   MotionSource measuredSource() const;
   /// Whether the output is a bag, by its name.
   bool toBag() const;
+  /// Whether the output is an .npz, by its name.
+  bool toNpz() const;
 };
 
 /// Reads a command line without the program's name, with `--option value` or `--option=value`.

@@ -22,6 +22,7 @@ Input
                         others: the actuated ones, or any other choice, free axes of closures
                         (position.<closure>) and poses of links (position.pose.<link>.x, y, z, qx,
                         qy, qz, qw, in axes of the root link) included. - reads standard input.
+                        An .npz of numpy.savez has the same columns as arrays.
   --motion BAG...       motion as a bag of ROS 1, or the parts that rosbag split it into: a row for
                         each sensor_msgs/JointState that has all joints. The result has their stamps
                         in a column stamp (s, all nanoseconds), and times from the first one on. A bag
@@ -87,6 +88,10 @@ What is computed
 Output
   --output FILE         result as CSV (default: standard output); FILE is written as a whole or not
                         at all
+                        A name that ends in .npz: as arrays for numpy.load, NaN for empty cells
+  --report DIR          makes a load report of the results for the design of bearings, flanges and motors:
+                        DIR/report.html, report.md, loads.csv; with --axes child and --positions.
+                        Without --output, the results are DIR/results.npz
   --output BAG          a name that ends in .bag: of a motion from a bag, the topics that
                         inverse_dynamics_node would publish, with its results: estimated as it does
                         it, --lag S (default: 0.05) behind; those of deviations with --deviations.

@@ -15,6 +15,8 @@
 #include "motion/free_columns.h"
 #include "motion/motion_text.h"
 #include "motion/stream_text.h"
+#include "offline/mechanism_json.h"
+#include "offline/npz_motion.h"
 #include "offline/progress.h"
 #include "offline/state_csv.h"
 #include "offline/state_motion.h"
@@ -150,6 +152,22 @@ void warnOfFarPositions(const MotionFile& motion, const std::string& joint,
   }
 }
 
+// Reads the arrays of an .npz like the columns of a CSV.
+void readNpz(const MotionSource& source, const JointChoice& choose, Names& unused,
+             MotionFile& motion) {
+  NpzMotion file(motion.path);
+  motion.table = readMotionText(file, motion.path, source.rename, choose, &unused, &motion.lines);
+  motion.row_name = "index";
+  for (std::size_t& line : motion.lines) line -= 2;  // behind the header, from 0 on
+  std::vector<std::string> others;
+  for (const std::string& name : file.others()) {
+    if (name != kMechanismFile) others.push_back(name);
+  }
+  if (others.empty()) return;
+  std::cerr << "note: " << printable(motion.path)
+            << ": ignored, no one-dimensional arrays of numbers: " << namesInQuotes(others) << "\n";
+}
+
 }  // namespace
 
 void describeEstimate(const Mechanism& mechanism, const MotionFile& motion, const Names& joints,
@@ -196,7 +214,9 @@ MotionFile readMotion(const MotionSource& source, const Mechanism& mechanism,
   if (!source.topic.empty()) {
     throw FileError(motion.path + ": is not a bag, and --topic is the topic of one");
   }
-  {
+  if (looksLikeNpz(motion.path)) {
+    readNpz(source, choose, unused, motion);
+  } else {
     WatchedFile file(motion.path);
     BegunText text(file);
     if (StateCsv::isBegunBy(text.begin())) {

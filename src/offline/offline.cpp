@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -21,10 +22,14 @@
 #include "offline/generated_files.h"
 #include "offline/inputs.h"
 #include "offline/lagrange_rows.h"
+#include "offline/load_report.h"
 #include "offline/loop_report.h"
 #include "offline/measured_file.h"
+#include "offline/mechanism_json.h"
+#include "offline/npz_result_writer.h"
 #include "offline/recorded_motion.h"
 #include "offline/regressor_files.h"
+#include "offline/report_columns.h"
 #include "offline/residual_rows.h"
 #include "offline/result_writer.h"
 #include "offline/root_rows.h"
@@ -251,6 +256,17 @@ void writeRegressor(const Arguments& arguments, const Mechanism& mechanism, Scen
   files.write(dynamics, motion, RowLoads(scene, motion.file()), parameters);
 }
 
+std::unique_ptr<ResultTable> tableOf(const Arguments& arguments, OutputFile& file,
+                                     const std::string& header, const Columns& columns,
+                                     std::size_t rows, const std::string& described) {
+  if (!arguments.toNpz()) return std::make_unique<ResultWriter>(file, header);
+  try {
+    return std::make_unique<NpzResultWriter>(file, columns, rows, described);
+  } catch (const FileError& error) {
+    throw FileError(arguments.output + ": " + error.what());
+  }
+}
+
 void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene) {
   const Request written = requestOf(mechanism, scene, arguments);
   if (arguments.inertial_axes && !scene.root_moves) {
@@ -296,18 +312,30 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
     const Names more = residuals->columns(deviations.has_value());
     columns.more.insert(columns.more.end(), more.begin(), more.end());
   }
+  std::optional<ReportColumns> for_report;
+  if (dynamics.closed() && !arguments.report.empty()) {
+    for_report.emplace(mechanism, scene);
+    columns.more.insert(columns.more.end(), for_report->names().begin(), for_report->names().end());
+  }
   if (arguments.positions) {
     const Names motion_columns = motionColumns(mechanism);
     columns.more.insert(columns.more.end(), motion_columns.begin(), motion_columns.end());
   }
-  const std::string header = resultHeader(columns);
+  const bool reports = !arguments.report.empty();
+  const std::string described = reports || arguments.toNpz()
+                                    ? mechanismJson(arguments, mechanism, scene, dynamics, columns)
+                                    : "";
+  if (reports) makeReportFolder(arguments);
+  const std::string header = arguments.toNpz() ? "" : resultHeader(columns);
   OutputFile file(arguments.output);
-  ResultWriter writer(file, header);
+  const std::unique_ptr<ResultTable> table =
+      tableOf(arguments, file, header, columns, motion.file().lines.size(), described);
   std::string warning;
   {
     Rows rows(motion.file(), columns, axesOf(arguments), dynamics.closed(),
-              arguments.positions ? &mechanism : nullptr, certified ? &*certified : nullptr,
-              deviations ? &*deviations : nullptr, residuals ? &*residuals : nullptr, writer);
+              for_report ? &*for_report : nullptr, arguments.positions ? &mechanism : nullptr,
+              certified ? &*certified : nullptr, deviations ? &*deviations : nullptr,
+              residuals ? &*residuals : nullptr, *table);
     Computation(dynamics, motion, loads, arguments.threads)
         .run([&](std::size_t row, const Motion& at, const Load& load, const Results& results) {
           rows.write(row, at, load, lagrange ? lagrange->compute(at, load, results) : results);
@@ -321,7 +349,8 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
               << certified->summary(motion.file().row_name) << "\n";
   }
   printNotes(arguments, deviations ? &*deviations : nullptr, residuals ? &*residuals : nullptr);
-  writer.finish();
+  table->finish();
+  if (reports) makeLoadReport(arguments, described);
 }
 
 }  // namespace

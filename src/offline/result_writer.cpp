@@ -20,18 +20,29 @@ const std::string& checkedName(const char* what, const std::string& name) {
 
 }  // namespace
 
-std::string resultHeader(const Columns& columns) {
-  std::string header = columns.stamps ? "time,stamp" : "time";
+std::vector<std::string> resultColumns(const Columns& columns) {
+  std::vector<std::string> names{"time"};
+  if (columns.stamps) names.emplace_back("stamp");
   for (std::size_t i = 0; i < columns.efforts.size(); ++i) {
-    checkedName("joint", columns.efforts[i]);
-    header += "," + columns.effortColumn(i);
+    names.push_back(columns.effortColumn(i));
   }
   for (const std::string& name : columns.reactions) {
     for (const char* component : kWrenchComponents) {
-      header += ",reaction." + checkedName("joint", name) + "." + component;
+      names.push_back("reaction." + name + "." + component);
     }
   }
-  for (const std::string& name : columns.more) header += "," + checkedName("column", name);
+  names.insert(names.end(), columns.more.begin(), columns.more.end());
+  return names;
+}
+
+std::string resultHeader(const Columns& columns) {
+  for (const std::string& name : columns.efforts) checkedName("joint", name);
+  for (const std::string& name : columns.reactions) checkedName("joint", name);
+  for (const std::string& name : columns.more) checkedName("column", name);
+  std::string header;
+  for (const std::string& name : resultColumns(columns)) {
+    header += (header.empty() ? "" : ",") + name;
+  }
   return header + "\n";
 }
 

@@ -9,6 +9,7 @@
 #include "base/number_text.h"
 #include "base/output_file.h"
 #include "base/wrench_components.h"
+#include "offline/result_table.h"
 #include "virtual_work_dynamics/results.h"
 
 namespace virtual_work_dynamics {
@@ -29,26 +30,26 @@ struct Columns {
   }
 };
 
+/// The names of the columns of a result, the time first.
+std::vector<std::string> resultColumns(const Columns& columns);
+
 /// The header line of a result.
 /// @throws FileError naming a name that cannot stand in a CSV header.
 std::string resultHeader(const Columns& columns);
 
 /// Writes results as CSV rows, each number with the fewest digits that read back equal; a number
 /// that is not finite becomes an empty cell.
-class ResultWriter {
+class ResultWriter : public ResultTable {
  public:
   ResultWriter(OutputFile& file, const std::string& header) : file_(file), text_(header) {}
 
-  /// Writes the time that a row begins with.
-  void beginRow(double time) { appendNumber(text_, time); }
-  /// Writes the recorded stamp of a row, in seconds with all nanoseconds.
-  void writeStamp(std::int64_t stamp_ns);
-  /// Writes efforts and reactions in the order of the columns, then the cells of `more`, and ends
-  /// the row.
+  void beginRow(double time) override { appendNumber(text_, time); }
+  /// In seconds with all nanoseconds.
+  void writeStamp(std::int64_t stamp_ns) override;
   void writeResults(const Eigen::VectorXd& effort, const std::vector<Wrench>& reactions,
-                    const std::vector<double>& more);
+                    const std::vector<double>& more) override;
   /// Hands the rest over to the file and commits it.
-  void finish();
+  void finish() override;
 
  private:
   void appendCell(double value);

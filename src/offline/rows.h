@@ -11,6 +11,7 @@
 #include "offline/deviation_rows.h"
 #include "offline/motion_file.h"
 #include "offline/progress.h"
+#include "offline/report_columns.h"
 #include "offline/residual_rows.h"
 #include "offline/result_writer.h"
 #include "virtual_work_dynamics/dynamics.h"
@@ -46,13 +47,14 @@ enum class ReactionAxes { kRoot, kChild, kInertial };
 class Rows {
  public:
   /// @param loops whether the columns include loopColumns()
+  /// @param report whose columns stand before those of the motion; null: there are none
   /// @param motion_of whose motionColumns() the columns end with; null: they do not
   /// @param certified null when no certificates are asked for
   /// @param deviations null when no deviations are asked for
   /// @param residuals null when no measured efforts are asked for
   Rows(const MotionFile& file, const Columns& columns, ReactionAxes axes, bool loops,
-       const Mechanism* motion_of, CertifiedRows* certified, DeviationRows* deviations,
-       ResidualRows* residuals, ResultWriter& writer);
+       ReportColumns* report, const Mechanism* motion_of, CertifiedRows* certified,
+       DeviationRows* deviations, ResidualRows* residuals, ResultTable& table);
 
   /// @param load with which `results` were computed
   void write(std::size_t row, const Motion& motion, const Load& load, const Results& results);
@@ -69,11 +71,12 @@ class Rows {
   const MotionFile& file_;
   const Columns& columns_;
   const bool child_axes_, inertial_axes_, loops_;
+  ReportColumns* const report_;
   const Mechanism* const motion_of_;
   CertifiedRows* certified_;
   DeviationRows* deviations_;
   ResidualRows* residuals_;
-  ResultWriter& writer_;
+  ResultTable& table_;
   // The results that are written; those that only certificates need come after them.
   Eigen::VectorXd effort_;
   std::vector<Wrench> reactions_;

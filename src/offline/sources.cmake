@@ -15,14 +15,19 @@ foreach(file
     joint_renaming.cpp
     joint_state_rows.cpp
     lagrange_rows.cpp
+    load_report.cpp
     loop_report.cpp
     measured_efforts.cpp
     measured_file.cpp
+    mechanism_json.cpp
     motion_file.cpp
+    npz_motion.cpp
+    npz_result_writer.cpp
     offline.cpp
     recorded_motion.cpp
     residual_rows.cpp
     regressor_files.cpp
+    report_columns.cpp
     result_writer.cpp
     root_rows.cpp
     row_loads.cpp

@@ -191,6 +191,8 @@ class Copier {
     part.friction = old.friction;
     part.lower = old.lower;
     part.upper = old.upper;
+    part.effort_limit = old.effort_limit;
+    part.velocity_limit = old.velocity_limit;
     // Who mimics it turns or slides with the part that alone has its name.
     if (part.name == old.name) {
       coordinate_of_[static_cast<std::size_t>(old.coordinate)] = part.coordinate;

@@ -238,8 +238,16 @@ class Reader {
     }
   }
 
+  static double limitOf(double described) {
+    return std::isfinite(described) && described > 0 ? described : 0;
+  }
+
   // Limits that contradict each other, as those that a description leaves out, are none.
   static void readLimits(const urdf::Joint& source, Joint& joint) {
+    if (source.limits && joint.type != JointType::kFixed) {
+      joint.effort_limit = limitOf(source.limits->effort);
+      joint.velocity_limit = limitOf(source.limits->velocity);
+    }
     const bool bounded = joint.type == JointType::kRevolute || joint.type == JointType::kPrismatic;
     if (!bounded || !source.limits || !(source.limits->lower < source.limits->upper)) return;
     joint.lower = source.limits->lower;

@@ -187,6 +187,8 @@ TEST(CompoundJoints, KeepWhatIsKnownOfTheMotionThatTheyHaveFromTheDescription) {
   EXPECT_EQ(turning.coordinateNames(), (Names{"j.slide", "j.angle", "wrist"}));
   EXPECT_EQ(turning.joint(0).damping, 0);
   EXPECT_EQ(turning.joint(1).damping, 0.5);
+  EXPECT_EQ(turning.joint(0).effort_limit, 0);
+  EXPECT_EQ(turning.joint(1).effort_limit, 1);
   EXPECT_EQ(turning.joint(1).upper, 2);
   const Mechanism sliding = withJointTypes(readUrdf(described("prismatic")), scene);
   EXPECT_EQ(sliding.joint(0).damping, 0.5);

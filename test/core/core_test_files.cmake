@@ -88,10 +88,12 @@ set(core_test_files
   test/core/offline_loops_test.cpp
   test/core/offline_loops_threads_test.cpp
   test/core/offline_names_test.cpp
+  test/core/offline_npz_test.cpp
   test/core/offline_plan_test.cpp
   test/core/offline_recordings_test.cpp
   test/core/offline_residuals_test.cpp
   test/core/offline_regressor_test.cpp
+  test/core/offline_report_test.cpp
   test/core/offline_root_test.cpp
   test/core/offline_test.cpp
   test/core/offline_wrapped_test.cpp
@@ -148,6 +150,8 @@ set(core_test_files
   test/core/velocity_judge_test.cpp
   test/core/wrench_history_test.cpp
   src/offline/effort_comparison.cpp
+  src/npz/crc32.cpp
+  src/npz/npz_writer.cpp  # files beyond 4 GB, without such a file
   src/offline/deviation_rows.cpp)  # the covariances of a motion cannot come from a file
 # Compiled for each build: where its tool and its data are, and tests of code that is all in headers.
 set(core_test_files_of_build

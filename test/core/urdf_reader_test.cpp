@@ -75,6 +75,20 @@ TEST(UrdfReader, LimitsAreThoseOfTheDescription) {
   EXPECT_EQ(limits("continuous", "lower='-1' upper='1'"), Eigen::Vector2d(0, 0));
 }
 
+TEST(UrdfReader, LimitsOfEffortAndSpeedAreThoseOfTheDescriptionAndZeroIsNone) {
+  const auto limits = [](const std::string& type, const std::string& limit) {
+    const Mechanism read = readUrdf(robot(
+        link("a") + link("b") + "<joint name='j' type='" + type +
+        "'><parent link='a'/><child link='b'/><axis xyz='0 0 1'/><limit lower='-1' upper='1' " +
+        limit + "/></joint>"));
+    return Eigen::Vector2d(read.joints()[0].effort_limit, read.joints()[0].velocity_limit);
+  };
+  EXPECT_EQ(limits("revolute", "effort='738' velocity='2.5'"), Eigen::Vector2d(738, 2.5));
+  EXPECT_EQ(limits("continuous", "effort='12' velocity='0'"), Eigen::Vector2d(12, 0));
+  EXPECT_EQ(limits("prismatic", "effort='-1' velocity='3'"), Eigen::Vector2d(0, 3));
+  EXPECT_EQ(limits("fixed", "effort='5' velocity='5'"), Eigen::Vector2d(0, 0));
+}
+
 TEST(UrdfReader, OrdersDepthFirstByJointName) {
   const Mechanism mechanism =
       readUrdf(robot(link("base") + link("z") + link("a") + link("m") + link("tip") +
