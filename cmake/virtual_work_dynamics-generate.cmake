@@ -4,8 +4,8 @@
 # scene: <target>.h declares <target>_compute() and <target>_compute_block(). It is written again when
 # the description, the scene or the tool changes. Options are those of the tool that go with --generate,
 # as --axes child, --reactions none, --no-efforts. The code is compiled for the machines that the rest
-# of the package is compiled for; target_compile_options(<target> PRIVATE -mavx2 -mfma) makes it twice as
-# fast where these are known to be there.
+# of the package is compiled for; target_compile_options(<target> PRIVATE -mavx2 -mfma) makes it faster
+# where these are known to be there.
 function(virtual_work_dynamics_generate target urdf)
   set(options ${ARGN})
   get_filename_component(urdf "${urdf}" ABSOLUTE)

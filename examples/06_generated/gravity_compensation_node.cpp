@@ -1,4 +1,5 @@
-// Generated code in a node: what the joints must deliver to hold the arm where /joint_states says it is.
+// Generated code in a node: what the joints must deliver to hold the arm where /joint_states says
+// it is.
 //
 //   06_generated_node joint_states:=/my_arm/joint_states
 //

@@ -17,7 +17,8 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Beyond so many operations a sample takes longer than by the library, whose code stays in the caches.
+// Beyond so many operations a sample takes longer than by the library, whose code stays in the
+// caches.
 constexpr std::size_t kMostWorthwhile = 20000;
 constexpr std::size_t kLongestInput = 1u << 30;
 
@@ -72,9 +73,10 @@ void writeGeneratedFiles(const Arguments& arguments, const Mechanism& mechanism,
   std::filesystem::path file(arguments.generate);
   GeneratedCodeOptions options;
   options.name = nameOf(file);
-  options.origin = {std::string("Made by inverse_dynamics_offline --generate of virtual_work_dynamics ") +
-                        VWD_VERSION + "; not to be edited.",
-                    originOf("Description: ", arguments.urdf)};
+  options.origin = {
+      std::string("Made by inverse_dynamics_offline --generate of virtual_work_dynamics ") +
+          VWD_VERSION + "; not to be edited.",
+      originOf("Description: ", arguments.urdf)};
   if (!arguments.scene.empty()) options.origin.push_back(originOf("Scene: ", arguments.scene));
   const GeneratedCode code = generateCode(mechanism, scene, request, options);
   const std::string source = file.string(), header = file.replace_extension(".h").string();
@@ -84,8 +86,9 @@ void writeGeneratedFiles(const Arguments& arguments, const Mechanism& mechanism,
   std::cerr << "note: " << printable(source) << ", " << printable(header) << ": " << operations
             << " operations and " << code.sines_and_cosines << " sines and cosines a sample\n";
   if (operations > kMostWorthwhile) {
-    std::cerr << "warning: of so many operations the code is too large for the caches: one sample at "
-                 "a time is computed faster by the library\n";
+    std::cerr
+        << "warning: of so many operations the code is too large for the caches: one sample at "
+           "a time is computed faster by the library\n";
   }
 }
 

@@ -1,4 +1,5 @@
-// Prints the effort of the first joint of a generated robot that rests at zero, and of one that speeds up.
+// Prints the effort of the first joint of a generated robot that rests at zero, and of one that
+// speeds up.
 #include <downstream_generated.h>
 
 #include <cstdio>

@@ -39,8 +39,8 @@ VWD_INLINE Mat3<T> propagateRotation(const Body<R>& body, const KernelInputs<R>&
   return R_0Z;
 }
 
-/// Pose of a body from its parent's, and its velocities (2.5) and (2.6) in root axes, as far as they
-/// are wanted; the rest of `pose` stays as it is.
+/// Pose of a body from its parent's, and its velocities (2.5) and (2.6) in root axes, as far as
+/// they are wanted; the rest of `pose` stays as it is.
 template <PoseExtent kExtent, typename T, typename R>
 VWD_INLINE void propagatePose(const Body<R>& body, const KernelInputs<R>& in,
                               const JointMotion<T>& joint, const BodyPose<T>& parent,
