@@ -61,7 +61,7 @@ install(EXPORT ${PROJECT_NAME}
   NAMESPACE ${PROJECT_NAME}::
   FILE ${PROJECT_NAME}Targets.cmake
   DESTINATION ${vwd_config})
-install(FILES cmake/yaml_cpp.cmake DESTINATION ${vwd_config})
+install(FILES cmake/yaml_cpp.cmake cmake/${PROJECT_NAME}-generate.cmake DESTINATION ${vwd_config})
 if(VWD_CORE_ONLY)
   install(FILES cmake/${PROJECT_NAME}-core.cmake
     DESTINATION ${vwd_config} RENAME ${PROJECT_NAME}Config.cmake)

@@ -21,7 +21,7 @@ MAY_INCLUDE = {
     "motion": {"base", "robot"},
     "scene": {"base", "robot", "motion", "results"},
     "tree": {"base", "robot", "motion", "scene", "results"},
-    "generate": {"base", "robot", "scene", "results", "tree", "motion"},
+    "generate": {"base", "robot", "motion", "scene", "results", "tree"},
     "loops": {"base", "algebra", "robot", "motion", "scene", "results", "tree"},
     "witness": {"base", "robot", "motion", "scene", "results"},
     "dynamics": {"base", "robot", "motion", "scene", "results", "tree", "loops", "witness"},

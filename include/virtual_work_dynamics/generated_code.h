@@ -22,9 +22,9 @@ struct GeneratedCodeOptions {
 
 /// Source text, as C99 and as C++, that computes one robot in one scene, and nothing else: the
 /// operations of InverseDynamics::compute() one after the other, which needs no library but that of
-/// C. Its results have the same bits for finite motions, except that a zero may have the other sign;
-/// operations are fused as in the builds for AVX2 and AVX-512, or not as in the baseline build, by
-/// what it is compiled for.
+/// C. Its results have the same bits for finite motions, except that a zero may have the other
+/// sign; operations are fused as in the builds for AVX2 and AVX-512, or not as in the baseline
+/// build, by what it is compiled for.
 struct GeneratedCode {
   std::string header;  ///< contents of the file <name>.h
   std::string source;  ///< contents of the file <name>.c, which includes it

@@ -8,8 +8,8 @@ namespace virtual_work_dynamics {
 /// A legal identifier of C and C++ for a name: letters, digits and underscores of it, others as _.
 std::string identifierOf(const std::string& name);
 
-/// Identifiers in capitals for names, in their order and all different: PREFIX_NAME, with _2, _3 ...
-/// behind those that others have already.
+/// Identifiers in capitals for names, in their order and all different: PREFIX_NAME, with _2, _3
+/// ... behind those that others have already.
 std::vector<std::string> constantNames(const std::string& prefix,
                                        const std::vector<std::string>& names);
 

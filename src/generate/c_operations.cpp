@@ -43,8 +43,8 @@ void OperationWriter::leaf(std::uint32_t index) {
     static const char* const kArrays[] = {"cosine", "sine", "rest"};
     return define(index, kArrays[node.array] + ("[" + at + "]"));
   }
-  const std::string from = element(recording_.inputs[static_cast<std::size_t>(node.array)].name,
-                                   node.index);
+  const std::string from =
+      element(recording_.inputs[static_cast<std::size_t>(node.array)].name, node.index);
   define(index, packs_ ? "*(const " + name_ + "_pack_at *)(" + from + ")" : from);
 }
 
@@ -118,8 +118,8 @@ std::string OperationWriter::part(const Part& part, bool last) {
     out_ += "  m[" + std::to_string(kept.slot) + "] = x" + std::to_string(kept.node) + ";\n";
   }
   for (const Output& output : recording_.graph.outputs) {
-    const bool read = output.value.isNode() &&
-                      !isLeaf(recording_.graph.nodes()[output.value.node()]);
+    const bool read =
+        output.value.isNode() && !isLeaf(recording_.graph.nodes()[output.value.node()]);
     if (!last || read) continue;
     const std::string value = text(output.value);
     assign(outputName(output), value);

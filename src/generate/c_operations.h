@@ -16,8 +16,8 @@ class OperationWriter {
 
   /// The statements of a part, outputs and what is kept in memory included.
   std::string part(const Part& part, bool last);
-  /// Statements that find the sines and cosines of the angles, and their rests: of a sample whole, of a
-  /// pack of samples its angles into the array `angle`.
+  /// Statements that find the sines and cosines of the angles, and their rests: of a sample whole,
+  /// of a pack of samples its angles into the array `angle`.
   std::string angles();
 
  private:

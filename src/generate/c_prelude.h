@@ -2,9 +2,9 @@
 
 namespace virtual_work_dynamics {
 
-// Text of C at the beginning of every generated source: packs of numbers, fused operations, sines and
-// cosines. $n stands for the name of the function, $N for it in capitals. Sines and cosines are those
-// of tree/kernel/sine_cosine.h, operation by operation.
+// Text of C at the beginning of every generated source: packs of numbers, fused operations, sines
+// and cosines. $n stands for the name of the function, $N for it in capitals. Sines and cosines are
+// those of tree/kernel/sine_cosine.h, operation by operation.
 constexpr char kPrelude[] = R"(
 #include <math.h>
 #if defined(__GNUC__) && (defined(__AVX512F__) || (defined(__AVX__) && defined(__FMA__)))
@@ -102,8 +102,8 @@ $N_WITHIN $n_$p $n_$p_fnms($n_$p a, $n_$p b, $n_$p c) { return $n_$p_fma(-a, b, 
 #endif
 )";
 
-// Of robots with joints that turn: constants, then functions for each kind of packs, then those for one
-// sample.
+// Of robots with joints that turn: constants, then functions for each kind of packs, then those for
+// one sample.
 constexpr char kSineConstants[] = R"(
 /* Sines and cosines of angles up to $N_RANGE rad; returns whether all are. With -D$N_LIBM those of the
    C library serve for all angles. */

@@ -130,7 +130,8 @@ $N_WITHIN $n_pack $n_exact_rest($n_pack a, $n_pack b, $n_pack product) {
   }
 
   std::string packsExist() const {
-    return capitals_ + "_PACK_WIDTH > 1" + (graph().angles().empty() ? "" : " && !" + capitals_ + "_BY_LIBRARY");
+    return capitals_ + "_PACK_WIDTH > 1" +
+           (graph().angles().empty() ? "" : " && !" + capitals_ + "_BY_LIBRARY");
   }
 
   // The arrays that a part reads and writes, and their types; and how they are handed over.
@@ -186,8 +187,8 @@ $N_WITHIN $n_pack $n_exact_rest($n_pack a, $n_pack b, $n_pack product) {
       const bool last = p + 1 == all.size();
       const Names parameters = handedTo(all[p], last, packs).parameters;
       out_ += "\n" + capitals_ + (all.size() > 1 ? "_APART static void " : "_WITHIN void ");
-      out_ += lines(partName(p, packs) + "(", parameters.empty() ? Names{"void"} : parameters,
-                    ") {\n");
+      out_ +=
+          lines(partName(p, packs) + "(", parameters.empty() ? Names{"void"} : parameters, ") {\n");
       out_ += writer.part(all[p], last) + "}\n";
     }
   }
@@ -204,7 +205,8 @@ $N_WITHIN $n_pack $n_exact_rest($n_pack a, $n_pack b, $n_pack product) {
     const std::string count = "[" + std::to_string(room) + "]";
     if (!graph().angles().empty()) {
       const bool packs = item != "double";
-      out_ += "  " + item + (packs ? " angle" + count + "," : "") + " sine" + count + ", cosine" + count;
+      out_ += "  " + item + (packs ? " angle" + count + "," : "") + " sine" + count + ", cosine" +
+              count;
       out_ += (content_.recording.anyRest() ? ", rest" + count : "") + ";\n";
     }
     if (content_.program.slots > 0) {
@@ -214,7 +216,8 @@ $N_WITHIN $n_pack $n_exact_rest($n_pack a, $n_pack b, $n_pack product) {
 
   // Says that arrays of which the scene needs nothing are not forgotten.
   void ignoreInputs() {
-    for (const NamedArray& array : content_.recording.inputs) out_ += "  (void)" + array.name + ";\n";
+    for (const NamedArray& array : content_.recording.inputs)
+      out_ += "  (void)" + array.name + ";\n";
   }
 
   Names parameters(bool of_block) const {
@@ -300,7 +303,8 @@ $N_WITHIN $n_pack $n_exact_rest($n_pack a, $n_pack b, $n_pack product) {
     out_ += "\n" + lines("void " + name_ + "_compute_block(", parameters(true), ") {\n");
     out_ += "  size_t n = 0;\n";
     out_ += "#if " + packsExist() + "\n";
-    out_ += "  for (; n + " + capitals_ + "_PACK_WIDTH <= samples; n += " + capitals_ + "_PACK_WIDTH) {\n";
+    out_ += "  for (; n + " + capitals_ + "_PACK_WIDTH <= samples; n += " + capitals_ +
+            "_PACK_WIDTH) {\n";
     out_ += "    size_t end = n + " + capitals_ + "_PACK_WIDTH;\n";
     out_ += "    if (" + name_ + "_pack_of_block(" + listed(at) + ")) continue;\n";
     out_ += "    for (; n < end; ++n) " + name_ + "_one_of_block(" + listed(at) + ");\n";
@@ -331,10 +335,12 @@ std::string cDeclarations(const std::string& name, const Recording& recording) {
   for (const NamedArray& array : recording.inputs) add(array, "const double");
   says += "   Results:\n";
   for (const NamedArray& array : recording.outputs) add(array, "double");
-  return "\n/* One sample. Numbers must be finite, and arrays must not overlap. Allocates nothing, keeps "
+  return "\n/* One sample. Numbers must be finite, and arrays must not overlap. Allocates nothing, "
+         "keeps "
          "no state:\n   may be called from any thread.\n" +
          says + "*/\n" + lines("void " + name + "_compute(", one, ");\n") +
-         "\n/* Several samples: number c of sample n is at [c * stride + n] of each array, stride >= "
+         "\n/* Several samples: number c of sample n is at [c * stride + n] of each array, stride "
+         ">= "
          "samples. */\n" +
          lines("void " + name + "_compute_block(", block, ");\n");
 }

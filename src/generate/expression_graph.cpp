@@ -118,8 +118,9 @@ Term ExpressionGraph::fused(const Term& a, const Term& b, const Term& c, bool mi
   if (right.bits() < left.bits()) std::swap(left, right);
   bool minus_added = false;
   Term rest = stripped(added, minus_added);
-  const Operation operation = minus_product ? (minus_added ? Operation::kMinusMulSub : Operation::kSubMul)
-                                            : (minus_added ? Operation::kMulSub : Operation::kMulAdd);
+  const Operation operation = minus_product
+                                  ? (minus_added ? Operation::kMinusMulSub : Operation::kSubMul)
+                                  : (minus_added ? Operation::kMulSub : Operation::kMulAdd);
   return node({operation, left, right, rest});
 }
 

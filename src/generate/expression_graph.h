@@ -8,9 +8,9 @@
 
 namespace virtual_work_dynamics {
 
-/// A value of a recorded program: a constant, or the result of one of its nodes. It is as large as a
-/// double and may be copied like one, through arrays of doubles too: a node stands as a NaN with its
-/// number in it, and no constant of a plan is NaN.
+/// A value of a recorded program: a constant, or the result of one of its nodes. It is as large as
+/// a double and may be copied like one, through arrays of doubles too: a node stands as a NaN with
+/// its number in it, and no constant of a plan is NaN.
 class Term {
  public:
   Term() = default;
@@ -41,15 +41,15 @@ inline bool operator==(const Term& a, const Term& b) {
 }
 
 enum class Operation : unsigned char {
-  kInput,        ///< number `index` of the array `array`
-  kAngle,        ///< cosine, sine or rest of the angle `index`, see Angle
-  kNegate,       ///< -a
-  kAdd,          ///< a + b
-  kSubtract,     ///< a - b
-  kMultiply,     ///< a b
-  kMulAdd,       ///< a b + c, which rounds once, as the next three do where there is such an operation
-  kSubMul,       ///< c - a b
-  kMulSub,       ///< a b - c
+  kInput,     ///< number `index` of the array `array`
+  kAngle,     ///< cosine, sine or rest of the angle `index`, see Angle
+  kNegate,    ///< -a
+  kAdd,       ///< a + b
+  kSubtract,  ///< a - b
+  kMultiply,  ///< a b
+  kMulAdd,    ///< a b + c, which rounds once, as the next three do where there is such an operation
+  kSubMul,    ///< c - a b
+  kMulSub,    ///< a b - c
   kMinusMulSub,  ///< -(a b) - c
   kProductRest,  ///< a b - c exactly, where c is a b rounded
   kHeld          ///< a, or 1 or -1 where a is beyond
@@ -78,9 +78,9 @@ struct Output {
   Term value;
 };
 
-/// Straight-line arithmetic. Each node is there once, whatever it is needed for; what can be computed
-/// now is, rounded as it would be later. Products with 0 and 1 are left out: for finite values they
-/// change nothing except for the sign of a zero.
+/// Straight-line arithmetic. Each node is there once, whatever it is needed for; what can be
+/// computed now is, rounded as it would be later. Products with 0 and 1 are left out: for finite
+/// values they change nothing except for the sign of a zero.
 class ExpressionGraph {
  public:
   Term input(int array, int index);

@@ -74,7 +74,8 @@ class Comment {
       : mechanism_(mechanism), scene_(scene), request_(request), code_(code) {}
 
   Names lines() {
-    add("Efforts and reactions are those of InverseDynamics::compute(), to the last bit but the sign "
+    add("Efforts and reactions are those of InverseDynamics::compute(), to the last bit but the "
+        "sign "
         "of zeros.");
     add("Units: s, m, rad, kg, N, N m. Order of the coordinates and efforts: see the names below.");
     gravity();
@@ -104,8 +105,8 @@ class Comment {
     add("Reactions in axes of the " + axes + " link" + (axes == "child" ? "s" : "") +
         ": what the parent link exerts on the child link,");
     add("moments about the origin of the child link" +
-        std::string(scene_.moments_about.empty() ? "" : ", or where the scene says otherwise") + "." +
-        (scene_.include_active ? "" : " The active components are zero."));
+        std::string(scene_.moments_about.empty() ? "" : ", or where the scene says otherwise") +
+        "." + (scene_.include_active ? "" : " The active components are zero."));
   }
 
   void applied(std::size_t i) {
@@ -155,23 +156,24 @@ std::string appliedOf(const std::string& capitals, const Plan<double>& plan) {
       }
     }
   }
-  return "\n/* The scene's own values of `applied`. */\n#define " + capitals + "_APPLIED_OF_SCENE { " +
-         values + " }\n";
+  return "\n/* The scene's own values of `applied`. */\n#define " + capitals +
+         "_APPLIED_OF_SCENE { " + values + " }\n";
 }
 
-std::string headerOf(const std::string& comment, const std::string& name, const Mechanism& mechanism,
-                     const Request& request, const Plan<double>& plan, const Recording& recording) {
+std::string headerOf(const std::string& comment, const std::string& name,
+                     const Mechanism& mechanism, const Request& request, const Plan<double>& plan,
+                     const Recording& recording) {
   const std::string capitals = inCapitals(name);
   const auto number = [&](const std::string& what, std::size_t value) {
     return "#define " + capitals + "_" + what + " " + std::to_string(value) + "\n";
   };
   const bool both = !request.child_axes.empty() && !request.root_axes.empty();
-  std::string text = comment + "#ifndef " + capitals + "_H\n#define " + capitals +
-                     "_H\n#include <stddef.h>\n\n";
+  std::string text =
+      comment + "#ifndef " + capitals + "_H\n#define " + capitals + "_H\n#include <stddef.h>\n\n";
   text += number("COORDINATES", mechanism.coordinates().size());
-  text += number(both ? "CHILD_REACTIONS" : "REACTIONS",
-                 both ? request.child_axes.size()
-                      : request.child_axes.size() + request.root_axes.size());
+  text += number(
+      both ? "CHILD_REACTIONS" : "REACTIONS",
+      both ? request.child_axes.size() : request.child_axes.size() + request.root_axes.size());
   if (both) text += number("ROOT_REACTIONS", request.root_axes.size());
   text += number("APPLIED", plan.applied.size());
   text += placesOf(capitals + "_Q", capitals + "_COORDINATE_NAMES", mechanism.coordinateNames());
@@ -193,8 +195,8 @@ GeneratedCode generateCode(const Mechanism& mechanism, const Scene& scene, const
   if (mechanism.coordinates().empty()) {
     throw SceneError("no code can be generated, as no joint moves");
   }
-  const Plan<double> plan = roundPlan<double>(
-      compilePlan(LoadedMechanism(mechanism, scene).get(), scene, request));
+  const Plan<double> plan =
+      roundPlan<double>(compilePlan(LoadedMechanism(mechanism, scene).get(), scene, request));
   const Recording recording = record(plan);
   if (recording.graph.outputs.empty()) {
     throw SceneError("no code can be generated, as neither efforts nor reactions are asked for");

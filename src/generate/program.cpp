@@ -58,7 +58,8 @@ class Division {
       last_[at] = std::max(last_[at], at);
       for (int j = 0; j < operandsOf(nodeAt(at)); ++j) {
         const Term& operand = operandOf(nodeAt(at), j);
-        if (operand.isNode() && place_[operand.node()] != kNever) last_[place_[operand.node()]] = at;
+        if (operand.isNode() && place_[operand.node()] != kNever)
+          last_[place_[operand.node()]] = at;
       }
     }
   }
@@ -132,12 +133,12 @@ class Division {
   const ExpressionGraph& graph_;
   const std::size_t most_;
   Program program_;
-  std::vector<std::uint32_t> order_;      // operations in their order
-  std::vector<std::size_t> place_;        // by node, its position in order_
-  std::vector<std::size_t> last_;         // by position, that of the last use
-  std::vector<std::size_t> part_of_;      // by position
-  std::vector<std::size_t> busy_until_;   // by slot, the last part that reads it
-  std::vector<int> slots_;                // by node
+  std::vector<std::uint32_t> order_;     // operations in their order
+  std::vector<std::size_t> place_;       // by node, its position in order_
+  std::vector<std::size_t> last_;        // by position, that of the last use
+  std::vector<std::size_t> part_of_;     // by position
+  std::vector<std::size_t> busy_until_;  // by slot, the last part that reads it
+  std::vector<int> slots_;               // by node
 };
 
 }  // namespace

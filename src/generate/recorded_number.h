@@ -4,8 +4,8 @@
 
 namespace virtual_work_dynamics {
 
-// Term as a number type of the recursion: what base/number.h asks of one. Operations go to the graph
-// that the thread records into.
+// Term as a number type of the recursion: what base/number.h asks of one. Operations go to the
+// graph that the thread records into.
 
 /// The graph that the operations of this thread go to.
 inline thread_local ExpressionGraph* recorded = nullptr;

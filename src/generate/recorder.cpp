@@ -117,9 +117,9 @@ Recording record(const Plan<double>& plan) {
   const Numbers applied = appliedArray(
       plan, input("applied", 6 * static_cast<int>(plan.applied.size()),
                   "force and torque of each applied wrench, N and N m, as the scene gives them"));
-  const KernelInputs<double> in = {q.data(),    qd.data(),   qdd.data(), 1,
-                                   applied.data(), 1, root.data(), 1,
-                                   orientations.data(), 1};
+  const KernelInputs<double> in = {
+      q.data(),    qd.data(), qdd.data(),          1, applied.data(), 1,
+      root.data(), 1,         orientations.data(), 1};
   const int child_count = 6 * static_cast<int>(plan.child_axes.size());
   const int root_count = static_cast<int>(plan.root_axes.size());
   const auto room = [](int count) { return Numbers(static_cast<std::size_t>(count) + 1); };
@@ -139,10 +139,14 @@ Recording record(const Plan<double>& plan) {
   const bool both = child_count > 0 && root_count > 0;
   outputArray(recording, {both ? "child_reactions" : "reactions", child_count, wrench}, child);
   outputArray(recording, {both ? "root_reactions" : "reactions", 6 * root_count, wrench}, in_root);
-  outputArray(recording, {"poses", plan.poses ? 12 * root_count : 0,
-                          "of each joint: x y z, then its axes in the root link's by rows"}, poses);
-  outputArray(recording, {"twists", plan.twists ? 6 * root_count : 0,
-                          "of each joint: vx vy vz wx wy wz, root axes"}, twists);
+  outputArray(recording,
+              {"poses", plan.poses ? 12 * root_count : 0,
+               "of each joint: x y z, then its axes in the root link's by rows"},
+              poses);
+  outputArray(
+      recording,
+      {"twists", plan.twists ? 6 * root_count : 0, "of each joint: vx vy vz wx wy wz, root axes"},
+      twists);
   return recording;
 }
 

@@ -29,8 +29,13 @@ set_source_files_properties(
 set_property(SOURCE ${CMAKE_CURRENT_LIST_DIR}/plan_counting.cpp
   APPEND_STRING PROPERTY COMPILE_FLAGS " -fno-sanitize=all")
 if(VWD_X86)
+  # GCC gathers numbers of one sample into vectors, which takes longer than it saves: without, a sample
+  # takes 0 to 11 % less in the build for AVX-512, 1 to 5 % less with reactions in that for AVX2.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    set(vector_flags "-fno-tree-slp-vectorize")
+  endif()
   set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/kernel/avx2.cpp
-    PROPERTIES COMPILE_FLAGS "${kernel_flags} -mavx2 -mfma")
+    PROPERTIES COMPILE_FLAGS "${kernel_flags} ${vector_flags} -mavx2 -mfma")
   set_source_files_properties(${CMAKE_CURRENT_LIST_DIR}/kernel/avx512.cpp
-    PROPERTIES COMPILE_FLAGS "${kernel_flags} -mavx2 -mfma -mavx512f -mavx512dq")
+    PROPERTIES COMPILE_FLAGS "${kernel_flags} ${vector_flags} -mavx2 -mfma -mavx512f -mavx512dq")
 endif()

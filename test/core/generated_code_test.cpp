@@ -263,17 +263,18 @@ Mechanism robotOf(const std::vector<std::string>& names) {
 }
 
 TEST(GeneratedCode, MakesIdentifiersOfAnyNamesThatDiffer) {
-  const std::vector<std::string> names = {
-      "a-b", "a.b", "a_b",  "A B", "1st",          "int",       "*/ #error /*", "?\?/",
-      "\"",  "\\",  "a\nb", "",    "\xc3\xa4rmel", "a__b\x7f", "_",            "a_b_2"};
+  const std::vector<std::string> names = {"a-b",          "a.b",      "a_b", "A B",  "1st",  "int",
+                                          "*/ #error /*", "?\?/",     "\"",  "\\",   "a\nb", "",
+                                          "\xc3\xa4rmel", "a__b\x7f", "_",   "a_b_2"};
   const Case of = caseOf(robotOf(names), Scene(), true);
   GeneratedCodeOptions how;
   how.name = "odd";
   how.origin = {"from /* \"somewhere\" */ ?\?/", "\\"};
   const GeneratedCode code = generateCode(of.mechanism, of.scene, of.request, how);
-  std::string uses = "#include \"odd.h\"\n#include <string.h>\nint test(int place);\n"
-                     "int test(int place) {\n  const char *names[] = ODD_COORDINATE_NAMES;\n"
-                     "  switch (place) {\n";
+  std::string uses =
+      "#include \"odd.h\"\n#include <string.h>\nint test(int place);\n"
+      "int test(int place) {\n  const char *names[] = ODD_COORDINATE_NAMES;\n"
+      "  switch (place) {\n";
   for (const char* constant :
        {"A_B", "A_B_2", "A_B_3", "A_B_4", "1ST", "INT", "ERROR", "NAMELESS", "NAMELESS_2",
         "NAMELESS_3", "A_B_5", "NAMELESS_4", "RMEL", "A_B_6", "NAMELESS_5", "A_B_2_2"}) {

@@ -21,7 +21,8 @@ constexpr char kStrictC[] = "-std=c99 -Wall -Wextra -Wpedantic -Wshadow -Wconver
 constexpr char kStrictCpp[] =
     "-x c++ -std=c++17 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror ";
 
-/// The instructions that a generated program is compiled for, and the library's that it is compared with.
+/// The instructions that a generated program is compiled for, and the library's that it is compared
+/// with.
 inline InstructionSet comparedInstructions() {
   return isSupported(InstructionSet::kAvx2) ? InstructionSet::kAvx2 : InstructionSet::kBaseline;
 }
@@ -38,8 +39,8 @@ inline bool isThere(const std::string& compiler) {
 class GeneratedProgram {
  public:
   /// @param inputs, outputs numbers of a sample of each array, in the function's order
-  GeneratedProgram(const GeneratedCode& code, const std::string& name, const std::vector<int>& inputs,
-                   const std::vector<int>& outputs)
+  GeneratedProgram(const GeneratedCode& code, const std::string& name,
+                   const std::vector<int>& inputs, const std::vector<int>& outputs)
       : name_(name), inputs_(inputs), outputs_(outputs) {
     std::string pattern = testing::TempDir() + "generated_XXXXXX";
     folder_ = mkdtemp(pattern.data()) == nullptr ? "" : pattern;
@@ -53,8 +54,8 @@ class GeneratedProgram {
   /// Compiles it; returns what the compiler says, empty if it says nothing.
   std::string compile(const std::string& compiler, const std::string& options) {
     const std::string log = folder_ + "/log";
-    const std::string command = "cd '" + folder_ + "' && " + compiler + " " + options + " " + name_ +
-                                ".c main.c -o program -lm >log 2>&1";
+    const std::string command = "cd '" + folder_ + "' && " + compiler + " " + options + " " +
+                                name_ + ".c main.c -o program -lm >log 2>&1";
     const int status = std::system(command.c_str());
     return read(log) + (status == 0 ? "" : "\nthe compiler failed: " + command);
   }
@@ -63,8 +64,7 @@ class GeneratedProgram {
   /// function for one, then those of blocks.
   std::vector<double> run(const std::vector<double>& rows) {
     write("in", std::string(reinterpret_cast<const char*>(rows.data()), 8 * rows.size()));
-    const int status =
-        std::system(("cd '" + folder_ + "' && ./program <in >out 2>log").c_str());
+    const int status = std::system(("cd '" + folder_ + "' && ./program <in >out 2>log").c_str());
     EXPECT_EQ(status, 0) << read(folder_ + "/log");
     const std::string bytes = read(folder_ + "/out");
     std::vector<double> results(bytes.size() / 8);
@@ -101,11 +101,14 @@ class GeneratedProgram {
     int in = 0, out = 0;
     for (const int count : inputs_) in += count;
     for (const int count : outputs_) out += count;
-    return "#include \"" + name_ + ".h\"\n#include <stdio.h>\n#include <stdlib.h>\nenum { IN = " +
-           std::to_string(in) + ", OUT = " + std::to_string(out) + R"(, MOST = 100000 };
-static void one(const double *in, double *out) { )" + name_ + "_compute(" + arguments(false) + R"(); }
+    return "#include \"" + name_ +
+           ".h\"\n#include <stdio.h>\n#include <stdlib.h>\nenum { IN = " + std::to_string(in) +
+           ", OUT = " + std::to_string(out) + R"(, MOST = 100000 };
+static void one(const double *in, double *out) { )" +
+           name_ + "_compute(" + arguments(false) + R"(); }
 static void block(size_t samples, size_t stride, const double *in, double *out) {
-  )" + name_ + "_compute_block(samples, stride, " + arguments(true) + R"();
+  )" + name_ +
+           "_compute_block(samples, stride, " + arguments(true) + R"();
 }
 int main(void) {
   double *rows = (double *)malloc(sizeof(double) * IN * MOST);

@@ -39,11 +39,13 @@ TEST_F(OfflineGenerate, WritesASourceAndAHeaderThatSaysWhatItIs) {
   const std::string number = sum.substr(0, sum.find(' '));
   for (const std::string line :
        {std::string("Inverse dynamics of the robot 'crane' in one scene."),
-        std::string("Description: 'crane.urdf', cksum "), "Scene: 'scene.yaml', cksum " + number + " ",
-        std::string("Gravity: 0 0 -1.62 m/s^2"), std::string("Reactions in axes of the child links"),
+        std::string("Description: 'crane.urdf', cksum "),
+        "Scene: 'scene.yaml', cksum " + number + " ", std::string("Gravity: 0 0 -1.62 m/s^2"),
+        std::string("Reactions in axes of the child links"),
         std::string("#define CRANE_ON_MOON_COORDINATES 2\n"),
-        std::string("#define CRANE_ON_MOON_REACTIONS 2\n"), std::string("CRANE_ON_MOON_Q_SLIDE = 0"),
-        std::string("CRANE_ON_MOON_Q_SHOULDER = 1"), std::string("CRANE_ON_MOON_R_FLANGE = 1"),
+        std::string("#define CRANE_ON_MOON_REACTIONS 2\n"),
+        std::string("CRANE_ON_MOON_Q_SLIDE = 0"), std::string("CRANE_ON_MOON_Q_SHOULDER = 1"),
+        std::string("CRANE_ON_MOON_R_FLANGE = 1"),
         std::string("void crane_on_moon_compute(const double q[2], const double qd[2],"),
         std::string("multiplications, ")}) {
     EXPECT_NE(header.find(line), std::string::npos) << line << "\n" << header;
@@ -56,8 +58,8 @@ TEST_F(OfflineGenerate, WritesASourceAndAHeaderThatSaysWhatItIs) {
 TEST_F(OfflineGenerate, GivesTheSameTextWhereverItRuns) {
   ASSERT_EQ(run("--urdf crane.urdf --generate crane.c").exit_code, 0);
   const std::string first = readFile(path("crane.c"));
-  ASSERT_EQ(run("--urdf '" + path("crane.urdf") + "' --generate '" + path("crane.c") + "'").exit_code,
-            0);
+  ASSERT_EQ(
+      run("--urdf '" + path("crane.urdf") + "' --generate '" + path("crane.c") + "'").exit_code, 0);
   EXPECT_EQ(readFile(path("crane.c")), first);
   EXPECT_EQ(first.find(folder()), std::string::npos);
 }
@@ -65,17 +67,20 @@ TEST_F(OfflineGenerate, GivesTheSameTextWhereverItRuns) {
 TEST_F(OfflineGenerate, RefusesInOneLine) {
   EXPECT_EQ(errorOf("--generate crane.txt"),
             "--generate: 'crane.txt' does not end in .c, .cc, .cpp or .cxx");
-  EXPECT_EQ(errorOf("--generate my-crane.c"),
-            "--generate: 'my-crane.c': the functions are named after the file, which must begin with "
-            "a letter and have but letters, digits and underscores before its ending");
+  EXPECT_EQ(
+      errorOf("--generate my-crane.c"),
+      "--generate: 'my-crane.c': the functions are named after the file, which must begin with "
+      "a letter and have but letters, digits and underscores before its ending");
   EXPECT_EQ(errorOf("--generate crane.c --motion m.csv"),
             "--motion cannot be used with --generate");
   EXPECT_EQ(errorOf("--check --generate crane.c"), "--check cannot be used with --generate");
-  write("loop.yaml",
-        "closures:\n  - {name: brace, type: spherical, parent: {link: base}, child: {link: jib}}\n");
-  EXPECT_EQ(errorOf("--scene loop.yaml --generate crane.c"),
-            "loop.yaml: no code can be generated, as closure 'brace' closes a loop: the forces take a "
-            "factorization whose steps depend on the position");
+  write(
+      "loop.yaml",
+      "closures:\n  - {name: brace, type: spherical, parent: {link: base}, child: {link: jib}}\n");
+  EXPECT_EQ(
+      errorOf("--scene loop.yaml --generate crane.c"),
+      "loop.yaml: no code can be generated, as closure 'brace' closes a loop: the forces take a "
+      "factorization whose steps depend on the position");
   EXPECT_EQ(errorOf("--no-efforts --reactions none --generate crane.c"),
             "no code can be generated, as neither efforts nor reactions are asked for");
   EXPECT_EQ(errorOf("--reactions elbo --generate crane.c").substr(0, 2), "--");

@@ -70,6 +70,21 @@ run_below() {
   "$program" "${@:3}"
 }
 
+# generated: code follows the description that it is generated from. 2 kg more of rod_2, whose centre of
+# mass is 0.875 m from joint_1, take 2 * 0.875^2 N m more per rad/s^2.
+generated() {
+  local first second urdf=$folder/user/generated.urdf
+  first=$(run_below "$folder/user" downstream_of_generated | tail -n 1)
+  sed 's/<mass value="1"/<mass value="3"/' "$urdf" >"$folder/heavier"
+  cat "$folder/heavier" >"$urdf"
+  cmake --build "$folder/user"
+  second=$(run_below "$folder/user" downstream_of_generated | tail -n 1)
+  echo "efforts by generated code: $first; with 2 kg more: $second"
+  awk -v first="$first" -v second="$second" 'BEGIN { split(first, a); split(second, b);
+    more = b[2] - a[2] - 1.53125; exit !(a[2] > 0.1 && more < 2e-9 && more > -2e-9) }' ||
+    fail "the generated code does not follow its description"
+}
+
 core() {
   local build=$folder/build prefix=$folder/installed moved=$folder/elsewhere/moved version
   cmake -S "$repository" -B "$build" -DVWD_CORE_ONLY=ON -DBUILD_TESTING=OFF -DVWD_JOIN_SOURCES=ON \
@@ -82,6 +97,7 @@ core() {
   rm -r "$build"
   user_of "$moved" "$repository/test/downstream/core"
   run_below "$folder/user" downstream "$repository/urdf/composed_pendulum.urdf"
+  generated
   version=$(sed -n 's|.*<version>\(.*\)</version>.*|\1|p' "$repository/package.xml")
   [[ $("$moved/bin/inverse_dynamics_offline" --version) == "inverse_dynamics_offline $version" ]]
 }
@@ -91,6 +107,7 @@ catkin_user() {
   user_of "$1" "$repository/test/downstream/catkin"
   run_below "$folder/user" downstream "$repository/urdf/composed_pendulum.urdf"
   run_below "$folder/user" downstream_by_target
+  generated
 }
 
 devel() {

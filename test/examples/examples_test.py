@@ -242,6 +242,20 @@ class Numbers(unittest.TestCase):
                 self.assertGreater(largest, 0.1)
                 self.assertLess(difference, 1e-12 * largest)
 
+    def test_the_generated_arm_carries_what_hangs_on_its_column(self):
+        lines = output("06_generated")
+        self.assertEqual(len(lines), 10)
+        arm = ElementTree.parse(ROOT / "urdf" / "six_axis_arm.urdf").getroot()
+        root = ({link.get("name") for link in arm.findall("link")}
+                - {joint.find("child").get("link") for joint in arm.findall("joint")})
+        mass = sum(float(link.find("inertial/mass").get("value")) for link in arm.findall("link")
+                   if link.find("inertial") is not None and link.get("name") not in root)
+        for at_rest in (lines[1], lines[-1]):
+            self.assertAlmostEqual(numbers(at_rest)[-1], 9.81 * mass, delta=SIX_DIGITS)
+        self.assertGreater(abs(numbers(lines[5])[-1] - 9.81 * mass), 1)  # half-way it brakes
+        # Turning about the vertical alone takes nothing but what pulls back the lag of the encoder.
+        self.assertAlmostEqual(numbers(lines[0])[0], 200 * 0.01, delta=SIX_DIGITS)
+
 
 class Files(unittest.TestCase):
     def test_a_file_that_is_not_there_is_named(self):

@@ -12,7 +12,8 @@ namespace {  // see kernel.h
 template <typename R, int kWidth>
 struct KernelBuild {
   using Samples = Pack<R, kWidth>;
-  // Of one sample the other operations are of single numbers, which wait where vectors are the widest.
+  // Of one sample the other operations are of single numbers, which wait where vectors are the
+  // widest.
   static constexpr int kMostAngles = 32 / static_cast<int>(sizeof(R));
   static constexpr int kAngles = kWidth < kMostAngles ? kWidth : kMostAngles;
 

@@ -14,38 +14,49 @@ struct BodyPose {
   Vec3<T> w_0;   ///< omega_{k0}
 };
 
-/// Pose of a body from its parent's, and its velocities (2.5) and (2.6) in root axes.
-template <bool kTwist, typename T, typename R>
-VWD_INLINE BodyPose<T> propagatePose(const Body<R>& body, const KernelInputs<R>& in,
-                                     const JointMotion<T>& joint, const BodyPose<T>& parent) {
-  const Mat3<T>& R_0P = parent.R_0Z;
-  const Vec3<T> arm = body.mobility == Mobility::kPrismatic
-                          ? times(R_0P, originInParent(body, joint.slide))
-                          : columnTimes(R_0P, body.p_PoZo_P);
-  BodyPose<T> pose;
-  pose.p_0 = parent.p_0 + arm;
+/// How much of a pose is wanted.
+enum class PoseExtent { kRotation, kPosition, kTwist };
+
+/// The rotation of a body from its parent's.
+template <typename T, typename R>
+VWD_INLINE Mat3<T> propagateRotation(const Body<R>& body, const KernelInputs<R>& in,
+                                     const RotationZ<T>& Rz, const Mat3<T>& R_0P) {
+  Mat3<T> R_0Z;
   forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
     const Vec3<T> x = toChild<axis.value>(body.R_PZ, Vec3<T>{R_0P.xx, R_0P.xy, R_0P.xz});
     const Vec3<T> y = toChild<axis.value>(body.R_PZ, Vec3<T>{R_0P.yx, R_0P.yy, R_0P.yz});
     const Vec3<T> z = toChild<axis.value>(body.R_PZ, Vec3<T>{R_0P.zx, R_0P.zy, R_0P.zz});
-    pose.R_0Z = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
+    R_0Z = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
   });
-  if (body.mobility == Mobility::kRevolute) pose.R_0Z = times(pose.R_0Z, joint.Rz);
+  if (body.mobility == Mobility::kRevolute) R_0Z = times(R_0Z, Rz);
   if (body.mobility == Mobility::kOriented) {
-    const Mat3<T> turn = orientationOf<T>(body, in);
-    const Mat3<T>& A = pose.R_0Z;
+    const Mat3<T> turn = orientationOf<T>(body, in), A = R_0Z;
     const Vec3<T> x = transposeTimes(turn, Vec3<T>{A.xx, A.xy, A.xz});
     const Vec3<T> y = transposeTimes(turn, Vec3<T>{A.yx, A.yy, A.yz});
     const Vec3<T> z = transposeTimes(turn, Vec3<T>{A.zx, A.zy, A.zz});
-    pose.R_0Z = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
+    R_0Z = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
   }
-  if (!kTwist) return pose;
+  return R_0Z;
+}
+
+/// Pose of a body from its parent's, and its velocities (2.5) and (2.6) in root axes, as far as
+/// they are wanted; the rest of `pose` stays as it is.
+template <PoseExtent kExtent, typename T, typename R>
+VWD_INLINE void propagatePose(const Body<R>& body, const KernelInputs<R>& in,
+                              const JointMotion<T>& joint, const BodyPose<T>& parent,
+                              BodyPose<T>& pose) {
+  pose.R_0Z = propagateRotation(body, in, joint.Rz, parent.R_0Z);
+  if (kExtent == PoseExtent::kRotation) return;
+  const Vec3<T> arm = body.mobility == Mobility::kPrismatic
+                          ? times(parent.R_0Z, originInParent(body, joint.slide))
+                          : columnTimes(parent.R_0Z, body.p_PoZo_P);
+  pose.p_0 = parent.p_0 + arm;
+  if (kExtent == PoseExtent::kPosition) return;
   pose.w_0 = parent.w_0;
   pose.v_0 = addCross(parent.v_0, parent.w_0, arm);  // (2.6)
   const Vec3<T> u3{pose.R_0Z.xz, pose.R_0Z.yz, pose.R_0Z.zz};
   if (body.mobility == Mobility::kRevolute) pose.w_0 = pose.w_0 + scaled(joint.qd, u3);   // (2.5)
   if (body.mobility == Mobility::kPrismatic) pose.v_0 = pose.v_0 + scaled(joint.qd, u3);  // (2.6)
-  return pose;
 }
 
 template <typename T, typename R>

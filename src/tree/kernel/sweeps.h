@@ -329,13 +329,15 @@ VWD_INLINE void sweepPoses(const PlanView<R>& plan, const KernelInputs<R>& in,
     const Body<R>& body = plan.bodies[k];
     if (!body.pose_needed) continue;
     const BodyPose<T>& parent = scratch.poses[body.parent];
+    BodyPose<T>& pose = scratch.poses[k];
+    JointMotion<T> joint = jointMotion<kStatic, false>(body, in, scratch);
     if (out.twists) {
-      JointMotion<T> joint = jointMotion<kStatic, false>(body, in, scratch);
       if (kStatic) joint.qd = T(0);
-      scratch.poses[k] = propagatePose<true>(body, in, joint, parent);
+      propagatePose<PoseExtent::kTwist>(body, in, joint, parent, pose);
+    } else if (out.poses) {
+      propagatePose<PoseExtent::kPosition>(body, in, joint, parent, pose);
     } else {
-      scratch.poses[k] =
-          propagatePose<false>(body, in, jointMotion<true, false>(body, in, scratch), parent);
+      propagatePose<PoseExtent::kRotation>(body, in, joint, parent, pose);
     }
   }
 }
