@@ -25,14 +25,18 @@ def read_csv(path):
         raise Refusal('%s: %s' % (path, problem.strerror or problem)) from None
     if header is None:
         raise Refusal('%s: is empty' % path)
-    try:
-        numbers = np.loadtxt(path, delimiter=',', skiprows=skip, ndmin=2)
-    except ValueError:
-        numbers = np.genfromtxt(path, delimiter=',', skip_header=skip, invalid_raise=False)
-        numbers = np.atleast_2d(numbers)
+    numbers = read_numbers(path, skip)
     if numbers.size == 0:
         raise Refusal('%s: has no rows' % path)
     return header, numbers
+
+
+def read_numbers(path, skip):
+    """Rows of a CSV after `skip` lines; an empty cell is not a number."""
+    try:
+        return np.loadtxt(path, delimiter=',', skiprows=skip, ndmin=2)
+    except ValueError:  # the other reader takes empty cells, and ten times as long
+        return np.atleast_2d(np.genfromtxt(path, delimiter=',', skip_header=skip, invalid_raise=False))
 
 
 def renamed(name, rules):

@@ -107,6 +107,8 @@ class Description:
             held = list(carried.get(name, []))
             while held:
                 link = held.pop()
+                if link in found:  # a joint that the scene lets move
+                    continue
                 held += carried.get(link, [])
                 for inertial in links[link].findall('inertial'):
                     links[link].remove(inertial)

@@ -167,7 +167,7 @@ class Outcome:
     def _gain_rows(self):
         count = len(self.parameters)
         rows = []
-        if self.arguments_gain:
+        if self.has_gains:
             for i, name in enumerate(self.names):
                 k = self.solution.gains[i]
                 rows.append(Row('gain', name, 'effort per measured unit', 1.0, 1 / k,
@@ -177,7 +177,7 @@ class Outcome:
                        for name in self.without_gain]
 
     @property
-    def arguments_gain(self):
+    def has_gains(self):
         return len(self.solution.covariance) > len(self.parameters)
 
     def unseen(self):
@@ -195,16 +195,23 @@ class Outcome:
                 result += self.value(k) * p.source(regressor)
         return result
 
+    def _in_measured_units(self, efforts):
+        gains = np.ones(efforts.shape[1])
+        gains[self.efforts] = self.solution.gains
+        return gains * efforts
+
+    def before(self, regressor):
+        """Efforts as described, in units of the measured ones: gains that were found count in them, too."""
+        return self._in_measured_units(regressor.described)
+
     def after(self, regressor):
         """Efforts by what was found, in units of the measured ones."""
-        gains = np.ones(len(regressor.efforts))
-        gains[self.efforts] = self.solution.gains
-        return gains * (regressor.described + self._coupled(regressor))
+        return self._in_measured_units(regressor.described + self._coupled(regressor))
 
     def add_judged(self, label, recording, after, keep):
         its = self.efforts
         self.judged.append(Judged(label, self.names, recording.measured[keep][:, its],
-                                  recording.regressor.described[keep][:, its], self.after(after)[keep][:, its]))
+                                  self.before(recording.regressor)[keep][:, its], self.after(after)[keep][:, its]))
 
     def colours(self):
         """Autocorrelations of what is left, before and after the autoregression, and how many rows they are of."""

@@ -50,8 +50,9 @@ class Coupling:
 class Parameter:
     """An unknown: what it is of, and what is known of it before."""
 
-    def __init__(self, kind, of, described, source):
+    def __init__(self, kind, of, described, source, joint=None):
         self.kind, self.of, self.described = kind, of, described
+        self.joint = joint or of  # whose effort and speed it goes by, if it is one of a joint
         self.source = source  # its column: an index into the regressor, or a function of a regressor
 
     @property

@@ -4,9 +4,9 @@ import time
 
 
 class Progress:
-    def __init__(self, stream=sys.stderr):
-        self._stream = stream
-        self._terminal = stream.isatty()
+    def __init__(self):
+        self._stream = sys.stderr
+        self._terminal = sys.stderr.isatty()
         self._start = self._next = time.monotonic() + 0.5
         self._shown = False
 

@@ -7,7 +7,7 @@ import subprocess
 
 import numpy as np
 
-from .csv_efforts import csv_efforts
+from .csv_efforts import csv_efforts, read_numbers
 from .refusal import Refusal, in_quotes
 
 TOOL = 'inverse_dynamics_offline'
@@ -45,10 +45,10 @@ class Tool:
         self._options = options  # of the motion, handed on as they are
         self._show = show  # whether what the tool notes is shown
 
-    def regressor(self, urdf, scene, motion, folder, parameters):
-        """Writes the folder of --regressor."""
+    def regressor(self, urdf, scene, motion, folder, parameters, recorded):
+        """Writes the folder of --regressor. Options of the motion are for those that were recorded."""
         self._run(['--urdf', urdf, '--scene', scene, '--regressor', folder, '--parameters',
-                   ','.join(parameters), '--motion'] + list(motion) + self._options)
+                   ','.join(parameters), '--motion'] + list(motion) + (self._options if recorded else []))
 
     def measured(self, urdf, static_scene, motion, efforts, regressor, named):
         """Measured efforts at the rows of a regressor: rows x efforts, not a number where there is none.
@@ -64,7 +64,7 @@ class Tool:
         with open(table, newline='', encoding='utf-8') as file:
             header = next(csv.reader(file))
         columns = {name[len(MEASURED):]: i for i, name in enumerate(header) if name.startswith(MEASURED)}
-        numbers = np.genfromtxt(table, delimiter=',', skip_header=1, ndmin=2)
+        numbers = read_numbers(table, 1)
         result = np.full((len(regressor.times), len(regressor.efforts)), np.nan)
         for i, name in enumerate(regressor.efforts):
             if name in columns:

@@ -65,7 +65,7 @@ def table(header, cells):
 def facts(outcome):
     """Sentences about the fit."""
     white = outcome.whiteness()
-    poor = [name for name, p in zip(outcome.names, white) if p < 0.01]
+    poor = [name for name, p in zip(outcome.names, white) if p < 0.01 / len(white)]
     lines = ['Fitted: %.4g s below %.3g Hz; residuals follow an autoregression of order %d.' % (
         outcome.span, outcome.cutoff, outcome.solution.colour.order)]
     if poor:
@@ -136,24 +136,25 @@ def draw_efforts(plt, path, outcome):
     before, measured, after, fitted = outcome.shown
     every = max(1, len(before.times) // 4000)
     times = before.times[::every] - before.times[0]
-    after_efforts = outcome.after(after)
+    before_efforts, after_efforts = outcome.before(before), outcome.after(after)
     count = len(outcome.efforts)
     figure, axes = plt.subplots(count, 2, figsize=(11, 1.7 * count + 0.8), sharex=True, squeeze=False,
                                 layout='constrained')
     for row, i in enumerate(outcome.efforts):
         left, right = axes[row]
         left.plot(times, measured[::every, i], color='0.6', lw=1.6, label='measured')
-        left.plot(times, before.described[::every, i], color='tab:orange', lw=1, label='computed before')
+        left.plot(times, before_efforts[::every, i], color='tab:orange', lw=1, label='computed before')
         left.plot(times, after_efforts[::every, i], color='tab:blue', lw=1, label='computed after')
-        right.plot(times, (measured - before.described)[::every, i], color='tab:orange', lw=0.8, label='before')
-        right.plot(times, (measured - after_efforts)[::every, i], color='tab:blue', lw=0.8, label='after')
-        left.set_ylabel('%s\n%s' % (outcome.names[row], outcome.unit_of('offset', outcome.names[row])))
+        right.plot(times, (before_efforts - measured)[::every, i], color='tab:orange', lw=0.8, label='before')
+        right.plot(times, (after_efforts - measured)[::every, i], color='tab:blue', lw=0.8, label='after')
+        unit = 'measured units' if outcome.has_gains else outcome.unit_of('offset', outcome.names[row])
+        left.set_ylabel('%s\n%s' % (outcome.names[row], unit))
         if fitted.any():
             end = before.times[fitted][-1] - before.times[0]
             for axis in (left, right):
                 axis.axvspan(0, end, color='0.92', lw=0, zorder=0)
     axes[0][0].set_title('effort (grey: fitted)' if fitted.any() else 'effort (nothing of it fitted)')
-    axes[0][1].set_title('measured less computed')
+    axes[0][1].set_title('computed less measured')
     axes[0][0].legend(loc='best', fontsize=7)
     axes[0][1].legend(loc='best', fontsize=7)
     for axis in axes[-1]:
@@ -172,6 +173,7 @@ def draw_whiteness(plt, path, outcome):
         axis.axhspan(-BAND / np.sqrt(rows), BAND / np.sqrt(rows), color='0.88', lw=0, zorder=0)
         axis.set_title('%s (band: 99 %% of white noise)' % title)
         axis.set_xlabel('lag [rows of the fit]')
+        axis.set_xticks(range(0, len(values), 5))
     axes[0].set_ylabel('autocorrelation')
     axes[1].legend(fontsize=7, ncols=2, loc='upper right')
     figure.savefig(path, dpi=110)

@@ -65,11 +65,11 @@ class Study:
 
     # --- reading
 
-    def _regressor(self, name, scene, motion, parameters, urdf=None):
+    def _regressor(self, name, scene, motion, parameters, urdf=None, recorded=True):
         path = os.path.join(self.folder, name)
         write_scene(path + '.yaml', scene, [])
         self.progress.stage('reading and computing ' + ' '.join(motion))
-        self.tool.regressor(urdf or self.arguments.urdf, path + '.yaml', motion, path, parameters)
+        self.tool.regressor(urdf or self.arguments.urdf, path + '.yaml', motion, path, parameters, recorded)
         return Regressor(path)
 
     def _asked(self):
@@ -113,7 +113,7 @@ class Study:
             for i, kind in enumerate(('coupled_damping', 'coupled_coulomb')):
                 result.append(Parameter(
                     kind, coupling.name, 0.0, lambda regressor, coupling=coupling, i=i: coupling.columns(
-                        regressor, self.arguments.coulomb_velocity)[i]))
+                        regressor, self.arguments.coulomb_velocity)[i], coupling.first))
         index = {(kind, of): i for i, (kind, of, _) in enumerate(regressor.parameters)}
         if self.wanted.payload:
             for kind in bodies.KINDS:
@@ -151,10 +151,9 @@ class Study:
         size_of = dict(zip(names, sizes))
         scales = []
         for parameter in parameters:
-            of = parameter.of if parameter.of in size_of else parameter.of.split('+')[0].split('-')[0]
-            scale = LARGE * max(size_of.get(of, np.median(sizes)), 1e-9)
-            if of in regressor.coordinates:
-                i = regressor.coordinates.index(of)
+            scale = LARGE * max(size_of.get(parameter.joint, np.median(sizes)), 1e-9)
+            if parameter.joint in regressor.coordinates:
+                i = regressor.coordinates.index(parameter.joint)
                 if 'damping' in parameter.kind:
                     scale /= max(1, np.abs(regressor.velocities[keep, i]).max())
                 if parameter.kind == 'rotor_inertia':
@@ -202,11 +201,7 @@ class Study:
         rows = np.hstack([np.arange(RANDOM_STATES)[:, None]] + [
             random.uniform(-1, 1, (RANDOM_STATES, len(names))) * scale for scale in (ranges, 3, 10)])
         np.savetxt(path, rows, delimiter=',', header=','.join(header), comments='', fmt='%.17g')
-        options, self.tool._options = self.tool._options, []
-        try:
-            return self._regressor('random', self.fit_scene, [path], self._asked())
-        finally:
-            self.tool._options = options
+        return self._regressor('random', self.fit_scene, [path], self._asked(), recorded=False)
 
     # --- the solution
 

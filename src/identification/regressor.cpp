@@ -30,11 +30,11 @@ Mechanism withOnly(const Mechanism& mechanism, const std::optional<Link>& alone,
                    mechanism.compounds());
 }
 
-// A link of a mass at a place whose moments of inertia about the origin are zero.
+// A link that is a mass at a point.
 Link massAt(Link link, long double mass, const Vector3l& at) {
   link.mass = mass;
   link.p_KoCm_K = at;
-  link.inertia_Cm_K = -mass * (at.squaredNorm() * Matrix3l::Identity() - at * at.transpose());
+  link.inertia_Cm_K.setZero();
   return link;
 }
 
@@ -50,7 +50,7 @@ struct WeightedLink {
 };
 
 // Links whose efforts, weighted, are those of one parameter. A first moment without a mass is half
-// of two masses' difference, in which everything but the first moment cancels.
+// the difference of two masses on both sides, in which mass and moments of inertia cancel.
 std::vector<WeightedLink> linksOf(const Link& link, ParameterKind kind) {
   const auto moment = [&](int axis) -> std::vector<WeightedLink> {
     const Vector3l at = Vector3l::Unit(axis);
@@ -156,7 +156,7 @@ void RegressorColumn::compute(const MotionTable& table, std::size_t first, std::
     for (const auto& part : parts_) {
       const Results& results = part->samples.read(row);
       sum += part->weight * results.effort;
-      for (Eigen::Index i = 0; results.singular() && i < width; ++i) {
+      for (Eigen::Index i = 0; i < width; ++i) {
         if (!results.effortExists(static_cast<std::size_t>(i))) {
           sum[i] = std::numeric_limits<double>::quiet_NaN();
         }

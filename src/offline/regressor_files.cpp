@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -37,6 +38,17 @@ void writeMatrix(const std::string& path, const Eigen::MatrixXd& matrix) {
     writeNumbers(file, numbers.data(), static_cast<std::size_t>(numbers.size()));
   }
   file.commit();
+}
+
+// Efforts, not a number where they have no value.
+Eigen::VectorXd existing(const Results& results) {
+  Eigen::VectorXd effort = results.effort;
+  for (Eigen::Index i = 0; i < effort.size(); ++i) {
+    if (!results.effortExists(static_cast<std::size_t>(i))) {
+      effort[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return effort;
 }
 
 // A text of JSON; what has no place in it is escaped.
@@ -110,7 +122,8 @@ void RegressorFiles::writeEfforts(const Dynamics& dynamics, CompletedMotion& mot
   Progress progress(std::cerr, ProgressLine::whereIs(STDERR_FILENO), "computing");
   Computation(dynamics, motion, loads, threads_)
       .run([&](std::size_t row, const Motion&, const Load&, const Results& results) {
-        writeNumbers(file, results.effort.data(), static_cast<std::size_t>(results.effort.size()));
+        const Eigen::VectorXd effort = existing(results);
+        writeNumbers(file, effort.data(), static_cast<std::size_t>(effort.size()));
         progress.update(row + 1, rows);
       });
   file.commit();

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "offline_linkage.h"
 #include "offline_tool.h"
 
 namespace virtual_work_dynamics {
@@ -86,6 +87,29 @@ TEST_F(OfflineRegressor, HasTheParametersThatAreAskedFor) {
     EXPECT_NE(result.err.find(problem), std::string::npos) << result.err;
     EXPECT_FALSE(exists("new"));
   }
+}
+
+// What has no value in a singular position of a loop is not a number in either array.
+TEST_F(OfflineRegressor, HasNoNumbersWhereThereAreNoEfforts) {
+  write("l.urdf", kLinkage);
+  write("l.yaml", pinned("0.5"));
+  const State moving{0.3, 1, -2}, dead{1.5707963267948966, 0, 0};
+  write("l.csv", kAllColumns + row(0, moving) + row(0.1, dead));
+  const std::string input = "--urdf l.urdf --scene l.yaml --motion l.csv ";
+  const NumberTable efforts = parseTable(run(input + "--reactions none").out);
+  ASSERT_EQ(run(input + "--regressor r --parameters coupler").exit_code, 0);
+  const std::vector<double> described = numbers("r/effort.npy", "(2,3,)");
+  const std::vector<double> columns = numbers("r/regressor.npy", "(10,2,3,)");
+  int missing = 0;
+  for (std::size_t line = 0; line < 2; ++line) {
+    for (std::size_t effort = 0; effort < 3; ++effort) {
+      const bool exists = std::isfinite(efforts.rows[line][effort + 1]);
+      EXPECT_EQ(std::isfinite(described[3 * line + effort]), exists) << line << effort;
+      EXPECT_EQ(std::isfinite(columns[3 * line + effort]), exists) << line << effort;
+      missing += !exists;
+    }
+  }
+  EXPECT_EQ(missing, 1);
 }
 
 TEST_F(OfflineRegressor, TakesThePlaceOfAResult) {
