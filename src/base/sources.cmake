@@ -1,8 +1,8 @@
 vwd_core(
   checksum.cpp
   instruction_set.cpp
+  json_text.cpp
   nearest_name.cpp
-  npy_header.cpp
   number_text.cpp
   output_file.cpp
   printable.cpp

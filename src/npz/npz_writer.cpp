@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "npz/crc32.h"
+#include "npz/npy_header.h"
 #include "npz/npz_format.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -22,20 +23,6 @@ void append(std::string& bytes, std::uint64_t value, int size) {
   for (int i = 0; i < size; ++i) bytes += static_cast<char>(value >> 8 * i & 0xff);
 }
 
-// What stands before the values of a one-dimensional array, filled up so that they are aligned.
-std::string arrayHeader(const NpzColumn& column, std::size_t rows) {
-  constexpr std::size_t kAlignment = 64, kBefore = 10;
-  std::string text = std::string("{'descr': '") + (column.times ? "<M8[ns]" : "<f8") +
-                     "', 'fortran_order': False, 'shape': (" + std::to_string(rows) + ",), }";
-  text.append(kAlignment - 1 - (kBefore + text.size()) % kAlignment, ' ');
-  text += '\n';
-  std::string header = npz::kMagic;
-  append(header, 1, 1);  // version 1.0
-  append(header, 0, 1);
-  append(header, text.size(), 2);
-  return header + text;
-}
-
 }  // namespace
 
 NpzWriter::NpzWriter(OutputFile& file, const std::vector<NpzColumn>& columns, std::size_t rows,
@@ -50,7 +37,7 @@ NpzWriter::NpzWriter(OutputFile& file, const std::vector<NpzColumn>& columns, st
     throw FileError("an .npz is written to a file, not to standard output, a pipe or a device");
   }
   for (const NpzColumn& column : columns) {
-    const std::string header = arrayHeader(column, rows);
+    const std::string header = npyHeader(column.times ? "<M8[ns]" : "<f8", {rows});
     Entry entry;
     entry.name = column.name + npz::kArray;
     entry.length = header.size() + kValue * rows;

@@ -1,9 +1,9 @@
 #include "offline/mechanism_json.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <vector>
 
+#include "base/json_text.h"
 #include "base/number_text.h"
 #include "base/printable.h"
 #include "offline/report_columns.h"
@@ -11,23 +11,6 @@
 
 namespace virtual_work_dynamics {
 namespace {
-
-std::string jsonText(const std::string& text) {
-  std::string json = "\"";
-  for (const char letter : text) {
-    if (letter == '"' || letter == '\\') {
-      json += '\\';
-      json += letter;
-    } else if (static_cast<unsigned char>(letter) < 0x20) {
-      char code[8];
-      std::snprintf(code, sizeof code, "\\u%04x", static_cast<unsigned char>(letter));
-      json += code;
-    } else {
-      json += letter;
-    }
-  }
-  return json + "\"";
-}
 
 std::string jsonVector(const Eigen::Vector3d& vector) {
   return "[" + numberText(vector.x()) + ", " + numberText(vector.y()) + ", " +

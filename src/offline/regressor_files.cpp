@@ -10,9 +10,10 @@
 #include <system_error>
 #include <utility>
 
-#include "base/npy_header.h"
+#include "base/json_text.h"
 #include "base/number_text.h"
 #include "base/output_file.h"
+#include "npz/npy_header.h"
 #include "offline/computation.h"
 #include "offline/progress.h"
 #include "virtual_work_dynamics/error.h"
@@ -21,6 +22,8 @@ namespace virtual_work_dynamics {
 namespace {
 
 constexpr std::size_t kRowsOfABlock = 512;
+// As it lies in memory.
+const char* const kDouble = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? "<f8" : ">f8";
 
 void writeNumbers(OutputFile& file, const double* numbers, std::size_t count) {
   std::string bytes(count * sizeof(double), '\0');
@@ -32,7 +35,7 @@ void writeNumbers(OutputFile& file, const double* numbers, std::size_t count) {
 void writeMatrix(const std::string& path, const Eigen::MatrixXd& matrix) {
   OutputFile file(path);
   file.write(npyHeader(
-      {static_cast<std::size_t>(matrix.rows()), static_cast<std::size_t>(matrix.cols())}));
+      kDouble, {static_cast<std::size_t>(matrix.rows()), static_cast<std::size_t>(matrix.cols())}));
   for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
     const Eigen::VectorXd numbers = matrix.row(row);
     writeNumbers(file, numbers.data(), static_cast<std::size_t>(numbers.size()));
@@ -51,27 +54,9 @@ Eigen::VectorXd existing(const Results& results) {
   return effort;
 }
 
-// A text of JSON; what has no place in it is escaped.
-std::string quoted(const std::string& text) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string result = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      result += '\\';
-      result += c;
-    } else if (code < 0x20) {
-      result += std::string("\\u00") + kDigits[code >> 4] + kDigits[code & 15];
-    } else {
-      result += c;
-    }
-  }
-  return result + '"';
-}
-
 std::string listOf(const std::vector<std::string>& texts) {
   std::string list;
-  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + quoted(text);
+  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + jsonText(text);
   return "[" + list + "]";
 }
 
@@ -118,7 +103,7 @@ void RegressorFiles::writeEfforts(const Dynamics& dynamics, CompletedMotion& mot
                                   const RowLoads& loads) const {
   const std::size_t rows = motion.file().lines.size();
   OutputFile file(path("effort.npy"));
-  file.write(npyHeader({rows, dynamics.effortNames().size()}));
+  file.write(npyHeader(kDouble, {rows, dynamics.effortNames().size()}));
   Progress progress(std::cerr, ProgressLine::whereIs(STDERR_FILENO), "computing");
   Computation(dynamics, motion, loads, threads_)
       .run([&](std::size_t row, const Motion&, const Load&, const Results& results) {
@@ -148,7 +133,7 @@ void RegressorFiles::writeRegressor(const MotionTable& table,
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     RegressorColumn column(mechanism_, scene_, parameters[i], block, threads_);
     const auto width = static_cast<std::size_t>(column.efforts());
-    if (i == 0) file.write(npyHeader({parameters.size(), rows, width}));
+    if (i == 0) file.write(npyHeader(kDouble, {parameters.size(), rows, width}));
     numbers.resize(block * width);
     for (std::size_t row = 0; row < rows; row += block) {
       const std::size_t count = std::min(block, rows - row);
@@ -165,7 +150,8 @@ void RegressorFiles::writeNames(const Dynamics& dynamics,
   std::string list;
   for (const Parameter& parameter : parameters) {
     list += (list.empty() ? "" : ",") + std::string("\n  {\"kind\": ") +
-            quoted(nameOf(parameter.kind)) + ", \"of\": " + quoted(parameter.of) + ", \"value\": ";
+            jsonText(nameOf(parameter.kind)) + ", \"of\": " + jsonText(parameter.of) +
+            ", \"value\": ";
     appendNumber(list, parameter.value);
     list += "}";
   }

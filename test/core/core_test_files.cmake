@@ -151,6 +151,7 @@ set(core_test_files
   test/core/wrench_history_test.cpp
   src/offline/effort_comparison.cpp
   src/npz/crc32.cpp
+  src/npz/npy_header.cpp
   src/npz/npz_writer.cpp  # files beyond 4 GB, without such a file
   src/offline/deviation_rows.cpp)  # the covariances of a motion cannot come from a file
 # Compiled for each build: where its tool and its data are, and tests of code that is all in headers.
