@@ -17,6 +17,7 @@ vwd_core(
   link_kinematics.cpp
   loop_rows.cpp
   nearest_closing.cpp
+  packed_rows.cpp
   point_springs.cpp
   rank.cpp
   reactions.cpp

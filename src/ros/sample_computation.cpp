@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "motion/table_row.h"
+
 namespace virtual_work_dynamics {
 
 SampleComputation::SampleComputation(Eigen::Index coordinates, const Scene& scene,
