@@ -4,6 +4,8 @@ vwd_core(
   closed_loop_workspace.cpp
   closure_conditions.cpp
   completion.cpp
+  completion_positions.cpp
+  completion_rates.cpp
   condition.cpp
   condition_sizes.cpp
   cut_tree.cpp
