@@ -138,6 +138,7 @@ LoopJudge::Exact LoopJudge::exactOf(const Motion& motion) const {
     const auto effort = oracle.closureEffort(name);
     put({effort.value, effort.freedom, !slides(name)});
   }
+  exact.length = oracle.length();
   exact.redundancy = oracle.redundancy();
   exact.free_motions = oracle.freeMotions();
   exact.least_counted = oracle.leastCounted();
@@ -263,7 +264,9 @@ void LoopJudge::compareValues(const Exact& exact, const LoopComponents& computed
     const ExactComponent& right = exact.components[i];
     if (!(comparable && computed[i].determined) && std::isfinite(computed[i].value)) continue;
     const long double error = std::abs(computed[i].value - right.value);
-    const long double bound = (loss + right.freedom) * scale * (right.turns ? size_ : 1);
+    const long double bound =
+        (loss * (right.turns ? size_ : 1) + right.freedom * (right.turns ? exact.length : 1)) *
+        scale;
     const double over_bound = finiteOrInfinity(error / bound);
     if (over_bound > verdict.errors.over_bound) {
       verdict.errors.over_bound = over_bound;

@@ -25,7 +25,7 @@ struct LoopComponent {
 /// MaximalCoordinatesOracle, with the scene's tolerance of the rank.
 struct ExactComponent {
   long double value = 0;
-  long double freedom = 0;  ///< by how much null vectors change it
+  long double freedom = 0;  ///< by how much null vectors change it, a moment over Exact::length
   bool turns = false;       ///< whether it is in N m, not in N
 
   bool determined() const { return freedom <= MaximalCoordinatesOracle::kFree; }
@@ -45,12 +45,14 @@ using ExactComponents = std::vector<ExactComponent>;
 /// the size of the mechanism. The condition that the package reports counts up to ten times the
 /// exact system's. Entries that do not count for the rank are left out of the system: the largest
 /// such pivot is added to eps, and so is the share of the load's work along a free motion that
-/// nothing bears, while it is small enough to be rounding. A component that null vectors change by
-/// f of a newton may also be off by f S. Where a singular position does not bear its load there are
-/// no exact values, and only counts and flags are judged. Everything exists where nothing moves
-/// freely, and in singular positions what is determined of a load that is borne; where a load is
-/// clearly not borne, something does not exist.
-/// Within a factor of 100 of the tolerances of rank and flags either answer is right.
+/// nothing bears, while it is small enough to be rounding. The package may choose another of many
+/// solutions than the exact equations do. Null vectors of these are unit vectors of forces and of
+/// moments over a length of their own, which counts centres of mass; so a force that they change by
+/// f may also be off by f S, and a moment by f S times that length. Where a singular position does
+/// not bear its load there are no exact values, and only counts and flags are judged. Everything
+/// exists where nothing moves freely, and in singular positions what is determined of a load that
+/// is borne; where a load is clearly not borne, something does not exist. Within a factor of 100 of
+/// the tolerances of rank and flags either answer is right.
 class LoopJudge {
  public:
   LoopJudge(const Mechanism& mechanism, const Scene& scene);
@@ -75,6 +77,7 @@ class LoopJudge {
     long double force = 0, moment = 0;  // the largest ones that are determined
     long double largest_left_out = 0, least_counted = 1;
     long double unborne = 0;  // share of a load that nothing bears
+    long double length = 1;   // that moments are compared with forces by, m
     Eigen::Index redundancy = 0, free_motions = 0;
   };
   Exact exactOf(const Motion& motion) const;

@@ -146,4 +146,10 @@ void FrontLayout::arrange() {
   view_.solution = deal(present_.size());
 }
 
+std::size_t FrontLayout::filledRows() const {
+  std::size_t filled = 0;
+  for (std::size_t row = 0; row < rows(); ++row) filled += placeOf(row).front >= 0 ? 1 : 0;
+  return filled;
+}
+
 }  // namespace virtual_work_dynamics

@@ -34,6 +34,8 @@ class FrontLayout {
   struct RowPlace {
     int front, row;
   };
+  /// How many rows of the matrix can have entries.
+  std::size_t filledRows() const;
   const RowPlace& placeOf(std::size_t row) const { return places_of_rows_[row]; }
 
   /// How long the arrays of a FrontsMemory are, whatever columns are present.

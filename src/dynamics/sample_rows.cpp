@@ -22,16 +22,17 @@ struct SampleRows::Chain {
 };
 
 struct SampleRows::Loops {
-  Loops(const ClosedLoopDynamics& of, std::size_t applied, std::size_t capacity, int threads)
-      : dynamics(of), wrenches(applied), workers(threads) {
-    for (int i = 0; i < threads; ++i) rows.emplace_back(dynamics);
-    results.assign(capacity, rows.front().results());
+  Loops(const ClosedLoopDynamics& of, std::size_t applied, std::size_t most, int threads)
+      : dynamics(of), wrenches(applied), capacity(most), workers(threads) {
+    const std::size_t share =
+        (capacity + static_cast<std::size_t>(threads) - 1) / static_cast<std::size_t>(threads);
+    for (int i = 0; i < threads; ++i) rows.emplace_back(dynamics, share);
   }
 
   void compute(const MotionTable& table, std::size_t first, std::size_t count, const Load* loads) {
-    if (count > results.size()) {
+    if (count > capacity) {
       throw MotionError("block: " + std::to_string(count) + " rows are more than its capacity, " +
-                        std::to_string(results.size()));
+                        std::to_string(capacity));
     }
     for (const Eigen::MatrixXd* columns :
          {&table.positions, &table.velocities, &table.accelerations}) {
@@ -61,19 +62,28 @@ struct SampleRows::Loops {
     computed = count;
   }
 
+  // Where the rows of a thread begin.
+  std::size_t beginOf(std::size_t count, std::size_t thread) const {
+    return count * thread / rows.size();
+  }
+
   void computeShare(const MotionTable& table, std::size_t first, std::size_t count,
                     const Load* loads, std::size_t thread) {
-    const std::size_t begin = count * thread / rows.size();
-    const std::size_t end = count * (thread + 1) / rows.size();
-    rows[thread].compute(table, first + begin, end - begin, loads ? loads + begin : nullptr,
-                         results.data() + begin);
+    const std::size_t begin = beginOf(count, thread), end = beginOf(count, thread + 1);
+    rows[thread].compute(table, first + begin, end - begin, loads ? loads + begin : nullptr);
+  }
+
+  const Results& read(std::size_t index) {
+    std::size_t thread = 0;
+    while (index >= beginOf(computed, thread + 1)) ++thread;
+    return rows[thread].read(index - beginOf(computed, thread));
   }
 
   const ClosedLoopDynamics& dynamics;
   const std::size_t wrenches;  // of a load
+  const std::size_t capacity;
   WorkerThreads workers;
-  std::vector<LoopRows> rows;    // by thread
-  std::vector<Results> results;  // by row
+  std::vector<LoopRows> rows;  // by thread
   std::size_t computed = 0;
 };
 
@@ -93,7 +103,7 @@ SampleRows::SampleRows(SampleRows&&) noexcept = default;
 SampleRows& SampleRows::operator=(SampleRows&&) noexcept = default;
 
 std::size_t SampleRows::capacity() const {
-  return chain_ ? chain_->block.capacity() : loops_->results.size();
+  return chain_ ? chain_->block.capacity() : loops_->capacity;
 }
 
 void SampleRows::compute(const MotionTable& table, std::size_t first, std::size_t count,
@@ -111,7 +121,7 @@ const Results& SampleRows::read(std::size_t index) {
     throw MotionError("block: there is no sample " + std::to_string(index) + ", it has " +
                       std::to_string(loops_->computed));
   }
-  return loops_->results[index];
+  return loops_->read(index);
 }
 
 void takeCovariance(const Mechanism& mechanism, const MotionTable& table, std::size_t row,

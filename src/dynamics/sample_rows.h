@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <memory>
 
-#include "loops/loop_rows.h"  // takeRow()
 #include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion_covariance.h"

@@ -38,10 +38,10 @@ Request weighedRequest(const Mechanism& mechanism, const std::vector<LoopGroup>&
 
 LoopSolvers::LoopSolvers(const Mechanism& mechanism, const LoopScene& loops,
                          const std::vector<LoopGroup>& groups, const LoopKinematics& start,
-                         double length, std::size_t closures)
+                         double length)
     : kinematics(start),
       completion(mechanism, kinematics, groups, loops.rank_tolerance, length),
-      residuals(mechanism, closures, length) {
+      residuals(mechanism, kinematics, length) {
   forces.reserve(groups.size());
   for (const LoopGroup& group : groups) {
     forces.emplace_back(mechanism, kinematics, loops, group, length);
@@ -97,7 +97,7 @@ void ClosedLoopDynamics::Impl::close(const Scene& scene) {
   assembly = assemble(scene, loops, completion, kinematics);
   length = loops.length.value_or(loopLength(groups, kinematics));
   if (scene.free_motion) chooseResidual(scene);
-  LoopSolvers solvers(mechanism, loops, groups, kinematics, length, closures);
+  LoopSolvers solvers(mechanism, loops, groups, kinematics, length);
   way = solvers.completion.largest(assembly - loops.start);
   requireHeld(mechanism, loops, assembly, solvers.completion, solvers.kinematics, solvers.forces);
   requireSprings(solvers);
@@ -107,7 +107,7 @@ void ClosedLoopDynamics::Impl::close(const Scene& scene) {
 // efforts are then what nothing delivers.
 void ClosedLoopDynamics::Impl::chooseResidual(const Scene& scene) {
   for (;;) {
-    LoopSolvers solvers(mechanism, loops, groups, kinematics, length, closures);
+    LoopSolvers solvers(mechanism, loops, groups, kinematics, length);
     const int freest = freestCoordinate(mechanism, loops, assembly, solvers.completion,
                                         solvers.kinematics, solvers.forces);
     if (freest < 0) break;

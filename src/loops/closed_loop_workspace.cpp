@@ -5,6 +5,8 @@
 
 namespace virtual_work_dynamics {
 
+static_assert(sizeof(Wrench) == kWrenchNumbers * sizeof(double), "plain numbers");
+
 namespace {
 
 // Stands for a change of an effort that mechanics leaves open altogether; more than 1 is open.
@@ -14,7 +16,8 @@ constexpr double kOpenEffort = 2;
 
 ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compiled)
     : plan(compiled),
-      solvers(plan.mechanism, plan.loops, plan.groups, plan.kinematics, plan.length, plan.closures),
+      solvers(plan.mechanism, plan.loops, plan.groups, plan.kinematics, plan.length),
+      kernel_(&loopKernelFor(chosenInstructionSet()).one),
       tree_(plan.tree_pass->makeWorkspace()),
       child_axes_(*plan.child_axes),
       root_axes_(*plan.root_axes),
@@ -52,7 +55,8 @@ ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compil
 void ClosedLoopDynamics::Workspace::Impl::compute(const Motion& motion, const Load& load) {
   solvers.kinematics.setOrientations(motion.orientations);
   solvers.kinematics.setPosition(motion.q);
-  solvers.residuals.set(solvers.kinematics, plan.static_motion ? rest_ : motion);
+  solvers.residuals.find(solvers.kinematics, plan.static_motion ? rest_ : motion,
+                         results.loops.residuals, results.loops.relative_residuals);
   pushed_ = &tree_;
   push(motion, load);
   for (LoopForces& group : solvers.forces) {
@@ -71,8 +75,6 @@ void ClosedLoopDynamics::Workspace::Impl::finish(const Load& load,
 
 // Makes results of solutions (3.1).
 void ClosedLoopDynamics::Workspace::Impl::report() {
-  results.loops.residuals = solvers.residuals.values();
-  results.loops.relative_residuals = solvers.residuals.relative();
   setActuatedClosures();
   collect();
   react();
@@ -141,18 +143,27 @@ void ClosedLoopDynamics::Workspace::Impl::react() {
   const LoopKinematics& kinematics = solvers.kinematics;
   std::vector<Wrench>& load = results.loops.tree_wrenches;
   std::copy(load_.wrenches.begin(), load_.wrenches.end(), load.begin());
-  for (std::size_t c = 0; c < closures_.size(); ++c) {
-    const ClosureWrench& wrench = closures_[c];
-    const std::size_t child = load_.wrenches.size() + 2 * c;
-    const Eigen::Vector3d lever = kinematics.childOrigin(c) - kinematics.parentOrigin(c);
-    load[child] = {wrench.force, wrench.moment};
-    load[child + 1] = {-wrench.force, -(wrench.moment + lever.cross(wrench.force))};
+  if (!closures_.empty()) {
+    kernel_->closureLoads(static_cast<int>(closures_.size()), kinematics.frameNumbers(),
+                          closures_.front().force.data(), load[load_.wrenches.size()].force.data());
   }
   if (!plan.reacts) return;
-  child_axes_.setValues(kinematics, pushed_->childAxes(), closures_, results.child_axes);
-  root_axes_.setValues(kinematics, pushed_->rootAxes(), closures_, results.root_axes);
+  addClosures(child_axes_, pushed_->childAxes(), results.child_axes);
+  addClosures(root_axes_, pushed_->rootAxes(), results.root_axes);
   if (plan.request.poses) root_axes_.setPoses(kinematics, pushed_->poses(), results.poses);
   if (plan.request.twists) root_axes_.setTwists(kinematics, pushed_->twists(), results.twists);
+}
+
+void ClosedLoopDynamics::Workspace::Impl::addClosures(const LoopReactions& reactions,
+                                                      const std::vector<Wrench>& tree,
+                                                      std::vector<Wrench>& values) const {
+  if (values.empty()) return;
+  const LoopKinematics& kinematics = solvers.kinematics;
+  kernel_->reactions(
+      reactions.view(),
+      {kinematics.links().numbers(), kinematics.frameNumbers(),
+       closures_.empty() ? nullptr : closures_.front().force.data(),
+       tree.empty() ? nullptr : tree.front().force.data(), 1, values.front().force.data()});
 }
 
 void ClosedLoopDynamics::Workspace::Impl::setDetermined() {

@@ -27,10 +27,8 @@ struct LoopSolvers {
   /// `mechanism`, `loops` and `groups` must outlive it.
   /// @param start where they begin; copied
   /// @param length of the loops, m
-  /// @param closures their number
   LoopSolvers(const Mechanism& mechanism, const LoopScene& loops,
-              const std::vector<LoopGroup>& groups, const LoopKinematics& start, double length,
-              std::size_t closures);
+              const std::vector<LoopGroup>& groups, const LoopKinematics& start, double length);
   LoopSolvers(const LoopSolvers&) = delete;  // forces refer to kinematics
 
   LoopKinematics kinematics;
@@ -117,12 +115,15 @@ struct ClosedLoopDynamics::Workspace::Impl {
   void report();
   void collect();
   void react();
+  void addClosures(const LoopReactions& reactions, const std::vector<Wrench>& tree,
+                   std::vector<Wrench>& values) const;
   void setActuatedClosures();
   void publishFlags();
   void setExistence();
   void leaveOutSprings();
   void setDeterminacy();
 
+  const LoopFunctions* kernel_;
   virtual_work_dynamics::Workspace tree_;
   const virtual_work_dynamics::Workspace* pushed_ = &tree_;  // of the sample
   std::optional<virtual_work_dynamics::Workspace> weighed_;

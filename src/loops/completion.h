@@ -70,8 +70,9 @@ class LoopCompletion {
     System(const Mechanism& mechanism, const LoopKinematics& kinematics, const LoopGroup& group,
            double rank_tolerance, double length);
     LoopGroup group;
-    MultifrontalQr qr;  // of the columns to be found
-    LoopRank rank;      // of these columns, where qr is no factorization
+    MultifrontalQr qr;    // of the columns to be found
+    LoopRank rank;        // of these columns, where qr is no factorization
+    bool square = false;  // whether as many rows can have entries as columns are to be found
     std::vector<bool> wanted;
     /// Coordinates to be found that the rows of a set have entries for.
     struct Entries {
@@ -93,7 +94,12 @@ class LoopCompletion {
   bool solve(System& system);
   double misses(const System& system);
   bool refine(System& system);
-  void setStep(const LoopKinematics& kinematics);
+  bool isMet(const System& system, double size);
+  double solveSteps(const LoopKinematics& kinematics, const Eigen::VectorXd& conditions,
+                    double longest, Eigen::VectorXd& step);
+  double bendStep(LoopKinematics& kinematics);
+  double tryStep(LoopKinematics& kinematics, const Eigen::VectorXd& q, double now, bool bent,
+                 int halvings);
   bool sound() const;
   bool solveRates(const LoopKinematics& kinematics, const Eigen::VectorXd& rates, double size,
                   Eigen::VectorXd& unknown);
@@ -117,8 +123,13 @@ class LoopCompletion {
   // costs less than factorizing.
   bool close_by_ = false;
   Eigen::VectorXd right_, found_, misses_, refined_;  // of the group being solved
-  Eigen::VectorXd step_, tried_;                      // by coordinate
-  double step_length_ = 0;  // largest entry of step_, rad or over the length
+  Eigen::VectorXd step_, bend_, tried_;               // by coordinate; bend_: twice c of a step
+  double step_length_ = 0;           // largest entry of step_, rad or over the length
+  double share_ = 1;                 // of a step that was gone
+  double exact_ = 0, rounding_ = 0;  // misfits: see completion.cpp
+  bool all_places_ = true;           // whether all conditions have a position
+  bool determinable_ = true;         // whether all coordinates to be found are in loops
+  bool refines_ = true;              // whether refining costs less than factorizing
 };
 
 }  // namespace virtual_work_dynamics

@@ -73,6 +73,7 @@ LoopForces::LoopForces(const Mechanism& mechanism, const LoopKinematics& kinemat
       rank_(sizesOf(mechanism, kinematics, group, unknowns_, length, rank_tolerance_),
             qr_.columns(), rank_tolerance_),
       all_(group.coordinates.size(), true),
+      efforts_follow_(qr_.layout().filledRows() == group.coordinates.size()),
       norms_(unknowns(), mostCosts(group, unknowns())),
       load_(coordinates()),
       gathered_(scene.start.size()),
@@ -249,6 +250,7 @@ bool LoopForces::isUnique(double null_square) {
 
 // Whether efforts are the same in all solutions, as nothing in the null space moves them.
 bool LoopForces::effortsAreUnique() {
+  if (efforts_follow_) return true;
   const auto unique = [&](const LoopUnknowns::Effort& effort) {
     return isUnique(qr_.nullSquare(effort.unknown));
   };

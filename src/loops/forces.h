@@ -84,6 +84,9 @@ class LoopForces {
   const MultifrontalQr& factorization() const { return qr_; }
   double largestSize() const { return rank_.largestSize(); }
   double sureCondition() const { return MultifrontalQr::sureCondition(rank_tolerance_); }
+  /// Whether efforts are the same in all solutions by the pattern of B alone: where the rank is
+  /// full, its null space is that of conditions that load nothing.
+  bool effortsFollow() const { return efforts_follow_; }
   /// Number of blocks of the factorization before those of the sets.
   std::size_t effortBlocks() const { return unknowns_.effort_rows.size(); }
   double rowUnit(std::size_t row) const { return unknowns_.row_units[row]; }
@@ -142,6 +145,7 @@ class LoopForces {
   // Whether qr_ holds a factorization; otherwise rank_ does.
   bool sound_ = true;
   const std::vector<bool> all_;  // coordinates
+  bool efforts_follow_;
   LeastNorms norms_;
   Eigen::VectorXd load_, gathered_;
   /// How the rows of a set become those of qr_.

@@ -36,6 +36,7 @@ class LoopKinematics {
   }
   /// The rows of a set as kernels see them, and their entries.
   const RowsShape& rowsOf(std::size_t set) const { return rows_[set]; }
+  const RowsShape* shapesOfRows() const { return rows_.data(); }  ///< by set
   const double* entriesOf(std::size_t set) const { return values_.A.data() + first_[set]; }
   /// Conditions [firstOf(s), firstOf(s + 1)) are those of set s.
   Eigen::Index firstOf(std::size_t set) const { return first_[set]; }
@@ -64,6 +65,9 @@ class LoopKinematics {
   /// before this call they demand nothing.
   void adoptConstants();
 
+  /// Computes what follows from positions and velocities alone.
+  void setVelocity(const Eigen::VectorXd& qd);
+  const Eigen::VectorXd& turning() const { return values_.turning; }  ///< Ad qd
   /// Computes velocities of the conditions at the present position.
   void setRates(const Eigen::VectorXd& qd);
   const Eigen::VectorXd& rates() const { return rates_; }  ///< A qd + b
@@ -81,13 +85,6 @@ class LoopKinematics {
     double lengths, directions;
   };
   Norms normsOf(std::size_t set, const Eigen::VectorXd& conditions) const;
-  /// Finds the larger of the two for a closure: as they are, and with lengths divided by a length.
-  /// @param share one over that length. @param norms receives two numbers
-  void findNorms(std::size_t closure, const Eigen::VectorXd& conditions, double share,
-                 double* norms) const {
-    kernel_->norms(rows_[closure], lengths_[closure], share, conditions.data() + first_[closure],
-                   norms);
-  }
 
   /// Wrench of a multiplier of one; zero where the condition is not a closure's.
   const ClosureWrench& unitWrench(Eigen::Index condition) const {
@@ -134,6 +131,10 @@ class LoopKinematics {
   /// Axis of a joint; zero for fixed ones.
   const Eigen::Vector3d& axisOf(int joint) const { return links().axisOf(joint); }
 
+  /// The frames of all sets, see FrameNumber; null where there are none.
+  const double* frameNumbers() const {
+    return values_.frames.empty() ? nullptr : values_.frames.front().R_P.data();
+  }
   /// The frames that closure c joins. For this and what follows see ClosureConditions.
   const FramePair& frames(std::size_t c) const { return values_.frames[c]; }
   /// Axis z of the parent frame, that of the one free motion of closures that have one.
@@ -154,7 +155,6 @@ class LoopKinematics {
  private:
   ConditionRows valuesOf(std::size_t set) { return {values_, set, first_[set]}; }
   void subtractConstants();
-  void setVelocity(const Eigen::VectorXd& qd);
 
   const LoopFunctions* kernel_;
   ConditionSets sets_;

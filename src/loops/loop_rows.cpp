@@ -1,102 +1,132 @@
 #include "loops/loop_rows.h"
 
+#include <algorithm>
+#include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "loops/compiled_loops.h"
+#include "loops/packed_rows.h"
 #include "loops/sample_pack.h"
+#include "motion/table_row.h"
 #include "tree/sample_block.h"
 
 namespace virtual_work_dynamics {
 
 struct LoopRows::Impl {
-  explicit Impl(const ClosedLoopDynamics& of)
-      : dynamics(of), plan(*of.impl_), workspace(of.makeWorkspace()), samples(*workspace.impl_) {
-    motions.assign(1, Motion(dynamics.coordinates(), dynamics.orientations()));
+  Impl(const ClosedLoopDynamics& of, std::size_t capacity)
+      : dynamics(of),
+        plan(*of.impl_),
+        workspace(of.makeWorkspace()),
+        samples(*workspace.impl_),
+        motion(dynamics.coordinates(), dynamics.orientations()),
+        alone(capacity, samples.results),
+        in_pack(capacity, false) {
     if (!SamplePack::serves(plan)) return;
     pack.emplace(plan, samples.solvers);
-    tree.emplace(*plan.tree_pass, pack->width());
-    motions.assign(pack->width(), motions.front());
-    for (std::size_t i = 0; i < pack->width(); ++i) {
-      trees.push_back(plan.tree_pass->makeWorkspace());
+    const Request& request = plan.request;
+    if (request.determinacy || request.poses || request.twists) {
+      tree.emplace(*plan.tree_pass, pack->width());
+      tree_row.emplace(plan.tree_pass->makeWorkspace());
+    } else {
+      packed.emplace(commonOfRows(), *pack, capacity);
     }
   }
 
-  void computeOne(const Motion& motion, const Load* load) {
-    dynamics.compute(motion, load ? *load : plan.own_load, workspace);
+  PackedRows::Common commonOfRows() const {
+    PackedRows::Common common{*plan.tree_pass, plan.own_load, samples.results, {}};
+    Determinacy& usual = common.usual.loops.determinacy;
+    usual = {};
+    usual.rank = static_cast<int>(plan.assembly.size());
+    usual.gap = std::numeric_limits<double>::infinity();
+    common.group_of.resize(plan.closures);
+    for (std::size_t g = 0; g < samples.solvers.forces.size(); ++g) {
+      const LoopForces& group = samples.solvers.forces[g];
+      usual.redundancy += static_cast<int>(group.unknowns() - group.coordinates());
+      usual.redundant_constraints += static_cast<int>(group.factorization().nullity());
+      for (const std::size_t c : group.group().closures) common.group_of[c] = g;
+    }
+    return common;
   }
 
-  void computePack(const MotionTable& table, std::size_t first, const Load* loads,
-                   Results* results) {
-    const std::size_t width = pack->width();
-    tree->compute(table, first, width, loads);
-    for (std::size_t i = 0; i < width; ++i) {
-      takeRow(table, first + i, motions[i]);
-      tree->read(i, trees[i]);
-      pack->setMotion(i, motions[i]);
-      pack->setEfforts(i, trees[i].effort());
+  void computeOne(const MotionTable& table, std::size_t first, std::size_t row, const Load* loads) {
+    takeRow(table, first + row, motion);
+    dynamics.compute(motion, loads ? loads[row] : plan.own_load, workspace);
+    in_pack[row] = false;
+    samples.exchange(alone[row]);
+  }
+
+  // Computes a pack whose results the solvers of one sample finish, as they find flags, and poses
+  // and twists of closures.
+  void finishPack(const MotionTable& table, std::size_t first, std::size_t at, const Load* loads) {
+    tree->compute(table, first + at, pack->width(), loads ? loads + at : nullptr);
+    const auto column = [&](const Eigen::MatrixXd& values) {
+      return values.size() > 0 ? values.data() + first + at : nullptr;
+    };
+    pack->setMotion(column(table.positions), column(table.velocities), column(table.accelerations),
+                    static_cast<std::size_t>(table.positions.rows()));
+    for (std::size_t i = 0; i < pack->width(); ++i) {
+      tree->read(i, *tree_row);
+      pack->setEfforts(i, tree_row->effort());
     }
     pack->compute();
-    const bool whole = plan.reacts || plan.request.determinacy;
-    for (std::size_t i = 0; i < width; ++i) {
-      const Load* const load = loads ? loads + i : nullptr;
-      if (pack->computed(i)) {
-        pack->take(i, plan.static_motion ? rest : motions[i], whole, samples.solvers);
-        samples.finish(load ? *load : plan.own_load, trees[i]);
-      } else {
-        computeOne(motions[i], load);
+    for (std::size_t i = 0; i < pack->width(); ++i) {
+      if (!pack->computed(i)) {
+        computeOne(table, first, at + i, loads);
+        continue;
       }
-      samples.exchange(results[i]);
+      tree->read(i, *tree_row);
+      pack->take(i, plan.reacts || plan.request.determinacy, samples.solvers,
+                 samples.results.loops);
+      samples.finish(loads ? loads[at + i] : plan.own_load, *tree_row);
+      in_pack[at + i] = false;
+      samples.exchange(alone[at + i]);
     }
+  }
+
+  // Returns how many rows were computed, the first ones.
+  std::size_t computePacks(const MotionTable& table, std::size_t first, std::size_t count,
+                           const Load* loads) {
+    if (!pack) return 0;
+    const std::size_t whole = count / pack->width() * pack->width();
+    if (!packed) {
+      for (std::size_t at = 0; at < whole; at += pack->width()) finishPack(table, first, at, loads);
+      return whole;
+    }
+    packed->compute(table, first, whole, loads, *pack, in_pack);
+    for (std::size_t row = 0; row < whole; ++row) {
+      if (!in_pack[row]) computeOne(table, first, row, loads);
+    }
+    return whole;
   }
 
   const ClosedLoopDynamics& dynamics;
   const ClosedLoopDynamics::Impl& plan;
   ClosedLoopDynamics::Workspace workspace;
   ClosedLoopDynamics::Workspace::Impl& samples;
-  std::vector<Motion> motions;
-  Motion rest{dynamics.coordinates()};
-  std::optional<SamplePack> pack;  // where it serves
-  std::optional<SampleBlock> tree;
-  std::vector<Workspace> trees;  // by sample
+  Motion motion;                     // of one row
+  std::vector<Results> alone;        // by row: of those that are not in a pack
+  std::vector<bool> in_pack;         // by row
+  std::optional<SamplePack> pack;    // where it serves
+  std::optional<PackedRows> packed;  // where it reports everything
+  std::optional<SampleBlock> tree;   // else, of a pack
+  std::optional<Workspace> tree_row;
 };
 
-LoopRows::LoopRows(const ClosedLoopDynamics& dynamics) : impl_(new Impl(dynamics)) {}
+LoopRows::LoopRows(const ClosedLoopDynamics& dynamics, std::size_t capacity)
+    : impl_(new Impl(dynamics, capacity)) {}
 LoopRows::~LoopRows() = default;
 LoopRows::LoopRows(LoopRows&&) noexcept = default;
 
-const Results& LoopRows::results() const {
-  return impl_->workspace.results();
-}
-
 void LoopRows::compute(const MotionTable& table, std::size_t first, std::size_t count,
-                       const Load* loads, Results* results) {
-  std::size_t done = 0;
-  if (impl_->pack) {
-    const std::size_t width = impl_->pack->width();
-    for (; done + width <= count; done += width) {
-      impl_->computePack(table, first + done, loads ? loads + done : nullptr, results + done);
-    }
-  }
-  for (; done < count; ++done) {
-    takeRow(table, first + done, impl_->motions.front());
-    impl_->computeOne(impl_->motions.front(), loads ? loads + done : nullptr);
-    impl_->samples.exchange(results[done]);
-  }
+                       const Load* loads) {
+  std::size_t done = impl_->computePacks(table, first, count, loads);
+  for (; done < count; ++done) impl_->computeOne(table, first, done, loads);
 }
 
-void takeRow(const MotionTable& table, std::size_t row, Motion& motion) {
-  if (!table.roots.empty()) motion.root = table.roots[row];
-  for (std::size_t i = 0; i < motion.orientations.size(); ++i) {
-    if (table.orientations.size() == 0) break;
-    const auto at = static_cast<Eigen::Index>(row);
-    motion.orientations[i].coeffs() =
-        table.orientations.row(at).segment<4>(static_cast<Eigen::Index>(4 * i));
-  }
-  if (motion.q.size() == 0) return;  // a table without columns has no rows
-  const auto index = static_cast<Eigen::Index>(row);
-  motion.q = table.positions.row(index);
-  motion.qd = table.velocities.row(index);
-  motion.qdd = table.accelerations.row(index);
+const Results& LoopRows::read(std::size_t index) {
+  return impl_->in_pack[index] ? impl_->packed->read(index) : impl_->alone[index];
 }
 
 }  // namespace virtual_work_dynamics

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <vector>
 
 #include "virtual_work_dynamics/closed_loop_dynamics.h"
 #include "virtual_work_dynamics/load.h"
@@ -12,30 +11,26 @@ namespace virtual_work_dynamics {
 
 /// Computes rows of a MotionTable with closed loops: several samples in each vector instruction
 /// where the same is computed for all of them, and the others as ClosedLoopDynamics::compute()
-/// does. Serves one thread. Allocates in its constructor only.
+/// does. Results of the former stay arrays until they are read. Serves one thread. Allocates in its
+/// constructor only.
 class LoopRows {
  public:
   /// @param dynamics must outlive it
-  explicit LoopRows(const ClosedLoopDynamics& dynamics);
+  /// @param capacity most rows of compute()
+  LoopRows(const ClosedLoopDynamics& dynamics, std::size_t capacity);
   ~LoopRows();
   LoopRows(LoopRows&&) noexcept;
 
-  /// Results of the sample computed last; before, as large as those of samples.
-  const Results& results() const;
   /// Computes rows [first, first + count) of a table of all coordinates, with velocities and
   /// accelerations.
   /// @param loads one for each of these rows; null: the scene's own
-  /// @param results receive those of these rows
-  void compute(const MotionTable& table, std::size_t first, std::size_t count, const Load* loads,
-               Results* results);
+  void compute(const MotionTable& table, std::size_t first, std::size_t count, const Load* loads);
+  /// Results of row `index` of those computed last; valid until another one is read or computed.
+  const Results& read(std::size_t index);
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-/// Copies row `row` of a table of all coordinates, with velocities and accelerations, into
-/// `motion`. Does not allocate when `motion` has the lengths already.
-void takeRow(const MotionTable& table, std::size_t row, Motion& motion);
 
 }  // namespace virtual_work_dynamics

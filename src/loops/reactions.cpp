@@ -29,13 +29,35 @@ void addSquares(const ClosureWrench& wrench, double least, double length,
   }
 }
 
+LeftOut activePartOf(Unit motion) {
+  return motion == Unit::kMetre ? LeftOut::kForceAlong : LeftOut::kMomentAbout;
+}
+
+LeftOut partsOf(CompoundType type) {
+  switch (type) {
+    case CompoundType::kPlanar:
+      return LeftOut::kPlanar;
+    case CompoundType::kCylindrical:
+      return LeftOut::kCylindrical;
+    case CompoundType::kScrew:
+      return LeftOut::kScrew;
+    case CompoundType::kSpherical:
+      return LeftOut::kSpherical;
+    case CompoundType::kFloating:
+      return LeftOut::kFloating;
+    case CompoundType::kUniversal:
+      return LeftOut::kUniversal;
+  }
+  return LeftOut::kNothing;
+}
+
 }  // namespace
 
 LoopReactions::LoopReactions(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
                              const std::vector<LoopGroup>& groups,
                              const std::vector<std::string>& names, const MomentPoints* points,
                              Axes axes)
-    : child_axes_(axes == Axes::kLink) {
+    : kernel_(&loopKernelFor(chosenInstructionSet()).one), child_axes_(axes == Axes::kLink) {
   std::unordered_map<std::string, std::size_t> closures;
   for (const Closure& closure : scene.closures) closures.emplace(closure.name, closures.size());
   std::unordered_set<std::string> seen;
@@ -46,13 +68,13 @@ LoopReactions::LoopReactions(const Mechanism& mechanism, const Scene& scene, con
     }
     const auto closure = closures.find(name);
     if (closure != closures.end()) {
-      items_.push_back(itemOfClosure(scene, loops, closure->second));
+      addClosure(scene, loops, closure->second);
     } else if (name == kGround || mechanism.reactionIndex(name) >= 0) {
-      items_.push_back(itemOfJoint(mechanism, scene, name));
+      addJoint(mechanism, scene, name);
     } else {
       failAtUnknown(mechanism, scene, name, entryOf("reactions", i));
     }
-    if (points) setPoint(*points, items_.back());
+    if (points) setPoint(*points);
   }
   addPassages(groups);
   addChanges(groups);
@@ -60,59 +82,70 @@ LoopReactions::LoopReactions(const Mechanism& mechanism, const Scene& scene, con
   spans_.resize(names.size());
 }
 
-LoopReactions::Item LoopReactions::itemOfClosure(const Scene& scene, const LoopScene& loops,
-                                                 std::size_t closure) {
+void LoopReactions::addClosure(const Scene& scene, const LoopScene& loops, std::size_t closure) {
   Item item;
   item.closure = static_cast<int>(closure);
-  item.active = traitsOf(scene.closures[closure].type).free_axis.value_or(Unit::kRadian);
+  ReactionShape shape{item.closure, 0, LeftOut::kNothing, 0, 0, -1, {}, 0, 0};
   const auto& actuated = loops.actuated_closures;  // in order
-  item.drops_active =
-      !scene.include_active && std::binary_search(actuated.begin(), actuated.end(), closure);
-  return item;
+  if (!scene.include_active && std::binary_search(actuated.begin(), actuated.end(), closure)) {
+    shape.left_out =
+        activePartOf(traitsOf(scene.closures[closure].type).free_axis.value_or(Unit::kRadian));
+  }
+  items_.push_back(item);
+  shapes_.push_back(shape);
 }
 
-LoopReactions::Item LoopReactions::itemOfJoint(const Mechanism& mechanism, const Scene& scene,
-                                               const std::string& name) {
+void LoopReactions::addJoint(const Mechanism& mechanism, const Scene& scene,
+                             const std::string& name) {
   Item item;
   item.joint = mechanism.reactionIndex(name);  // none of ground
+  ReactionShape shape{-1, item.joint + 1, LeftOut::kNothing, 0, 0, -1, {}, 0, 0};
   if (item.joint >= 0) {
     const Joint& joint = mechanism.joint(item.joint);
-    item.active = unitOf(joint);
-    item.drops_active = !scene.include_active && joint.type != JointType::kFixed;
-    if (const CompoundJoint* const compound = mechanism.compoundOf(item.joint)) {
-      item.compound = *compound;
+    const CompoundJoint* const compound = mechanism.compoundOf(item.joint);
+    if (compound) item.compound = *compound;
+    if (!scene.include_active && joint.type != JointType::kFixed) {
+      shape.left_out = compound ? partsOf(compound->type) : activePartOf(unitOf(joint));
     }
-    if (item.compound && item.compound->type == CompoundType::kScrew) {
-      item.pitch = mechanism.joint(item.compound->first).multiplier;
+    if (compound) shape.first_link = compound->first + 1;
+    if (shape.left_out == LeftOut::kScrew) {
+      shape.pitch = static_cast<double>(mechanism.joint(compound->first).multiplier);
     }
   }
-  return item;
+  items_.push_back(item);
+  shapes_.push_back(shape);
 }
 
-void LoopReactions::setPoint(const MomentPoints& points, Item& item) {
+void LoopReactions::setPoint(const MomentPoints& points) {
+  Item& item = items_.back();
   const LinkPoint* const point = item.closure >= 0
                                      ? points.ofClosure(static_cast<std::size_t>(item.closure))
                                      : points.ofJoint(item.joint);
   if (!point) return;
   item.point = {point->link, Eigen::Matrix3d::Identity(), point->p_LoPo_L.cast<double>()};
+  shapes_.back().point_link = point->link;
+  Eigen::Map<Eigen::Vector3d>{shapes_.back().p_LoPo_L} = item.point->p_LoFo_L;
 }
 
 void LoopReactions::addPassages(const std::vector<LoopGroup>& groups) {
-  std::vector<std::vector<Item*>> items_of;  // by joint
-  for (Item& item : items_) {
-    if (item.joint < 0) continue;
-    items_of.resize(std::max(items_of.size(), static_cast<std::size_t>(item.joint) + 1));
-    items_of[static_cast<std::size_t>(item.joint)].push_back(&item);
-  }
+  std::vector<std::vector<PassageShape>> by_joint;
   for (const LoopGroup& group : groups) {
     for (const LoopGroup::CrossedJoint& crossed : group.joints) {
-      if (static_cast<std::size_t>(crossed.joint) >= items_of.size()) continue;
-      for (Item* item : items_of[static_cast<std::size_t>(crossed.joint)]) {
-        for (const LoopGroup::Passage& passage : crossed.passages) {
-          item->passages.push_back({group.closures[passage.closure], passage.sign});
-        }
+      const auto joint = static_cast<std::size_t>(crossed.joint);
+      by_joint.resize(std::max(by_joint.size(), joint + 1));
+      for (const LoopGroup::Passage& passage : crossed.passages) {
+        by_joint[joint].push_back(
+            {static_cast<int>(group.closures[passage.closure]), passage.sign});
       }
     }
+  }
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    const auto joint = static_cast<std::size_t>(items_[i].joint);  // huge where there is none
+    shapes_[i].passages_begin = static_cast<int>(passages_.size());
+    if (joint < by_joint.size()) {
+      passages_.insert(passages_.end(), by_joint[joint].begin(), by_joint[joint].end());
+    }
+    shapes_[i].passages_end = static_cast<int>(passages_.size());
   }
 }
 
@@ -147,91 +180,6 @@ Eigen::Vector3d LoopReactions::originOf(const LoopKinematics& kinematics, const 
 // The vector to the child frame's origin from the point that an item's moment is about, root axes.
 Eigen::Vector3d LoopReactions::leverOf(const LoopKinematics& kinematics, const Item& item) {
   return originOf(kinematics, item) - kinematics.links().originOf(*item.point);
-}
-
-// What a joint of several freedoms bears of a wrench in root axes, about the child frame's origin.
-ClosureWrench LoopReactions::borneByParts(const LoopKinematics& kinematics, const Item& item,
-                                          ClosureWrench wrench) {
-  const int first = item.compound->first, last = item.compound->last;
-  const auto without = [](const Eigen::Vector3d& v, const Eigen::Vector3d& axis) {
-    return Eigen::Vector3d(v - axis.dot(v) * axis);
-  };
-  const Eigen::Vector3d& own = kinematics.axisOf(last);
-  switch (item.compound->type) {
-    case CompoundType::kPlanar:
-      wrench.force = own.dot(wrench.force) * own;
-      wrench.moment = without(wrench.moment, own);
-      break;
-    case CompoundType::kCylindrical:
-      wrench = {without(wrench.force, own), without(wrench.moment, own)};
-      break;
-    case CompoundType::kScrew:
-      wrench.moment = without(wrench.moment, own) - item.pitch * own.dot(wrench.force) * own;
-      break;
-    case CompoundType::kSpherical:
-      wrench.moment.setZero();
-      break;
-    case CompoundType::kFloating:
-      wrench = ClosureWrench();
-      break;
-    case CompoundType::kUniversal: {
-      const Eigen::Vector3d normal = kinematics.axisOf(first).cross(own).normalized();
-      wrench.moment = normal.dot(wrench.moment) * normal;
-      break;
-    }
-  }
-  return wrench;
-}
-
-// Takes away what is not reported of a wrench in root axes, about the child frame's origin.
-ClosureWrench LoopReactions::borne(const LoopKinematics& kinematics, const Item& item,
-                                   ClosureWrench wrench) {
-  if (!item.drops_active) return wrench;
-  if (item.compound) return borneByParts(kinematics, item, wrench);
-  const Eigen::Vector3d axis = item.closure >= 0
-                                   ? kinematics.freeAxis(static_cast<std::size_t>(item.closure))
-                                   : kinematics.axisOf(item.joint);
-  Eigen::Vector3d& active = activePart(item.active, wrench);
-  active -= axis.dot(active) * axis;
-  return wrench;
-}
-
-// Turns a wrench in root axes, about the child frame's origin, into the one that is reported.
-ClosureWrench LoopReactions::reported(const LoopKinematics& kinematics, const Item& item,
-                                      ClosureWrench wrench) const {
-  const bool of_closure = item.closure >= 0;
-  const std::size_t c = static_cast<std::size_t>(item.closure);
-  wrench = borne(kinematics, item, wrench);
-  if (item.point) wrench.moment += leverOf(kinematics, item).cross(wrench.force);
-  if (!child_axes_) return wrench;
-  const Eigen::Matrix3d R =
-      of_closure ? kinematics.childAxes(c) : kinematics.axesOf(item.joint + 1);
-  return {R.transpose() * wrench.force, R.transpose() * wrench.moment};
-}
-
-void LoopReactions::setValues(const LoopKinematics& kinematics, const std::vector<Wrench>& tree,
-                              const std::vector<ClosureWrench>& closures,
-                              std::vector<Wrench>& values) const {
-  std::size_t of_tree = 0;
-  for (std::size_t i = 0; i < items_.size(); ++i) {
-    const Item& item = items_[i];
-    if (item.closure >= 0) {
-      const ClosureWrench wrench =
-          reported(kinematics, item, closures[static_cast<std::size_t>(item.closure)]);
-      values[i] = {wrench.force, wrench.moment};
-      continue;
-    }
-    values[i] = tree[of_tree++];
-    if (item.passages.empty()) continue;
-    ClosureWrench sum;
-    const Eigen::Vector3d& origin = kinematics.originOf(item.joint + 1);
-    for (const LoopGroup::Passage& passage : item.passages) {
-      kinematics.addRelief(passage.closure, passage.sign, closures[passage.closure], origin, sum);
-    }
-    const ClosureWrench added = reported(kinematics, item, sum);
-    values[i].force += added.force;
-    values[i].torque += added.moment;
-  }
 }
 
 void LoopReactions::setPoses(const LoopKinematics& kinematics, const std::vector<Pose>& tree,
@@ -315,8 +263,10 @@ void LoopReactions::addChangeOf(const LoopKinematics& kinematics, std::size_t it
                                 const LoopForces& forces, const ClosureWrench& wrench) {
   double length = forces.length();
   if (items_[item].point) length = std::max(length, leverOf(kinematics, items_[item]).norm());
-  addSquares(reported(kinematics, items_[item], wrench), forces.leastChange(), length,
-             freedoms_[item]);
+  ClosureWrench reported = wrench;
+  kernel_->report(shapes_[item], child_axes_, kinematics.links().numbers(),
+                  kinematics.frameNumbers(), reported.force.data());
+  addSquares(reported, forces.leastChange(), length, freedoms_[item]);
 }
 
 void LoopReactions::addChange(const LoopKinematics& kinematics, std::size_t group,
@@ -354,7 +304,9 @@ void LoopReactions::addSpan(const LoopKinematics& kinematics, std::size_t group,
 // The dimension depends neither on axes nor on the point of moments.
 void LoopReactions::addSpanOf(const LoopKinematics& kinematics, std::size_t item,
                               const LoopForces& forces, const ClosureWrench& wrench) {
-  const ClosureWrench change = borne(kinematics, items_[item], wrench);
+  ClosureWrench change = wrench;
+  kernel_->leaveOut(shapes_[item], kinematics.links().numbers(), kinematics.frameNumbers(),
+                    change.force.data());
   const double scale = std::min(1.0, kLeastSpan / (10 * forces.leastChange()));
   Eigen::Matrix<double, 6, 1> entries;
   entries << scale * change.force, scale / forces.length() * change.moment;

@@ -25,11 +25,11 @@ class LoopReactions {
                 const std::vector<LoopGroup>& groups, const std::vector<std::string>& names,
                 const MomentPoints* points, Axes axes);
 
-  /// Sets the reactions: those of the open tree, and on the joints of loops what closures add.
-  /// @param tree those of joints and ground, in the order of treeRequest()
-  /// @param closures wrenches on the child, root axes, about the child frame's origin; by closure
-  void setValues(const LoopKinematics& kinematics, const std::vector<Wrench>& tree,
-                 const std::vector<ClosureWrench>& closures, std::vector<Wrench>& values) const;
+  /// As kernels see them; what they add to the reactions of the open tree, in the order of
+  /// treeRequest(), is what closures do on the joints of loops.
+  ReactionsView view() const {
+    return {shapes_.data(), passages_.data(), static_cast<int>(shapes_.size()), child_axes_};
+  }
   /// Sets the poses of the joints' frames and of the closures' child frames, at the points of their
   /// moments.
   /// @param tree those of joints and ground, in the order of treeRequest()
@@ -64,14 +64,10 @@ class LoopReactions {
 
  private:
   struct Item {
-    int joint = -1;               ///< -1 for ground or a closure
-    int closure = -1;             ///< -1 for what the tree has
-    Unit active = Unit::kRadian;  ///< what its motion about or along its axis measures
-    bool drops_active = false;
+    int joint = -1;                              ///< -1 for ground or a closure
+    int closure = -1;                            ///< -1 for what the tree has
     std::optional<CompoundJoint> compound;       ///< that the joint is the last part of
-    double pitch = 0;                            ///< of a screw, m/rad
     std::optional<LinkKinematics::Frame> point;  ///< of the moment, where it is not the origin
-    std::vector<LoopGroup::Passage> passages;    ///< of all closures through a joint, by closure
   };
   /// An item that a group of loops can change.
   struct Change {
@@ -83,9 +79,9 @@ class LoopReactions {
   template <typename Visit>
   void visitChanged(std::size_t group, const LoopForces& forces, const LoopForces::State& change,
                     Visit visit);
-  static void setPoint(const MomentPoints& points, Item& item);
-  static Item itemOfClosure(const Scene& scene, const LoopScene& loops, std::size_t closure);
-  static Item itemOfJoint(const Mechanism& mechanism, const Scene& scene, const std::string& name);
+  void setPoint(const MomentPoints& points);
+  void addClosure(const Scene& scene, const LoopScene& loops, std::size_t closure);
+  void addJoint(const Mechanism& mechanism, const Scene& scene, const std::string& name);
   void addPassages(const std::vector<LoopGroup>& groups);
   static Eigen::Vector3d originOf(const LoopKinematics& kinematics, const Item& item);
   static Eigen::Vector3d leverOf(const LoopKinematics& kinematics, const Item& item);
@@ -95,17 +91,14 @@ class LoopReactions {
   void addSpanOf(const LoopKinematics& kinematics, std::size_t item, const LoopForces& forces,
                  const ClosureWrench& wrench);
   void addChanges(const std::vector<LoopGroup>& groups);
-  static ClosureWrench borne(const LoopKinematics& kinematics, const Item& item,
-                             ClosureWrench wrench);
-  static ClosureWrench borneByParts(const LoopKinematics& kinematics, const Item& item,
-                                    ClosureWrench wrench);
   void addChangeOf(const LoopKinematics& kinematics, std::size_t item, const LoopForces& forces,
                    const ClosureWrench& wrench);
-  ClosureWrench reported(const LoopKinematics& kinematics, const Item& item,
-                         ClosureWrench wrench) const;
 
+  const LoopFunctions* kernel_;
   bool child_axes_;
   std::vector<Item> items_;
+  std::vector<ReactionShape> shapes_;         // by item
+  std::vector<PassageShape> passages_;        // of all closures through each joint
   std::vector<std::vector<Change>> changes_;  // by group
   // changes_of_[g][c]: indices into changes_[g] of the items that closure c of group g affects.
   std::vector<std::vector<std::vector<std::size_t>>> changes_of_;

@@ -13,25 +13,22 @@ namespace virtual_work_dynamics {
 /// allocates.
 class LoopResiduals {
  public:
+  /// @param kinematics whose conditions it is about; must outlive it
   /// @param length of the loops, m
-  LoopResiduals(const Mechanism& mechanism, std::size_t closures, double length);
+  LoopResiduals(const Mechanism& mechanism, const LoopKinematics& kinematics, double length);
 
   /// Computes the residuals of a motion at the position of `kinematics`.
-  void set(LoopKinematics& kinematics, const Motion& motion);
-  /// Sets those of a motion from norms that were found already.
-  /// @param norms by closure, by level: plain and relative, `stride` numbers apart
-  void setFromNorms(const Motion& motion, const double* norms, std::size_t stride);
-
-  const std::vector<ClosureResidual>& values() const { return values_; }
-  const std::vector<ClosureResidual>& relative() const { return relative_; }
+  /// @param plain, relative receive one for each closure
+  void find(LoopKinematics& kinematics, const Motion& motion, std::vector<ClosureResidual>& plain,
+            std::vector<ClosureResidual>& relative) const;
+  /// As kernels see them.
+  const ResidualsView& view() const { return view_; }
 
  private:
-  double largest(const Eigen::VectorXd& rates) const;
-
+  const LoopFunctions* kernel_;
   std::vector<double> scales_;  // by coordinate: 1 or the length
-  double length_;
-  std::vector<double> norms_;
-  std::vector<ClosureResidual> values_, relative_;
+  std::vector<int> lengths_;    // by closure: how many of its conditions are lengths
+  ResidualsView view_;
 };
 
 }  // namespace virtual_work_dynamics

@@ -6,8 +6,7 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-constexpr std::size_t kLevels = 3;  // of residuals
-constexpr std::size_t kNorms = 2;   // plain and relative
+constexpr std::size_t kResiduals = 3;  // of a closure
 
 std::size_t blockNumbers(const MultifrontalQr& qr, std::size_t block) {
   return static_cast<std::size_t>(qr.entriesOf(block).size());
@@ -15,12 +14,11 @@ std::size_t blockNumbers(const MultifrontalQr& qr, std::size_t block) {
 
 // Calls take(count) for each array of a group, in the order of SamplePack::Group.
 template <typename Take>
-void visitArrays(const MultifrontalQr& qr, std::size_t closures, std::size_t efforts, Take take) {
+void visitArrays(const MultifrontalQr& qr, std::size_t efforts, Take take) {
   for (std::size_t b = 0; b < qr.blocks(); ++b) take(blockNumbers(qr, b));
   take(qr.layout().numbers());
   take(static_cast<std::size_t>(qr.columns()));
   take(qr.layout().rows());
-  take(kWrenchNumbers * closures);
   take(1);
   take(std::max<std::size_t>(efforts, 1));
 }
@@ -32,10 +30,11 @@ void LoopForces::takeSample(const PackedSolution& packed, bool whole) {
     return from[static_cast<std::size_t>(i) * packed.width + packed.sample];
   };
   for (Eigen::Index i = 0; i < unknowns(); ++i) solution_.x[i] = number(packed.x, i);
-  Eigen::Index next = 0;
-  for (ClosureWrench& wrench : solution_.closures) {
-    for (int i = 0; i < 3; ++i) wrench.force[i] = number(packed.closures, next++);
-    for (int i = 0; i < 3; ++i) wrench.moment[i] = number(packed.closures, next++);
+  for (std::size_t c = 0; c < solution_.closures.size(); ++c) {
+    const auto first = static_cast<Eigen::Index>(kWrenchNumbers * group_.closures[c]);
+    ClosureWrench& wrench = solution_.closures[c];
+    for (int i = 0; i < 3; ++i) wrench.force[i] = number(packed.closures, first + i);
+    for (int i = 0; i < 3; ++i) wrench.moment[i] = number(packed.closures, first + 3 + i);
   }
   qr_.take(packed.numbers, packed.states, packed.stairs, number(packed.condition, 0), packed.width,
            packed.sample, whole);
@@ -61,15 +60,22 @@ SamplePack::SamplePack(const ClosedLoopDynamics::Impl& plan, const LoopSolvers& 
       coordinates_(static_cast<std::size_t>(plan.assembly.size())),
       conditions_(static_cast<std::size_t>(solvers.kinematics.conditions())),
       links_(plan.mechanism.links().size()),
+      record_{coordinates_,
+              2 * kWrenchNumbers * plan.closures,
+              kResiduals * plan.closures,
+              kResiduals * plan.closures,
+              solvers.forces.size(),
+              kWrenchNumbers * plan.child_axes->size(),
+              kWrenchNumbers * plan.root_axes->size()},
       memory_([&] {
         const LinksView view = solvers.kinematics.links().view();
         std::size_t count = 4 * coordinates_ + kLinkNumbers * links_ +
                             2 * static_cast<std::size_t>(view.angle_count + kMostAngleLanes) +
                             conditions_ * (4 + coordinates_ + kWrenchNumbers) +
-                            plan.closures * (kFrameNumbers + kLevels * kNorms);
+                            plan.closures * (kFrameNumbers + kWrenchNumbers + 2 * kResiduals);
         for (const LoopForces& forces : solvers.forces) {
-          visitArrays(forces.factorization(), forces.group().closures.size(),
-                      forces.efforts().size(), [&](std::size_t size) { count += size; });
+          visitArrays(forces.factorization(), forces.efforts().size(),
+                      [&](std::size_t size) { count += size; });
         }
         return count * width_ * sizeof(double);
       }()),
@@ -91,12 +97,13 @@ SamplePack::SamplePack(const ClosedLoopDynamics::Impl& plan, const LoopSolvers& 
   A_ = deal(conditions_ * coordinates_);
   wrenches_ = deal(kWrenchNumbers * conditions_);
   frames_ = deal(kFrameNumbers * plan.closures);
-  norms_ = deal(kLevels * kNorms * plan.closures);
+  residuals_ = deal(2 * kResiduals * plan.closures);
+  closures_ = deal(kWrenchNumbers * plan.closures);
   for (const LoopForces& forces : solvers.forces) {
     const MultifrontalQr& qr = forces.factorization();
     Group group;
     std::vector<double*> arrays;
-    visitArrays(qr, forces.group().closures.size(), forces.efforts().size(),
+    visitArrays(qr, forces.efforts().size(),
                 [&](std::size_t size) { arrays.push_back(deal(size)); });
     const std::size_t blocks = qr.blocks();
     group.entries.assign(arrays.begin(), arrays.begin() + static_cast<std::ptrdiff_t>(blocks));
@@ -104,9 +111,8 @@ SamplePack::SamplePack(const ClosedLoopDynamics::Impl& plan, const LoopSolvers& 
     group.numbers = arrays[blocks];
     group.load = arrays[blocks + 1];
     group.x = arrays[blocks + 2];
-    group.closures = arrays[blocks + 3];
-    group.condition = arrays[blocks + 4];
-    group.null_square = arrays[blocks + 5];
+    group.condition = arrays[blocks + 3];
+    group.null_square = arrays[blocks + 4];
     group.states.resize(qr.layout().fronts().size());
     group.stairs.resize(qr.layout().stairs());
     for (std::size_t b = 0; b < forces.effortBlocks(); ++b) {  // these never change
@@ -116,13 +122,22 @@ SamplePack::SamplePack(const ClosedLoopDynamics::Impl& plan, const LoopSolvers& 
   }
 }
 
-void SamplePack::setMotion(std::size_t sample, const Motion& motion) {
+void SamplePack::setMotion(const double* q, const double* qd, const double* qdd,
+                           std::size_t stride) {
+  const auto copy = [&](const double* from, double* to) {
+    for (std::size_t i = 0; i < coordinates_; ++i) {
+      std::copy_n(from + i * stride, width_, to + i * width_);
+    }
+  };
+  copy(q, q_);
+  if (plan_.static_motion) return;
+  copy(qd, qd_);
+  copy(qdd, qdd_);
+}
+
+void SamplePack::setEfforts(const TreeNumbers& tree) {
   for (std::size_t i = 0; i < coordinates_; ++i) {
-    const auto at = static_cast<Eigen::Index>(i);
-    q_[i * width_ + sample] = motion.q[at];
-    if (plan_.static_motion) continue;
-    qd_[i * width_ + sample] = motion.qd[at];
-    qdd_[i * width_ + sample] = motion.qdd[at];
+    std::copy_n(tree.effort + i * tree.stride, width_, efforts_ + i * width_);
   }
 }
 
@@ -157,12 +172,10 @@ void SamplePack::placeAndMove() {
     std::copy_n(turning_ + first, static_cast<std::size_t>(rows.rows) * width_,
                 accelerations_ + first);
     loops_.addMotion(rows, A_ + first, qd_, qdd_, rates_ + first, accelerations_ + first);
-    double* norms = norms_ + kLevels * kNorms * c * width_;
-    for (const double* values : {phi_, rates_, accelerations_}) {
-      loops_.norms(rows, kinematics.lengthsOf(c), 1 / plan_.length, values + first, norms);
-      norms += kNorms * width_;
-    }
   }
+  loops_.residuals(
+      solvers_.residuals.view(),
+      {{phi_, rates_, accelerations_}, qd_, qdd_, residuals_, residuals_ + record_.plain * width_});
 }
 
 void SamplePack::solve(const LoopForces& forces, Group& group) {
@@ -190,12 +203,26 @@ void SamplePack::solve(const LoopForces& forces, Group& group) {
     for (std::size_t j = 0; j < width_; ++j) group.load[row * width_ + j] = effort[j] / unit;
   }
   fronts_.leastNorm(view, memory, group.load, group.x);
-  const std::size_t efforts = qr.nullity() > 0 ? forces.efforts().size() : 0;
+  const std::size_t efforts = forces.effortsFollow() ? 0 : forces.efforts().size();
   for (std::size_t i = 0; i < efforts; ++i) {
     const FrontLayout::RowPlace& place =
         qr.layout().placeOf(static_cast<std::size_t>(forces.efforts()[i].unknown));
     fronts_.nullSquare(view, memory, place.front, place.row, group.null_square + i * width_);
   }
+  judge(forces, group);
+  for (std::size_t c = 0; c < forces.group().closures.size(); ++c) {
+    const std::size_t closure = forces.group().closures[c];
+    const std::size_t first = static_cast<std::size_t>(kinematics.firstOf(closure)) * width_;
+    loops_.sumWrenches(kinematics.closure(closure).shape(), forces.unitsOf(c),
+                       group.x + static_cast<std::size_t>(forces.firstUnknownOf(c)) * width_,
+                       wrenches_ + kWrenchNumbers * first,
+                       closures_ + kWrenchNumbers * closure * width_);
+  }
+}
+
+// Leaves out samples whose rank is in doubt, or in which the null space changes efforts.
+void SamplePack::judge(const LoopForces& forces, const Group& group) {
+  const std::size_t efforts = forces.effortsFollow() ? 0 : forces.efforts().size();
   for (std::size_t j = 0; j < width_; ++j) {
     bool sure = group.condition[j] <= forces.sureCondition();
     for (std::size_t i = 0; i < efforts; ++i) {
@@ -203,23 +230,56 @@ void SamplePack::solve(const LoopForces& forces, Group& group) {
     }
     if (!sure) computed_[j] = false;
   }
-  for (std::size_t c = 0; c < forces.group().closures.size(); ++c) {
-    const std::size_t closure = forces.group().closures[c];
-    const std::size_t first = static_cast<std::size_t>(kinematics.firstOf(closure)) * width_;
-    loops_.sumWrenches(kinematics.closure(closure).shape(), forces.unitsOf(c),
-                       group.x + static_cast<std::size_t>(forces.firstUnknownOf(c)) * width_,
-                       wrenches_ + kWrenchNumbers * first,
-                       group.closures + kWrenchNumbers * c * width_);
+}
+
+// What ClosedLoopDynamics::Workspace::Impl::collect() sets.
+void SamplePack::reportEfforts(const TreeNumbers& tree, double* to) const {
+  for (std::size_t i = 0; i < coordinates_; ++i) {
+    if (plan_.loops.actuated[i]) {
+      std::copy_n(tree.effort + i * tree.stride, width_, to + i * width_);
+    } else {
+      std::fill_n(to + i * width_, width_, 0.0);
+    }
+  }
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    for (const LoopUnknowns::Effort& effort : solvers_.forces[g].efforts()) {
+      const double* const x = groups_[g].x + static_cast<std::size_t>(effort.unknown) * width_;
+      for (std::size_t j = 0; j < width_; ++j) to[effort.index * width_ + j] = effort.unit * x[j];
+    }
   }
 }
 
-void SamplePack::take(std::size_t sample, const Motion& motion, bool whole,
-                      LoopSolvers& solvers) const {
+void SamplePack::report(const TreeNumbers& tree, double* records) const {
+  double* next = records;
+  const auto deal = [&](std::size_t count) {
+    double* const here = next;
+    next += count * width_;
+    return here;
+  };
+  reportEfforts(tree, deal(record_.efforts));
+  loops_.closureLoads(static_cast<int>(plan_.closures), frames_, closures_, deal(record_.loads));
+  const std::size_t residuals = record_.plain + record_.relative;
+  std::copy_n(residuals_, residuals * width_, deal(residuals));
+  for (const Group& group : groups_) std::copy_n(group.condition, width_, deal(1));
+  loops_.reactions(plan_.child_axes->view(), {link_numbers_, frames_, closures_, tree.child_axes,
+                                              tree.stride, deal(record_.child_axes)});
+  loops_.reactions(plan_.root_axes->view(), {link_numbers_, frames_, closures_, tree.root_axes,
+                                             tree.stride, deal(record_.root_axes)});
+}
+
+void SamplePack::take(std::size_t sample, bool whole, LoopSolvers& solvers,
+                      LoopResults& results) const {
   solvers.kinematics.takeSample({link_numbers_, wrenches_, frames_, width_, sample}, whole);
-  solvers.residuals.setFromNorms(motion, norms_ + sample, width_);
+  const double* const relative = residuals_ + record_.plain * width_;
+  const auto takeResiduals = [&](const double* from, std::vector<ClosureResidual>& to) {
+    double* numbers = &to.front().position;
+    for (std::size_t i = 0; i < kResiduals * to.size(); ++i) numbers[i] = from[i * width_ + sample];
+  };
+  takeResiduals(residuals_, results.residuals);
+  takeResiduals(relative, results.relative_residuals);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
-    solvers.forces[g].takeSample({group.x, group.closures, group.condition, group.numbers,
+    solvers.forces[g].takeSample({group.x, closures_, group.condition, group.numbers,
                                   group.states.data(), group.stairs.data(), width_, sample},
                                  whole);
   }

@@ -10,10 +10,17 @@
 
 namespace virtual_work_dynamics {
 
-/// Kinematics and forces of loops for several samples side by side, each number in a vector of
-/// samples. What it finds is handed to the solvers of one sample, which go on from there. A sample
-/// whose rank is not full beyond doubt, or whose null space changes efforts, is left to them.
-/// Allocates in its constructor only.
+/// Results of the open tree of several samples: number c of a sample lies at [c * stride], those of
+/// neighbouring samples follow each other.
+struct TreeNumbers {
+  const double *effort, *child_axes, *root_axes;
+  std::size_t stride;
+};
+
+/// Closed loops of several samples side by side, each number in a vector of samples. What it finds
+/// is reported as records of numbers, or handed to the solvers of one sample, which go on from
+/// there. A sample whose rank is not full beyond doubt, or whose null space changes efforts, is
+/// left to them. Allocates in its constructor only.
 class SamplePack {
  public:
   /// Whether samples of a plan can be computed so: its closures are all that it demands, none of
@@ -26,28 +33,48 @@ class SamplePack {
 
   /// How many samples it holds.
   std::size_t width() const { return width_; }
-  /// Sets the motion of a sample.
-  void setMotion(std::size_t sample, const Motion& motion);
+  /// Sets positions, velocities and accelerations of all samples: those of a coordinate lie
+  /// `stride` numbers from those of the one before.
+  void setMotion(const double* q, const double* qd, const double* qdd, std::size_t stride);
   /// Sets the efforts of the open tree.
+  void setEfforts(const TreeNumbers& tree);
   void setEfforts(std::size_t sample, const Eigen::VectorXd& tree_effort);
   /// Computes all samples.
   void compute();
   /// Whether a sample was computed.
   bool computed(std::size_t sample) const { return computed_[sample]; }
-  /// Puts a sample that was computed into the solvers.
+
+  /// How many numbers each result has in a record of report(), in their order.
+  struct Record {
+    std::size_t efforts;     ///< by coordinate, zero where it is passive
+    std::size_t loads;       ///< two wrenches of each closure, as in LoopResults::tree_wrenches
+    std::size_t plain;       ///< three of each ClosureResidual
+    std::size_t relative;    ///< as many
+    std::size_t conditions;  ///< by group
+    std::size_t child_axes, root_axes;
+    std::size_t numbers() const {
+      return efforts + loads + plain + relative + conditions + child_axes + root_axes;
+    }
+  };
+  const Record& record() const { return record_; }
+  /// Writes the records of all samples, number by number.
+  void report(const TreeNumbers& tree, double* records) const;
+  /// Puts a sample that was computed into solvers and results.
   /// @param whole what flags and reactions need, too
-  void take(std::size_t sample, const Motion& motion, bool whole, LoopSolvers& solvers) const;
+  void take(std::size_t sample, bool whole, LoopSolvers& solvers, LoopResults& results) const;
 
  private:
   struct Group {
     std::vector<double*> entries;  // by block
     std::vector<const double*> entries_read;
-    double *numbers, *load, *x, *closures, *condition, *null_square;
+    double *numbers, *load, *x, *condition, *null_square;
     std::vector<FrontState> states;
     std::vector<int> stairs;
   };
   void placeAndMove();
   void solve(const LoopForces& forces, Group& group);
+  void judge(const LoopForces& forces, const Group& group);
+  void reportEfforts(const TreeNumbers& tree, double* to) const;
   double* numbers(std::size_t place) const {
     return static_cast<double*>(memory_.get()) + place * width_;
   }
@@ -57,9 +84,10 @@ class SamplePack {
   const LoopFunctions& loops_;
   const FrontFunctions& fronts_;
   std::size_t width_, coordinates_, conditions_, links_;
+  Record record_;
   AlignedMemory memory_;
   double *q_, *qd_, *qdd_, *efforts_, *angles_, *link_numbers_, *phi_, *A_, *wrenches_, *frames_;
-  double *turning_, *rates_, *accelerations_, *norms_;
+  double *turning_, *rates_, *accelerations_, *residuals_, *closures_;
   std::vector<Group> groups_;
   std::vector<bool> computed_;
 };

@@ -4,6 +4,8 @@ vwd_core(
   closed_loop_workspace.cpp
   closure_conditions.cpp
   completion.cpp
+  completion_positions.cpp
+  completion_rates.cpp
   condition.cpp
   condition_sizes.cpp
   cut_tree.cpp
@@ -17,6 +19,7 @@ vwd_core(
   link_kinematics.cpp
   loop_rows.cpp
   nearest_closing.cpp
+  packed_rows.cpp
   point_springs.cpp
   rank.cpp
   reactions.cpp

@@ -31,6 +31,7 @@ vwd_core(
   stream_start.cpp
   stream_surprise.cpp
   stream_text.cpp
+  table_row.cpp
   track_group.cpp
   track_samples.cpp
   trajectory_curve.cpp

@@ -7,7 +7,7 @@
 
 #include "base/printable.h"
 #include "dynamics/given_joints.h"
-#include "dynamics/sample_rows.h"
+#include "motion/table_row.h"
 #include "offline/free_turn_rows.h"
 #include "offline/root_rows.h"
 #include "virtual_work_dynamics/error.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <future>
 
+#include "motion/table_row.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {

@@ -5,7 +5,7 @@
 #include "base/number_text.h"
 #include "base/printable.h"
 #include "dynamics/motion_start.h"
-#include "dynamics/sample_rows.h"
+#include "motion/table_row.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {

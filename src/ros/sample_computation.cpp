@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "motion/table_row.h"
 #include "virtual_work_dynamics/deviations.h"
 
 namespace virtual_work_dynamics {

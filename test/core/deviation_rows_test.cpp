@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/sample_rows.h"
+#include "motion/table_row.h"
 #include "random_motions.h"
 #include "robot_builder.h"
 #include "virtual_work_dynamics/error.h"

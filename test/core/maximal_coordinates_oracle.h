@@ -51,6 +51,8 @@ class MaximalCoordinates {
   /// origin, over the length that moments are compared with forces by, which counts all joints and
   /// centres of mass.
   Real sizeOfLoops() const;
+  /// That length, m.
+  long double length() const { return length_; }
   /// The largest share of the loads' work along a motion that nothing holds, which nothing bears:
   /// the sum of the works of all balances over the sum of their magnitudes; 0 without such a
   /// motion. It does not depend on loads elsewhere.
@@ -59,7 +61,7 @@ class MaximalCoordinates {
   struct Reaction {
     Vector6 wrench;  ///< force, moment; one of many solutions where it is not determined
     std::array<bool, 6> determined;
-    std::array<Real, 6> freedom;  ///< by how much null vectors change it, against kFree
+    std::array<Real, 6> freedom;  ///< by how much null vectors change it, a moment over length()
   };
   /// The reaction of a joint, a closure or "ground" in root axes.
   Reaction rootAxes(const std::string& name) const { return reaction(name, Matrix3l::Identity()); }

@@ -10,6 +10,7 @@
 
 #include "four_bar.h"
 #include "loop_examples.h"
+#include "motion/table_row.h"
 #include "plain_results.h"
 #include "result_differences.h"
 #include "robot_builder.h"
@@ -72,32 +73,45 @@ Recorded closedLinkage() {
   return recorded;
 }
 
-Request everythingOf(const Recorded& recorded) {
+Request wrenchesOf(const Recorded& recorded) {
   Request request;
   request.child_axes = request.root_axes = requestedReactions(recorded.mechanism, recorded.scene);
-  request.poses = request.twists = true;
+  request.determinacy = false;
   return request;
+}
+
+Request everythingOf(const Recorded& recorded) {
+  Request request = wrenchesOf(recorded);
+  request.poses = request.twists = request.determinacy = true;
+  return request;
+}
+
+// What is found beside wrenches of loops decides how rows are computed.
+std::vector<Request> requestsOf(const Recorded& recorded) {
+  return {everythingOf(recorded), wrenchesOf(recorded)};
 }
 
 TEST(SampleRows, AreComputedLikeSingleSamples) {
   for (const Recorded& recorded : {openChain(), closedLinkage()}) {
-    const Dynamics dynamics(recorded.mechanism, recorded.scene, everythingOf(recorded));
     const MotionTable table = tableOf(recorded.motions);
-    for (const int threads : {1, 3}) {
-      SampleRows rows(dynamics, kCapacity, threads);
-      EXPECT_EQ(rows.capacity(), kCapacity);
-      Dynamics::Workspace expected = dynamics.makeWorkspace();
-      for (std::size_t first = 0; first < kRows; first += kCapacity) {
-        const std::size_t count = std::min(kCapacity, kRows - first);
-        rows.compute(table, first, count);
-        for (std::size_t i = 0; i < count; ++i) {
-          Motion motion(dynamics.coordinates());
-          takeRow(table, first + i, motion);
-          EXPECT_EQ(motion.q, recorded.motions[first + i].q);
-          EXPECT_EQ(motion.qd, recorded.motions[first + i].qd);
-          EXPECT_EQ(motion.qdd, recorded.motions[first + i].qdd);
-          dynamics.compute(motion, expected);
-          EXPECT_EQ(differences(rows.read(i), expected.results()), "") << first + i;
+    for (const Request& request : requestsOf(recorded)) {
+      const Dynamics dynamics(recorded.mechanism, recorded.scene, request);
+      for (const int threads : {1, 3}) {
+        SampleRows rows(dynamics, kCapacity, threads);
+        EXPECT_EQ(rows.capacity(), kCapacity);
+        Dynamics::Workspace expected = dynamics.makeWorkspace();
+        for (std::size_t first = 0; first < kRows; first += kCapacity) {
+          const std::size_t count = std::min(kCapacity, kRows - first);
+          rows.compute(table, first, count);
+          for (std::size_t i = 0; i < count; ++i) {
+            Motion motion(dynamics.coordinates());
+            takeRow(table, first + i, motion);
+            EXPECT_EQ(motion.q, recorded.motions[first + i].q);
+            EXPECT_EQ(motion.qd, recorded.motions[first + i].qd);
+            EXPECT_EQ(motion.qdd, recorded.motions[first + i].qdd);
+            dynamics.compute(motion, expected);
+            EXPECT_EQ(differences(rows.read(i), expected.results()), "") << first + i;
+          }
         }
       }
     }
@@ -105,14 +119,12 @@ TEST(SampleRows, AreComputedLikeSingleSamples) {
 }
 
 // Loops of every kind of group, without a position in doubt, on a motion that the tables of rows
-// jump about in; with and without flags.
+// jump about in.
 TEST(SampleRows, LoopsSideBySideAreThoseOfSingleSamples) {
   for (const char* name :
        {"four_bar", "slider_crank", "planar_3rrr", "stewart_gough", "spatial_parallelogram"}) {
     const LoopExample example(name);
-    for (const bool determinacy : {false, true}) {
-      Request request = everythingOf({example.mechanism, example.scene, {}});
-      request.determinacy = determinacy;
+    for (const Request& request : requestsOf({example.mechanism, example.scene, {}})) {
       const Dynamics dynamics(example.mechanism, example.scene, request);
       Dynamics::Workspace workspace = dynamics.makeWorkspace();
       std::vector<Motion> motions;
@@ -140,6 +152,27 @@ TEST(SampleRows, LoopsSideBySideAreThoseOfSingleSamples) {
   }
 }
 
+void expectLoads(const Dynamics& dynamics, const std::vector<Motion>& motions,
+                 std::vector<Load> loads, int threads) {
+  const MotionTable table = tableOf(motions);
+  Dynamics::Workspace expected = dynamics.makeWorkspace(), own = dynamics.makeWorkspace();
+  SampleRows rows(dynamics, kCapacity, threads);
+  for (std::size_t first = 0; first < kRows; first += kCapacity) {
+    const std::size_t count = std::min(kCapacity, kRows - first);
+    rows.compute(table, first, count, &loads[first]);
+    for (std::size_t i = 0; i < count; ++i) {
+      dynamics.compute(motions[first + i], loads[first + i], expected);
+      for (Wrench& wrench : loads[first + i].wrenches) wrench = {};  // rows keep what they had
+      EXPECT_EQ(differences(rows.read(i), expected.results()), "") << first + i;
+    }
+  }
+  rows.compute(table, 0, 9);
+  dynamics.compute(motions[2], own);
+  EXPECT_EQ(differences(rows.read(2), own.results()), "");
+  loads[2].wrenches.pop_back();
+  EXPECT_THROW(rows.compute(table, 0, 3, loads.data()), SceneError);
+}
+
 // Rows with loads of their own, on a link in its axes and on another one in those of the root.
 TEST(SampleRows, MayHaveLoadsOfTheirOwn) {
   for (Recorded recorded : {openChain(), closedLinkage()}) {
@@ -149,8 +182,6 @@ TEST(SampleRows, MayHaveLoadsOfTheirOwn) {
     recorded.scene.applied_wrenches[0].at << 0.1, 0.2, 0;
     recorded.scene.applied_wrenches[1].link = links[2].name;
     recorded.scene.applied_wrenches[1].axes = Axes::kRoot;
-    const Dynamics dynamics(recorded.mechanism, recorded.scene, everythingOf(recorded));
-    const MotionTable table = tableOf(recorded.motions);
     std::vector<Load> loads(kRows, Load(recorded.scene));
     RobotBuilder numbers(9);
     for (Load& load : loads) {
@@ -159,23 +190,11 @@ TEST(SampleRows, MayHaveLoadsOfTheirOwn) {
         wrench.torque = numbers.vector(5).cast<double>();
       }
     }
-    Dynamics::Workspace expected = dynamics.makeWorkspace(), own = dynamics.makeWorkspace();
-    for (const int threads : {1, 3}) {
-      SampleRows rows(dynamics, kCapacity, threads);
-      for (std::size_t first = 0; first < kRows; first += kCapacity) {
-        const std::size_t count = std::min(kCapacity, kRows - first);
-        rows.compute(table, first, count, &loads[first]);
-        for (std::size_t i = 0; i < count; ++i) {
-          dynamics.compute(recorded.motions[first + i], loads[first + i], expected);
-          EXPECT_EQ(differences(rows.read(i), expected.results()), "") << first + i;
-        }
+    for (const Request& request : requestsOf(recorded)) {
+      for (const int threads : {1, 3}) {
+        expectLoads(Dynamics(recorded.mechanism, recorded.scene, request), recorded.motions, loads,
+                    threads);
       }
-      rows.compute(table, 0, 3);
-      dynamics.compute(recorded.motions[2], own);
-      EXPECT_EQ(differences(rows.read(2), own.results()), "");
-      loads[2].wrenches.pop_back();
-      EXPECT_THROW(rows.compute(table, 0, 3, loads.data()), SceneError);
-      loads[2] = loads[3];
     }
   }
 }

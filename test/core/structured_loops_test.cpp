@@ -28,6 +28,12 @@ TEST(StructuredLoops, HaveTheEffortsReactionsRanksAndFlagsOfTheEquationsOfAllJoi
   EXPECT_LE(sum.unclear, 30);
 }
 
+// Its loop holds a fixed link with a lever of 1e-11 m: forces of 2e10 N, of which many do, have a
+// moment that is determined, and that the choice among them changes by 0.2 N m.
+TEST(StructuredLoops, MomentsOfForcesThatAreChosenDifferentlyAreJudgedByTheirLever) {
+  for (const std::string& line : judgeScene(kSeed, 56680).wrong) ADD_FAILURE() << line;
+}
+
 #endif  // VWD_HAS_REAL113
 
 }  // namespace

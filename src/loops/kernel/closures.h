@@ -2,6 +2,7 @@
 
 #include "loops/kernel/conditions.h"
 #include "loops/kernel/links.h"
+#include "loops/kernel/reactions.h"
 
 namespace virtual_work_dynamics {
 namespace {  // see loop_kernel.h
@@ -149,8 +150,10 @@ void moveClosure(const ClosureShape& shape, const double* link_numbers, const Cl
 
 template <int kWidth, typename T>
 constexpr LoopFunctions loopFunctions() {
-  return {placeLinks<kWidth, T>, moveLinks<T>,    placeClosure<T>, moveClosure<T>, addColumns<T>,
-          addMotion<T>,          scaleColumns<T>, norms<T>,        sumWrenches<T>};
+  return {placeLinks<kWidth, T>, moveLinks<T>,        placeClosure<T>,  moveClosure<T>,
+          addColumns<T>,         addMotion<T>,        scaleColumns<T>,  findResiduals<T>,
+          sumWrenches<T>,        findClosureLoads<T>, findReactions<T>, leaveOut,
+          reportWrench};
 }
 
 /// @param kWidth samples of a pack, and angles of one sample side by side

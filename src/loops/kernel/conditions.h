@@ -72,9 +72,14 @@ void scaleColumns(const RowsShape& shape, const ScaledColumns& scaled, const dou
     const ScaledColumn& column = scaled.columns[k];
     const T* const from = A + static_cast<std::size_t>(column.coordinate) * shape.A_stride;
     T* const entries = to + column.place * scaled.height;
-    for (int i = 0; i < shape.rows; ++i) {
-      entries[i] = (row_factors[i] * column.factor) * from[i];
+    int i = 0;
+    if constexpr (LanesOf<T>::value == 1) {  // several rows at a time
+      using Rows = Pack<double, 4>;
+      for (const Rows factor(column.factor); i + 4 <= shape.rows; i += 4) {
+        store(entries + i, (load<Rows>(row_factors + i) * factor) * load<Rows>(from + i));
+      }
     }
+    for (; i < shape.rows; ++i) entries[i] = (row_factors[i] * column.factor) * from[i];
   }
 }
 
@@ -86,14 +91,36 @@ VWD_INLINE T squaresOf(const T* rows, int begin, int end) {
   return sum;
 }
 
+/// The largest of 1 and the absolute entries of rates over their scales.
 template <typename T>
-void norms(const RowsShape& shape, int lengths, double length_factor, const double* row_numbers,
-           double* to) {
-  const T* const rows = reinterpret_cast<const T*>(row_numbers);
-  T* const sizes = reinterpret_cast<T*>(to);
-  const T along = squaresOf(rows, 0, lengths), about = squaresOf(rows, lengths, shape.rows);
-  sizes[0] = squareRoot(largerOf(along, about));
-  sizes[1] = squareRoot(largerOf((length_factor * length_factor) * along, about));
+VWD_INLINE T largestRate(const double* scales, int count, const T* rates) {
+  T largest = T(1.0);
+  for (int i = 0; i < count; ++i) {
+    largest = largerOf(absolute(rates[i]) / T(scales[i]), largest);
+  }
+  return largest;
+}
+
+template <typename T>
+void findResiduals(const ResidualsView& view, const ResidualNumbers& numbers) {
+  const T rate = largestRate(view.scales, view.coordinates, reinterpret_cast<const T*>(numbers.qd));
+  const T acceleration =
+      largerOf(rate * rate,
+               largestRate(view.scales, view.coordinates, reinterpret_cast<const T*>(numbers.qdd)));
+  const T shares[] = {T(1.0), T(1.0) / rate, T(1.0) / acceleration};
+  for (int level = 0; level < 3; ++level) {
+    const T* rows = reinterpret_cast<const T*>(numbers.conditions[level]);
+    T* const plain = reinterpret_cast<T*>(numbers.plain);
+    T* const relative = reinterpret_cast<T*>(numbers.relative);
+    for (int c = 0; c < view.closures; ++c) {
+      const T along = squaresOf(rows, 0, view.lengths[c]);
+      const T about = squaresOf(rows, view.lengths[c], view.rows[c].rows);
+      plain[3 * c + level] = squareRoot(largerOf(along, about));
+      relative[3 * c + level] =
+          squareRoot(largerOf((view.share * view.share) * along, about)) * shares[level];
+      rows += view.rows[c].rows;
+    }
+  }
 }
 
 template <typename T>

@@ -125,6 +125,68 @@ struct ScaledColumns {
   int height;  ///< from one copy to the next
 };
 
+/// What tells how far closures are violated.
+struct ResidualsView {
+  const RowsShape* rows;  ///< by closure
+  const int* lengths;     ///< by closure: how many of its conditions, the first, are lengths
+  int closures;
+  double share;          ///< one over the length
+  const double* scales;  ///< by coordinate
+  int coordinates;
+};
+struct ResidualNumbers {
+  const double* conditions[3];  ///< Phi and its derivatives
+  const double *qd, *qdd;
+  double *plain, *relative;  ///< by closure; of each position, velocity and acceleration
+};
+
+/// What is not reported of a wrench: where no actuator's part is wanted, what the joint does not
+/// bear.
+enum class LeftOut {
+  kNothing,
+  kForceAlong,
+  kMomentAbout,
+  kPlanar,
+  kCylindrical,
+  kScrew,
+  kSpherical,
+  kFloating,
+  kUniversal
+};
+
+/// A closure whose wrench passes through a joint.
+struct PassageShape {
+  int closure;
+  double sign;  ///< PathStep::sign
+};
+
+/// A reaction that is reported.
+struct ReactionShape {
+  int closure;  ///< -1: it is a joint's, or the ground's
+  int link;     ///< that the joint carries
+  LeftOut left_out;
+  int first_link;      ///< that the first part of a universal joint carries
+  double pitch;        ///< of a screw, m/rad
+  int point_link;      ///< of the point of the moment; -1: it is the child frame's origin
+  double p_LoPo_L[3];  ///< that point
+  int passages_begin, passages_end;  ///< of ReactionsView::passages
+};
+
+struct ReactionsView {
+  const ReactionShape* shapes;
+  const PassageShape* passages;
+  int count;
+  bool child_axes;
+};
+
+struct ReactionNumbers {
+  const double *links, *frames;
+  const double* closures;   ///< their wrenches
+  const double* tree;       ///< six numbers of each reaction of the open tree
+  std::size_t tree_stride;  ///< from one of these numbers to the next
+  double* values;
+};
+
 struct LoopFunctions {
   /// Sets R, o and z of all links but the root.
   /// @param angles room for twice as many numbers as there are angles and kMostAngleLanes
@@ -144,13 +206,20 @@ struct LoopFunctions {
   /// Copies columns of A, each entry times the factors of its row and column.
   void (*scaleColumns)(const RowsShape&, const ScaledColumns&, const double* row_factors,
                        const double* A, double* to);
-  /// Finds the larger of the norms of the first `lengths` of a set's values and of the others:
-  /// first as they are, then with the former times a factor.
-  void (*norms)(const RowsShape&, int lengths, double length_factor, const double* values,
-                double* sizes);
+  /// Finds how far closures are violated; see LoopResults.
+  void (*residuals)(const ResidualsView&, const ResidualNumbers&);
   /// Sums the wrenches of a closure's multipliers x, in units of their own, to six numbers.
   void (*sumWrenches)(const ClosureShape&, const double* units, const double* x,
                       const double* wrenches, double* sum);
+  /// Sets two wrenches of each closure: on its child about the child frame's origin, and on its
+  /// parent about the parent frame's.
+  void (*closureLoads)(int closures, const double* frames, const double* wrenches, double* loads);
+  void (*reactions)(const ReactionsView&, const ReactionNumbers&);
+  // Of one sample, also where the others are of packs: what is reported of a wrench in root axes
+  // about the child frame's origin, in the same axes about the same point, and as it is reported.
+  void (*leaveOut)(const ReactionShape&, const double* links, const double* frames, double* wrench);
+  void (*report)(const ReactionShape&, bool child_axes, const double* links, const double* frames,
+                 double* wrench);
 };
 
 struct LoopKernel {
