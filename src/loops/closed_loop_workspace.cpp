@@ -280,7 +280,7 @@ void ClosedLoopDynamics::Workspace::Impl::setExistence() {
 
 // A force without a direction leaves everything without a value that it reaches.
 void ClosedLoopDynamics::Workspace::Impl::leaveOutSprings() {
-  if (!results.undirected()) return;
+  if (plan.reach.empty() || !results.undirected()) return;
   LoopResults& loops = results.loops;
   constexpr Determined kNone{};
   for (std::size_t i = 0; i < plan.reach.size(); ++i) {

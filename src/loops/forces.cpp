@@ -221,6 +221,7 @@ void LoopForces::solveWhole(Eigen::Ref<Eigen::VectorXd> x) const {
 
 void LoopForces::choose(const std::vector<Wrench>& tree_reactions) {
   redundant_constraints_ = direction_count_;
+  if (sound_ && cost_rows_ == 0 && efforts_follow_) return;
   startNorms();
   if (norms_.open() == 0) return;
   const Eigen::Index efforts = index(unknowns_.efforts.size());
@@ -250,7 +251,6 @@ bool LoopForces::isUnique(double null_square) {
 
 // Whether efforts are the same in all solutions, as nothing in the null space moves them.
 bool LoopForces::effortsAreUnique() {
-  if (efforts_follow_) return true;
   const auto unique = [&](const LoopUnknowns::Effort& effort) {
     return isUnique(qr_.nullSquare(effort.unknown));
   };

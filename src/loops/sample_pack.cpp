@@ -45,8 +45,8 @@ void LoopForces::takeSample(const PackedSolution& packed, bool whole) {
 }
 
 bool SamplePack::serves(const ClosedLoopDynamics::Impl& plan) {
-  return plan.springs.size() == 0 && plan.actuated_closures.empty() && !plan.weighed_pass &&
-         plan.loops.policy == RedundancyPolicy::kMinimumNorm &&
+  return plan.closures > 0 && plan.springs.size() == 0 && plan.actuated_closures.empty() &&
+         !plan.weighed_pass && plan.loops.policy == RedundancyPolicy::kMinimumNorm &&
          plan.kinematics.sets() == plan.closures && !plan.kinematics.drives() &&
          plan.mechanism.orientations() == 0;
 }
