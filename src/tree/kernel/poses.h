@@ -31,7 +31,7 @@ VWD_INLINE BodyPose<T> propagatePose(const Body<R>& body, const KernelInputs<R>&
     pose.R_0Z = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
   });
   if (body.mobility == Mobility::kRevolute) pose.R_0Z = times(pose.R_0Z, joint.Rz);
-  if (body.mobility == Mobility::kOriented) {
+  if (VWD_SELDOM(body.mobility == Mobility::kOriented)) {
     const Mat3<T> turn = orientationOf<T>(body, in);
     const Mat3<T>& A = pose.R_0Z;
     const Vec3<T> x = transposeTimes(turn, Vec3<T>{A.xx, A.xy, A.xz});
