@@ -24,6 +24,8 @@
 #define VWD_INLINE inline __attribute__((always_inline))
 #define VWD_LAMBDA __attribute__((always_inline))
 #endif
+/// A condition that seldom holds: what it guards is laid aside, and the rest pays less for it.
+#define VWD_SELDOM(condition) __builtin_expect(condition, 0)
 
 namespace virtual_work_dynamics {
 namespace {  // see tree/kernel/kernel.h

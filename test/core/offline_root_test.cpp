@@ -302,11 +302,11 @@ TEST_F(OfflineRoot, ReactionsInInertialAxesAreThoseOfTheRootTurned) {
   const std::vector<double> inertial = row(found.out, 1);
   ASSERT_EQ(inertial.size(), in_root.size());
   EXPECT_EQ(inertial[1], in_root[1]);
-  // (w, x, y, z) = (1, -1, 1, 1) / 2 turns x into -y, y into z and z into -x.
+  // (w, x, y, z) = (1, -1, 1, 1) / 2 turns x into -z, y into -x and z into y.
   for (std::size_t first = 2; first < in_root.size(); first += 3) {
-    EXPECT_NEAR(inertial[first + 1], -in_root[first], 1e-12);
-    EXPECT_NEAR(inertial[first + 2], in_root[first + 1], 1e-12);
-    EXPECT_NEAR(inertial[first], -in_root[first + 2], 1e-12);
+    EXPECT_NEAR(inertial[first], -in_root[first + 1], 1e-12);
+    EXPECT_NEAR(inertial[first + 1], in_root[first + 2], 1e-12);
+    EXPECT_NEAR(inertial[first + 2], -in_root[first], 1e-12);
   }
   const Run rests = compute(motion("", ""), "--axes inertial");
   EXPECT_EQ(rests.exit_code, 2);

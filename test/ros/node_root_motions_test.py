@@ -330,6 +330,8 @@ class RootPoses(RootTest):
         values = self.node.diagnostics()
         self.assertEqual(values['dropped'], '0')
         self.assertEqual(int(values['root messages with rates that are not finite']), self.SECONDS * 50 + 1)
+        # Nor do they count as velocities of zero, which would contradict the poses.
+        self.assertEqual([line for line in self.node.lines('WARN') if 'velocities of' in line], [])
         said = [line for line in self.node.lines('WARN') if 'not finite' in line]
         self.assertEqual(len(said), 1, said)
         self.assertIn(self.topic + ': its twist.linear.z is inf: poses count without rates', said[0])

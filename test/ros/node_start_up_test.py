@@ -67,8 +67,6 @@ BAD_ROBOTS = {
     'inertia_infinite': (with_inertial(izz='inf'), ['arm', 'inertia']),
     'zero_axis': (robot(HINGE, joint('wrist', 'arm', 'hand', inside='<axis xyz="0 0 0"/>')),
                   ["joint 'wrist'", 'axis (0, 0, 0)']),
-    'floating_joint': (robot(HINGE, joint('wrist', 'arm', 'hand', 'floating')),
-                       ["joint 'wrist'", 'floating']),
     'mimic_cycle': (robot(joint('hinge', 'base', 'arm', inside=mimic('wrist')),
                           joint('wrist', 'arm', 'hand', inside=mimic('hinge'))),
                     ["joint 'hinge'", 'cycle']),

@@ -24,10 +24,12 @@ VWD_INLINE Vec3<T> pointOf(const PlanView<R>& plan, const MovedMoment<R>& moved,
       p = p - origin;
       forAxis(body.axis, [&](auto axis) VWD_LAMBDA { p = toChild<axis.value>(body.R_PZ, p); });
       if (turns) p = transposeTimes(joint.Rz, p);
-      if (body.mobility == Mobility::kOriented) p = transposeTimes(orientationOf<T>(body, in), p);
+      if (VWD_SELDOM(body.mobility == Mobility::kOriented))
+        p = transposeTimes(orientationOf<T>(body, in), p);
     } else {
       if (turns) p = times(joint.Rz, p);
-      if (body.mobility == Mobility::kOriented) p = times(orientationOf<T>(body, in), p);
+      if (VWD_SELDOM(body.mobility == Mobility::kOriented))
+        p = times(orientationOf<T>(body, in), p);
       forAxis(body.axis, [&](auto axis) VWD_LAMBDA { p = toParent<axis.value>(body.R_PZ, p); });
       p = origin + p;
     }

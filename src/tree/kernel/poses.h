@@ -29,7 +29,7 @@ VWD_INLINE Mat3<T> propagateRotation(const Body<R>& body, const KernelInputs<R>&
     R_0Z = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
   });
   if (body.mobility == Mobility::kRevolute) R_0Z = times(R_0Z, Rz);
-  if (body.mobility == Mobility::kOriented) {
+  if (VWD_SELDOM(body.mobility == Mobility::kOriented)) {
     const Mat3<T> turn = orientationOf<T>(body, in), A = R_0Z;
     const Vec3<T> x = transposeTimes(turn, Vec3<T>{A.xx, A.xy, A.xz});
     const Vec3<T> y = transposeTimes(turn, Vec3<T>{A.yx, A.yy, A.yz});

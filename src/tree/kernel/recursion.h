@@ -154,7 +154,7 @@ VWD_INLINE void propagateMotion(const Body<R>& body, const KernelInputs<R>& in,
     motion.gamma.x = mulAdd(qd2, motion.w.y, motion.gamma.x);  // (2.7), + 2 qd w x u3
     motion.gamma.y = subMul(motion.gamma.y, qd2, motion.w.x);
     motion.gamma.z = motion.gamma.z + joint.qdd;  // (2.7), + qdd u3
-  } else if (mobility == Mobility::kOriented) {
+  } else if (VWD_SELDOM(mobility == Mobility::kOriented)) {
     const Mat3<T> turn = orientationOf<T>(body, in);
     motion.gamma = transposeTimes(turn, motion.gamma);
     if (!kStatic) {
@@ -173,7 +173,7 @@ VWD_INLINE void startMotion(const Body<R>& body, const KernelInputs<R>& in,
   motion.gamma = {T(body.gamma_rest.x), T(body.gamma_rest.y), T(body.gamma_rest.z)};
   if (body.mobility == Mobility::kRevolute && !body.rest_along_z) {
     motion.gamma = transposeTimes(joint.Rz, body.gamma_rest);
-  } else if (body.mobility == Mobility::kOriented) {
+  } else if (VWD_SELDOM(body.mobility == Mobility::kOriented)) {
     motion.gamma = transposeTimes(orientationOf<T>(body, in), motion.gamma);
   }
   if (kStatic) return;
@@ -256,7 +256,7 @@ VWD_INLINE PlainWrench<T> toParent(const Body<R>& body, const KernelInputs<R>& i
   const Mobility mobility = kPlain ? Mobility::kRevolute : body.mobility;
   if (mobility == Mobility::kRevolute) {
     wrench = {times(joint.Rz, wrench.force), times(joint.Rz, wrench.torque)};
-  } else if (mobility == Mobility::kOriented) {
+  } else if (VWD_SELDOM(mobility == Mobility::kOriented)) {
     const Mat3<T> turn = orientationOf<T>(body, in);
     wrench = {times(turn, wrench.force), times(turn, wrench.torque)};
   }
