@@ -100,7 +100,7 @@ class Report:
     def _summary(self):
         columns = [('peak effort', 'effort', self._peak_text),
                    ('rms effort', 'effort', lambda load: self._text(load, load.rms)),
-                   ('range of effort, equivalent', 'effort', lambda load: self._text(load, load.range)),
+                   ('damage of effort, range of one cycle', 'effort', lambda load: self._text(load, load.range_once)),
                    ('peak radial force, N', 'radial_force', self._peak_text),
                    ('peak axial force, N', 'axial_force', self._peak_text),
                    ('peak tilting moment, N m', 'tilting_moment', self._peak_text),
@@ -269,12 +269,13 @@ class Report:
         rows = []
         for quantity in part.quantities:
             load = self.loads.get(part, quantity.name)
-            numbers = [load.mean, load.rms] + load.percentiles + [load.ball, load.roller, load.range]
+            numbers = [load.mean, load.rms] + load.percentiles + [load.ball, load.roller,
+                                                                     load.range_once, load.range]
             rows.append([quantity.words, quantity.unit, self._peak_text(load), number_text(load.peak_time, 5)]
                         + [self._text(load, number) for number in numbers]
                         + [number_text(load.cycles if self.loads.matters(load) else None)])
         header = ['', 'in', 'peak', 'at, s', 'mean', 'rms', '1 %', '5 %', 'median', '95 %', '99 %',
-                  'equivalent, ball', 'equivalent, roller', 'equivalent range', 'of cycles']
+                  'equivalent, ball', 'equivalent, roller', 'damage: range of one cycle', 'range of N cycles', 'N']
         return _without_empty(header, rows, 2)
 
     def _part_figures(self, part):

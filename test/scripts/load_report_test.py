@@ -168,6 +168,17 @@ class Report(Shared):
         self.assertRegex(text, r"`turn`: effort beyond the limit of 1\.5 N m in \d+ rows")
         self.assertNotIn("`lift`: effort beyond", text)
 
+    def test_noise_hardly_changes_the_damage(self):
+        columns = results()
+        columns["effort.turn"] += 0.02 * np.random.default_rng(3).normal(size=2000)
+        noisy = self.loads(self.report("noise", columns, "--figures-only"))["turn", "effort"]
+        clean = self.loads(self.made)["turn", "effort"]
+        self.assertGreater(float(noisy["cycles"]), 20 * float(clean["cycles"]))
+        self.assertLess(float(noisy["range"]), 0.6 * float(clean["range"]))
+        # Peaks of noise of one in a hundred add up to three of its deviations at either end of a cycle.
+        self.assertAlmostEqual(float(noisy["range_once"]), float(clean["range_once"]),
+                               delta=0.03 * float(clean["range_once"]))
+
     def test_gaps_and_missing_values(self):
         columns = results()
         columns["time"][1000:] += 5
