@@ -42,7 +42,9 @@ class Report:
         write_csv(self.loads, os.path.join(self.folder, 'loads.csv'))
         doubted = np.zeros(len(self.table), dtype=bool)
         for doubt in self.doubts:
-            doubted |= doubt.rows
+            # What is never determined, as across a plane mechanism, says nothing of a row.
+            if doubt.quantities is None or not np.all(doubt.rows):
+                doubted |= doubt.rows
         write_json(sums_of(self.loads, int(np.sum(doubted))), os.path.join(self.folder, SUMS))
 
     def write(self):

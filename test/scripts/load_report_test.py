@@ -200,7 +200,10 @@ class Report(Shared):
         columns["determined.pin.fy"] = (rows >= 20).astype(float)
         columns["determined.lift.ty"] = np.zeros(2000)
         columns["deviation.effort.turn"] = np.where(rows == 1500, 5.0, 0.01)
-        text = (self.report("doubt", columns) / "report.md").read_text(encoding="utf-8")
+        folder = self.report("doubt", columns)
+        text = (folder / "report.md").read_text(encoding="utf-8")
+        # Rows 0 to 19 and 1500; that ty of the lift is never determined says nothing of a row.
+        self.assertEqual(json.loads((folder / "sums.json").read_text())["doubtful_rows"], 21)
         self.assertRegex(text, r"close to a singular position.*10 of 2000 rows")
         self.assertRegex(text, r"pin: rigid-body mechanics does not determine fy; .*20 of 2000 rows")
         # Across the axis of the lift, what has ty in it; along it, nothing.
