@@ -1,6 +1,7 @@
 """Rows of results that are not to be trusted, and why."""
 import numpy as np
 
+from vwd_loads.document import number_text
 from vwd_loads.mechanism import COMPONENTS
 
 CLOSE = 1e4  # condition from which on the tool says that a position is close to a singular one
@@ -48,8 +49,8 @@ def _singular(table):
     condition = table.get('condition')
     if condition is None:
         return []
-    return [Doubt('close to a singular position (condition above %.0e): small errors of the motion make '
-                  'large errors of the loads' % CLOSE, ~(condition <= CLOSE))]
+    return [Doubt('close to a singular position (condition above %s): small errors of the motion make '
+                  'large errors of the loads' % number_text(CLOSE), ~(condition <= CLOSE))]
 
 
 def _chosen(table, parts):
@@ -75,7 +76,7 @@ def _uncertified(table):
     if not columns:
         return []
     worst = np.max(np.column_stack(columns), axis=1)
-    return [Doubt('a certificate of the arithmetic is above %.0e' % CERTIFIED, worst > CERTIFIED)]
+    return [Doubt('a certificate of the arithmetic is above %s' % number_text(CERTIFIED), worst > CERTIFIED)]
 
 
 def deviation_of(table, part):

@@ -18,11 +18,11 @@ def explanations(loads, clock, short_spectra):
         'roller bearings: the constant load that wears the bearing alike over the same travel. It is of the '
         'magnitude of the whole force; factors X and Y of a bearing are its own, and the same is in '
         '`loads.csv` for radial and axial force and tilting moment.',
-        'Cycles: rainflow count of ASTM E1049, halves of cycles included, of each signed component. Equivalent '
-        'range: the range that does the same damage in as many cycles, at the Wöhler exponent m = %s (3: welded '
-        'steel, 5 and more: machined steel). Noise makes many small cycles, which lower it; `range_once` in '
-        '`loads.csv`, the range that does the damage in a single cycle, does not depend on them, and '
-        '`range_once / N^(1/m)` is the range for N cycles.' % woehler,
+        'Cycles: rainflow count of ASTM E1049, halves of cycles included, of each signed component. Damage at the '
+        'Wöhler exponent m = %s (3: welded steel, 5 and more: machined steel): the range that does the damage of '
+        'all cycles in one, and in as many as were counted, N. Noise makes many small cycles, which hardly '
+        'change the first and lower the second; the range of any other number n of cycles is the first over '
+        'n^(1/m).' % woehler,
         'Mean driving power: the mean of effort times speed, where it is positive.',
         'Spectra: Welch, Hann windows that overlap by half, means taken out; the integral over frequencies is '
         'the variance. Of a force: the sum over its components. Frequencies beyond the bandwidth of the motion '

@@ -213,14 +213,15 @@ def _tables(fleet):
             continue
         rows.append([merged.name, merged.words, merged.unit, number_text(merged.peak), merged.peak_motion,
                      number_text(merged.peak_time, 5)]
-                    + [number_text(x) for x in (merged.mean, merged.rms, merged.ball, merged.roller,
-                                                merged.range(fleet.woehler),
-                                                merged.cycles if merged.counted else None)])
+                    + [number_text(x) for x in (
+                        merged.mean, merged.rms, merged.ball, merged.roller, merged.range_once(fleet.woehler),
+                        merged.range(fleet.woehler), merged.cycles if merged.counted else None)])
     if not rows:
         return []
     return [Heading(2, 'Loads'),
             Table(['', '', 'in', 'peak', 'in motion', 'at, s', 'mean', 'rms', 'equivalent, ball',
-                   'equivalent, roller', 'equivalent range, m = %s' % number_text(fleet.woehler), 'of cycles'],
+                   'equivalent, roller', 'damage, m = %s: range of one cycle' % number_text(fleet.woehler),
+                   'range of N cycles', 'N'],
                   rows, 3)]
 
 

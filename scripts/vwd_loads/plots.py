@@ -175,7 +175,7 @@ def limits_used(rows, path):
         axes.set_yticks(range(len(rows)))
         axes.set_yticklabels([name for name, _ in rows])
         axes.invert_yaxis()
-        axes.grid(axis='y', visible=False)
+        axes.yaxis.grid(False)
         axes.set_xlabel('part of the limit in the description, %')
         axes.legend(loc='upper left', bbox_to_anchor=(1.0, 1.0))
         return _save(figure, path)

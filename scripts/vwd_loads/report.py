@@ -42,7 +42,9 @@ class Report:
         write_csv(self.loads, os.path.join(self.folder, 'loads.csv'))
         doubted = np.zeros(len(self.table), dtype=bool)
         for doubt in self.doubts:
-            doubted |= doubt.rows
+            # What is never determined, as across a plane mechanism, says nothing of a row.
+            if doubt.quantities is None or not np.all(doubt.rows):
+                doubted |= doubt.rows
         write_json(sums_of(self.loads, int(np.sum(doubted))), os.path.join(self.folder, SUMS))
 
     def write(self):
@@ -100,7 +102,7 @@ class Report:
     def _summary(self):
         columns = [('peak effort', 'effort', self._peak_text),
                    ('rms effort', 'effort', lambda load: self._text(load, load.rms)),
-                   ('range of effort, equivalent', 'effort', lambda load: self._text(load, load.range)),
+                   ('damage of effort, range of one cycle', 'effort', lambda load: self._text(load, load.range_once)),
                    ('peak radial force, N', 'radial_force', self._peak_text),
                    ('peak axial force, N', 'axial_force', self._peak_text),
                    ('peak tilting moment, N m', 'tilting_moment', self._peak_text),
@@ -269,12 +271,13 @@ class Report:
         rows = []
         for quantity in part.quantities:
             load = self.loads.get(part, quantity.name)
-            numbers = [load.mean, load.rms] + load.percentiles + [load.ball, load.roller, load.range]
+            numbers = [load.mean, load.rms] + load.percentiles + [load.ball, load.roller,
+                                                                     load.range_once, load.range]
             rows.append([quantity.words, quantity.unit, self._peak_text(load), number_text(load.peak_time, 5)]
                         + [self._text(load, number) for number in numbers]
                         + [number_text(load.cycles if self.loads.matters(load) else None)])
         header = ['', 'in', 'peak', 'at, s', 'mean', 'rms', '1 %', '5 %', 'median', '95 %', '99 %',
-                  'equivalent, ball', 'equivalent, roller', 'equivalent range', 'of cycles']
+                  'equivalent, ball', 'equivalent, roller', 'damage: range of one cycle', 'range of N cycles', 'N']
         return _without_empty(header, rows, 2)
 
     def _part_figures(self, part):

@@ -185,6 +185,10 @@ TEST_F(OfflineNpz, WithSomethingWrongIsRefusedInOneLine) {
   const std::string whole = readFile(path("whole.npz"));
   write("m.npz", whole.substr(0, whole.size() - 30));
   expectRefused("m.npz", "its end is missing; it is cut off");
+  // The place of the directory, in the four bytes before the length of the comment.
+  write("m.npz",
+        whole.substr(0, whole.size() - 6) + "\xff\xff\xff\x7f" + whole.substr(whole.size() - 2));
+  expectRefused("m.npz", "m.npz: cannot be read as .npz: it is cut off or damaged");
 }
 
 TEST_F(OfflineNpz, ChangedAtRandomNeverEndsTheToolOtherwise) {

@@ -168,6 +168,17 @@ class Report(Shared):
         self.assertRegex(text, r"`turn`: effort beyond the limit of 1\.5 N m in \d+ rows")
         self.assertNotIn("`lift`: effort beyond", text)
 
+    def test_noise_hardly_changes_the_damage(self):
+        columns = results()
+        columns["effort.turn"] += 0.02 * np.random.default_rng(3).normal(size=2000)
+        noisy = self.loads(self.report("noise", columns, "--figures-only"))["turn", "effort"]
+        clean = self.loads(self.made)["turn", "effort"]
+        self.assertGreater(float(noisy["cycles"]), 20 * float(clean["cycles"]))
+        self.assertLess(float(noisy["range"]), 0.6 * float(clean["range"]))
+        # Peaks of noise of one in a hundred add up to three of its deviations at either end of a cycle.
+        self.assertAlmostEqual(float(noisy["range_once"]), float(clean["range_once"]),
+                               delta=0.03 * float(clean["range_once"]))
+
     def test_gaps_and_missing_values(self):
         columns = results()
         columns["time"][1000:] += 5
@@ -189,7 +200,10 @@ class Report(Shared):
         columns["determined.pin.fy"] = (rows >= 20).astype(float)
         columns["determined.lift.ty"] = np.zeros(2000)
         columns["deviation.effort.turn"] = np.where(rows == 1500, 5.0, 0.01)
-        text = (self.report("doubt", columns) / "report.md").read_text(encoding="utf-8")
+        folder = self.report("doubt", columns)
+        text = (folder / "report.md").read_text(encoding="utf-8")
+        # Rows 0 to 19 and 1500; that ty of the lift is never determined says nothing of a row.
+        self.assertEqual(json.loads((folder / "sums.json").read_text())["doubtful_rows"], 21)
         self.assertRegex(text, r"close to a singular position.*10 of 2000 rows")
         self.assertRegex(text, r"pin: rigid-body mechanics does not determine fy; .*20 of 2000 rows")
         # Across the axis of the lift, what has ty in it; along it, nothing.

@@ -22,7 +22,7 @@ from make_recordings import make_recordings  # noqa: E402 (the path has to be se
 from one_node_slurm import OneNodeSlurm  # noqa: E402
 
 OPTIONS = argparse.Namespace(tool=None, recordings=24)
-BROKEN, KILLED = 3, 11  # recordings by number
+BROKEN, KILLED, BLANKS = 3, 11, 5  # recordings by number; BLANKS has some in its name
 PATIENCE = 3000  # s
 
 # The tool, which of one recording waits for its end when it is first started.
@@ -39,7 +39,7 @@ exec "{tool}" "$@"
 
 
 def name_of(number):
-    return 'run_%03d.bag' % number
+    return ('run_%03d.bag' if number != BLANKS else 'run %03d (again).bag') % number
 
 
 class Run:
