@@ -214,6 +214,20 @@ TEST(GeneratedCode, HasTheBitsOfComputeFarOut) {
   expectSameBits(of, "cc", "-O1 ");
 }
 
+TEST(GeneratedCode, HasTheBitsOfComputeForMimicJointsNearAndFar) {
+  std::string urdf = pendulumUrdf();
+  const std::string end = "</joint>\n</robot>";
+  urdf.replace(urdf.find(end), end.size(),
+               "<mimic joint='joint_1' multiplier='1.3' offset='0.7'/>" + end);
+  Case of = caseOf(readUrdf(urdf), Scene(), true);
+  ASSERT_EQ(of.mechanism.coordinates().size(), 1u);
+  ASSERT_NE(generateCode(of.mechanism, of.scene, of.request).source.find("rest[0] ="),
+            std::string::npos);
+  expectSameBits(of, "cc", std::string("-O1 ") + kStrictC);
+  of.farthest = 2e6;
+  expectSameBits(of, "cc", "-O1 ");
+}
+
 TEST(GeneratedCode, HasTheBitsOfComputeInManyFunctions) {
   GeneratedCodeOptions how;
   how.name = "in_parts";

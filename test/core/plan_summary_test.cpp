@@ -95,11 +95,12 @@ TEST(PlanSummary, CountsARevoluteJointInGeneralPosition) {
 
   EXPECT_EQ(costOfOneMore(chain, true, false, false, false), efforts + 2 * kMatrixTimesVector);
 
-  // R_0Z R_PZ, then Rz; the origin; the wrench in root axes.
-  const Cost pose = 3 * kMatrixTimesVector + Cost{12, 6} + kMatrixTimesVector + kAddVector;
-  const Cost root_axes = efforts + pose + 2 * kMatrixTimesVector;
+  // R_0Z R_PZ, then Rz; the wrench in root axes.
+  const Cost rotation = 3 * kMatrixTimesVector + Cost{12, 6};
+  const Cost root_axes = efforts + rotation + 2 * kMatrixTimesVector;
   EXPECT_EQ(costOfOneMore(chain, false, true, false, false), root_axes);
-  const Cost reported_pose = 3 * kMatrixTimesVector;
+  // The origin, and the axes of the child link.
+  const Cost reported_pose = kMatrixTimesVector + kAddVector + 3 * kMatrixTimesVector;
   EXPECT_EQ(costOfOneMore(chain, false, true, true, false), root_axes + reported_pose);
   const Cost twist = kAddCross + kScaleVector + kAddVector;
   EXPECT_EQ(costOfOneMore(chain, false, true, true, true), root_axes + reported_pose + twist);
