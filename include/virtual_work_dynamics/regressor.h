@@ -47,8 +47,8 @@ struct Parameter {
 /// @throws SceneError when there is no such link, or no effort depends on it.
 std::vector<Parameter> inertialParameters(const Mechanism& mechanism, const std::string& link);
 
-/// Names of the links that joints of one freedom carry, in the mechanism's order: inertial
-/// parameters of others are sums of theirs.
+/// Names of the links that hang on joints that move, in the mechanism's order. What fixed joints
+/// hold to such a link is part of its parameters.
 std::vector<std::string> bodies(const Mechanism& mechanism);
 
 /// The four parameters of each joint that moves, in the mechanism's order.
@@ -60,8 +60,8 @@ std::vector<Parameter> jointParameters(const Mechanism& mechanism, const Scene& 
 /// whatever they hold: mimic joints, closed loops, a root that moves.
 class RegressorColumn {
  public:
-  /// @param scene of which gravity, the root, joint types' doings and closures count; wrenches,
-  ///   payloads and springs do not
+  /// @param scene of which gravity, the root's motion, closures and what is actuated count; applied
+  ///   wrenches, payloads and springs do not
   /// @param capacity the most rows of a block
   /// @throws SceneError as Dynamics, or when there is no such link or joint.
   RegressorColumn(const Mechanism& mechanism, const Scene& scene, const Parameter& parameter,
@@ -73,7 +73,8 @@ class RegressorColumn {
   /// Number of efforts, in the order of Dynamics::effortNames().
   Eigen::Index efforts() const;
 
-  /// Computes rows [first, first + count) of a table as SampleRows takes it. Does not allocate.
+  /// Computes rows [first, first + count) of a table that has velocities and accelerations of all
+  /// generalized coordinates, in their order.
   /// @param to receives `count` rows of efforts(), N m or N per unit of the parameter; what has no
   ///   value, in singular positions, is not a number
   /// @throws MotionError as SampleRows::compute().

@@ -70,6 +70,9 @@ def filtered_pieces(regressor, measured, keep, efforts, parameters, cutoff, load
     Parameters of a payload do not act where the recording is one without it (`loaded` is false)."""
     times = regressor.times
     good = keep & np.isfinite(measured[:, efforts]).all(1) & np.isfinite(regressor.described[:, efforts]).all(1)
+    for parameter in parameters:  # some have no value in singular positions of loops
+        if loaded or not parameter.kind.startswith('payload_'):
+            good &= np.isfinite(_column(parameter, regressor, efforts)).all(1)
     low_pass = Filter(times, cutoff)
     slices = [part for part in pieces(times, good) if times[part.stop - 1] - times[part.start] > SHORTEST / 2]
     result = [Piece(low_pass.rows(times[part]), low_pass(times[part], measured[part][:, efforts]),
@@ -81,12 +84,16 @@ def filtered_pieces(regressor, measured, keep, efforts, parameters, cutoff, load
             progress('filtering', k, len(parameters))
         if not loaded and parameter.kind.startswith('payload_'):
             continue
-        source = parameter.source
-        column = regressor.columns[source] if isinstance(source, int) else source(regressor)
-        column = np.nan_to_num(np.asarray(column)[:, efforts])
+        column = _column(parameter, regressor, efforts)
         for part, piece in zip(slices, result):
             piece.columns[k] = low_pass(times[part], column[part])
     return [piece for piece in result if len(piece.times) > 2]
+
+
+def _column(parameter, regressor, efforts):
+    source = parameter.source
+    column = regressor.columns[source] if isinstance(source, int) else source(regressor)
+    return np.asarray(column)[:, efforts]
 
 
 def check_length(found, parameters, efforts, cutoff):
