@@ -1,6 +1,7 @@
 vwd_core(
   instruction_set.cpp
   nearest_name.cpp
+  npy_header.cpp
   number_text.cpp
   output_file.cpp
   printable.cpp

@@ -1,18 +1,9 @@
 #include "dynamics/description_shares.h"
 
+#include "scene/bare_scene.h"
+
 namespace virtual_work_dynamics {
 namespace {
-
-// The scene without what does not come from masses and inertias of the description.
-Scene bare(Scene scene) {
-  scene.applied_wrenches.clear();
-  scene.payloads.clear();
-  scene.springs.clear();
-  scene.joints.clear();
-  scene.use_urdf_dynamics = false;
-  scene.strict_inertia = false;  // a body may have an inertia without a mass here
-  return scene;
-}
 
 enum class Kind { kMass, kInertia };
 
@@ -30,7 +21,7 @@ Mechanism alone(const Mechanism& mechanism, std::size_t link, Kind kind) {
 
 DescriptionShares::DescriptionShares(const Mechanism& mechanism, const Scene& scene,
                                      const Request& request) {
-  const Scene stripped = bare(scene);
+  const Scene stripped = bareScene(scene);
   const auto add = [&](std::size_t link, Kind kind, double tolerance) {
     if (tolerance == 0) return;
     shares_.push_back({Dynamics(alone(mechanism, link, kind), stripped, request), tolerance});

@@ -75,6 +75,14 @@ void parseReactions(const std::string& text, Arguments& arguments) {
   }
 }
 
+void parseParameters(const std::string& text, Arguments& arguments) {
+  arguments.parameters = split(text, ',');
+  const auto& names = arguments.parameters;
+  if (std::find(names.begin(), names.end(), "") != names.end()) {
+    throw UsageError("--parameters: there is an empty name in " + inQuotes(text));
+  }
+}
+
 Method parseMethod(const std::string& text) {
   if (text != "virtual_work" && text != "lagrange") {
     throw UsageError("--method: " + inQuotes(text) + " is neither virtual_work nor lagrange");
@@ -157,6 +165,8 @@ const std::map<std::string, Setter>& optionsWithValue() {
       {"--axes",
        [](const auto& value, auto& arguments) { arguments.child_axes = parseChildAxes(value); }},
       {"--reactions", parseReactions},
+      {"--regressor", [](const auto& value, auto& arguments) { arguments.regressor = value; }},
+      {"--parameters", parseParameters},
       {"--method",
        [](const auto& value, auto& arguments) { arguments.method = parseMethod(value); }},
       {"--loop-tolerance",
@@ -300,6 +310,24 @@ void checkForBag(const Arguments& arguments) {
   }
 }
 
+// What has no place beside a folder that is written instead of a result.
+void checkForRegressor(const Arguments& arguments) {
+  const std::pair<bool, const char*> kRefused[] = {
+      {!arguments.output.empty(), "--output"},
+      {arguments.check, "--check"},
+      {arguments.explain, "--explain"},
+      {arguments.child_axes, "--axes"},
+      {arguments.reactions.has_value(), "--reactions"},
+      {arguments.no_efforts, "--no-efforts"},
+      {arguments.method == Method::kLagrange, "--method lagrange"},
+      {arguments.certificates, "--certificates"},
+      {arguments.deviations, "--deviations"},
+      {arguments.positions, "--positions"}};
+  for (const auto& [given, option] : kRefused) {
+    if (given) throw UsageError(std::string(option) + " is of no use with --regressor");
+  }
+}
+
 }  // namespace
 
 bool Arguments::toBag() const {
@@ -315,6 +343,11 @@ Arguments parseArguments(const std::vector<std::string>& words) {
   }
   if (!arguments.motion.topic.empty() && arguments.motion.empty()) {
     throw UsageError("--topic is of use with --motion BAG only");
+  }
+  if (!arguments.regressor.empty()) {
+    checkForRegressor(arguments);
+  } else if (!arguments.parameters.empty()) {
+    throw UsageError("--parameters is of use with --regressor only");
   }
   if (arguments.toBag()) {
     checkForBag(arguments);

@@ -43,6 +43,8 @@ struct Arguments {
   std::string node = "/inverse_dynamics";  ///< whose topics a bag that is written has
   Method method = Method::kVirtualWork;
   bool certificates = false;
+  std::string regressor;                ///< folder to write the regressor to; empty: none
+  std::vector<std::string> parameters;  ///< of the regressor: joints, links or names of links
   bool deviations = false;
   bool positions = false;
   std::optional<double> deviation_warn;  ///< over the effort's rms; none: kDeviationWarn

@@ -78,6 +78,14 @@ Output
                         Memory does not grow with the bag.
   --copy-input          all messages of the bag that is read go to the one that is written, too
   --node NAME           node whose topics are written (default: /inverse_dynamics)
+  --regressor DIR       instead of a result, a folder of NumPy arrays for identification: effort.npy as
+                        described (rows x efforts), regressor.npy, what efforts are per unit of each
+                        parameter (parameters x rows x efforts), time.npy, position.npy, velocity.npy,
+                        acceleration.npy, and names.json with the parameters and their described values
+  --parameters LIST     parameters of the regressor, separated by commas: joints (damping, coulomb,
+                        rotor inertia and offset of every joint), links (mass, first moments and moments
+                        of inertia about its origin of every link that a joint moves), or links by
+                        name (default: joints,links)
   --check               only describes the robot and says what is doubtful about it; for closed
                         loops with --motion, also how close it comes to singular positions
   --explain             only says what a sample costs and what its computation leaves out because

@@ -21,6 +21,7 @@
 #include "offline/lagrange_rows.h"
 #include "offline/loop_report.h"
 #include "offline/recorded_motion.h"
+#include "offline/regressor_files.h"
 #include "offline/result_writer.h"
 #include "offline/root_rows.h"
 #include "offline/row_loads.h"
@@ -201,6 +202,22 @@ void explain(const Arguments& arguments, const Mechanism& mechanism, const Scene
   std::cout << std::flush;
 }
 
+// Identification needs the regressor in place of results.
+void writeRegressor(const Arguments& arguments, const Mechanism& mechanism, Scene scene) {
+  Names asked = arguments.parameters;
+  if (asked.empty()) asked = {"joints", "links"};
+  const std::vector<Parameter> parameters =
+      naming("--", [&] { return askedParameters(mechanism, scene, asked); });
+  const RegressorFiles files(arguments.regressor, mechanism, scene, arguments.threads);
+  RecordedMotion recorded = readStart(arguments, mechanism, scene);
+  Request request;
+  request.determinacy = false;
+  const Dynamics dynamics = dynamicsOf(mechanism, scene, request, arguments);
+  CompletedMotion motion(std::move(recorded), mechanism, scene, dynamics, toleranceOf(arguments),
+                         arguments.recording);
+  files.write(dynamics, motion, RowLoads(scene, motion.file()), parameters);
+}
+
 void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene) {
   const Request written = requestOf(mechanism, scene, arguments);
   RecordedMotion recorded = readStart(arguments, mechanism, scene);
@@ -281,6 +298,7 @@ void runOffline(const Arguments& arguments) {
   if (arguments.check || arguments.explain) return;
   printDoubts(std::cerr, mechanism);
   refuseByLoops(arguments, needsClosedLoops(scene));
+  if (!arguments.regressor.empty()) return writeRegressor(arguments, mechanism, scene);
   compute(arguments, mechanism, scene);
 }
 

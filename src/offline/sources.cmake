@@ -17,6 +17,7 @@ foreach(file
     motion_file.cpp
     offline.cpp
     recorded_motion.cpp
+    regressor_files.cpp
     result_writer.cpp
     root_rows.cpp
     row_loads.cpp

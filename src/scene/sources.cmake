@@ -1,4 +1,5 @@
 vwd_core(
+  bare_scene.cpp
   closure_reader.cpp
   closure_types.cpp
   input_checks.cpp

@@ -82,6 +82,7 @@ set(core_test_files
   test/core/offline_names_test.cpp
   test/core/offline_plan_test.cpp
   test/core/offline_recordings_test.cpp
+  test/core/offline_regressor_test.cpp
   test/core/offline_root_test.cpp
   test/core/offline_test.cpp
   test/core/offline_wrapped_test.cpp
@@ -103,6 +104,7 @@ set(core_test_files
   test/core/recording_test.cpp
   test/core/reference_recursion_test.cpp
   test/core/reference_test.cpp
+  test/core/regressor_test.cpp
   test/core/root_coordinates_test.cpp
   test/core/root_estimator_test.cpp
   test/core/root_imu_test.cpp

@@ -1,0 +1,3 @@
+vwd_core(
+  parameters.cpp
+  regressor.cpp)
