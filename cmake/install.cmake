@@ -61,6 +61,7 @@ else()
   export(EXPORT ${PROJECT_NAME}
     NAMESPACE ${PROJECT_NAME}::
     FILE ${CATKIN_DEVEL_PREFIX}/share/${PROJECT_NAME}/cmake/${PROJECT_NAME}Targets.cmake)
-  catkin_install_python(PROGRAMS scripts/read_input.py DESTINATION ${vwd_programs})
+  catkin_install_python(PROGRAMS scripts/identify.py scripts/read_input.py DESTINATION ${vwd_programs})
+  install(DIRECTORY scripts/identification DESTINATION ${vwd_programs} FILES_MATCHING PATTERN "*.py")
   install(DIRECTORY launch DESTINATION ${vwd_data})
 endif()

@@ -24,7 +24,7 @@ test_packages=(
 check_packages=(
   "${test_packages[@]}"
   binutils catkin-lint clang-14 clang-format-14 doxygen libbenchmark-dev libclang-rt-14-dev
-  liborocos-kdl-dev
+  liborocos-kdl-dev python3-matplotlib python3-scipy python3-yaml
 )
 demo_packages=("${run_packages[@]}" python3-matplotlib)
 rviz_packages=("${run_packages[@]}" rviz)

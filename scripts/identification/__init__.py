@@ -1,0 +1,1 @@
+"""What identify.py is made of: recordings, filters, regression, bodies, results."""
