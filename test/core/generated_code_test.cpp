@@ -181,7 +181,7 @@ TEST(GeneratedCode, HasTheBitsOfComputeAsCpp) {
 TEST(GeneratedCode, HasTheBitsOfComputeFromOtherCompilers) {
   const Mechanism mechanism = readUrdf(RandomRobot(2, 8).urdf());
   int compilers = 0;
-  for (const std::string compiler : {"gcc", "clang", "clang-14"}) {
+  for (const char* const compiler : {"gcc", "clang", "clang-14"}) {
     if (!isThere(compiler)) continue;
     ++compilers;
     SCOPED_TRACE(compiler);

@@ -14,9 +14,12 @@ class OfflineGenerate : public OfflineTool {
   std::string errorOf(const std::string& arguments) const {
     const Run result = run("--urdf crane.urdf " + arguments);
     EXPECT_NE(result.exit_code, 0);
+    // Behind the warning of the crane's tool, which is as thin as a needle.
     const std::string begin = "inverse_dynamics_offline: error: ";
-    EXPECT_EQ(result.err.compare(0, begin.size(), begin), 0) << result.err;
-    return result.err.substr(begin.size(), result.err.find('\n') - begin.size());
+    const std::size_t at = result.err.find(begin);
+    if (at == std::string::npos) return result.err;
+    const std::size_t from = at + begin.size();
+    return result.err.substr(from, result.err.find('\n', from) - from);
   }
 
   void SetUp() override {
@@ -37,7 +40,7 @@ TEST_F(OfflineGenerate, WritesASourceAndAHeaderThatSaysWhatItIs) {
   ASSERT_EQ(std::system(("cksum <'" + path("scene.yaml") + "' >'" + path("sum") + "'").c_str()), 0);
   const std::string sum = readFile(path("sum"));
   const std::string number = sum.substr(0, sum.find(' '));
-  for (const std::string line :
+  for (const std::string& line :
        {std::string("Inverse dynamics of the robot 'crane' in one scene."),
         std::string("Description: 'crane.urdf', cksum "),
         "Scene: 'scene.yaml', cksum " + number + " ", std::string("Gravity: 0 0 -1.62 m/s^2"),
@@ -83,7 +86,8 @@ TEST_F(OfflineGenerate, RefusesInOneLine) {
       "factorization whose steps depend on the position");
   EXPECT_EQ(errorOf("--no-efforts --reactions none --generate crane.c"),
             "no code can be generated, as neither efforts nor reactions are asked for");
-  EXPECT_EQ(errorOf("--reactions elbo --generate crane.c").substr(0, 2), "--");
+  EXPECT_EQ(errorOf("--reactions elbo --generate crane.c"),
+            "--reactions[0]: no joint 'elbo'; did you mean 'elbow'?");
   EXPECT_FALSE(exists("crane.c"));
   EXPECT_FALSE(exists("crane.h"));
 }
