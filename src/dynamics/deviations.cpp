@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "base/number_text.h"
 #include "dynamics/compiled_dynamics.h"
 #include "dynamics/description_shares.h"
+#include "dynamics/scene_doubts.h"
 #include "dynamics/shifted_samples.h"
 #include "scene/input_checks.h"
 #include "virtual_work_dynamics/error.h"
@@ -38,41 +38,11 @@ double shiftOf(MotionLevel level, double value, double deviation) {
   return std::copysign(std::max(deviation, kLeastShift * size), -value);
 }
 
-void requireSound(const Tolerances& tolerances) {
-  const auto require = [](const char* name, double value) {
-    if (value >= 0 && value < 1) return;
-    throw SceneError(std::string("tolerances.") + name + ": " + numberText(value) +
-                     " is not from 0 to below 1");
-  };
-  require("mass", tolerances.mass);
-  require("inertia", tolerances.inertia);
-}
-
-void requireSound(const WrenchDeviation& deviation) {
-  for (const double value : {deviation.force, deviation.torque}) {
-    if (value >= 0) continue;
-    throw SceneError("applied_wrenches: a deviation of " + numberText(value) +
-                     " is not zero or more");
-  }
-}
-
 // The root's covariance, and the part of it that an effort is doubtful by: turn, angular velocity,
 // angular acceleration and acceleration.
 constexpr Eigen::Index kRootParts = 4;
 
 }  // namespace
-
-std::vector<WrenchCovariance> wrenchCovariances(const Scene& scene) {
-  std::vector<WrenchCovariance> covariances;
-  for (const AppliedWrench& wrench : scene.applied_wrenches) {
-    const WrenchDeviation own = wrench.deviation.value_or(WrenchDeviation());
-    WrenchCovariance covariance = WrenchCovariance::Zero();
-    covariance.diagonal() << Eigen::Vector3d::Constant(own.force * own.force),
-        Eigen::Vector3d::Constant(own.torque * own.torque);
-    covariances.push_back(covariance);
-  }
-  return covariances;
-}
 
 struct Deviations::Impl {
   Impl(const Mechanism& of, const Scene& scene, const Request& request)
@@ -83,10 +53,8 @@ struct Deviations::Impl {
         wrenches(wrenchCovariances(scene)),
         independent(static_cast<std::size_t>(dynamics.coordinates()), true),
         description(mechanism, scene, dynamics.request()) {
-    requireSound(scene.tolerances);
+    requireSoundDoubts(scene);
     if (dynamics.closed()) independent = independentCoordinates(*dynamics.impl_->loops);
-    for (const AppliedWrench& wrench : scene.applied_wrenches)
-      requireSound(wrench.deviation.value_or(WrenchDeviation()));
   }
 
   std::unique_ptr<ShiftedSamples> makeSamples() const {

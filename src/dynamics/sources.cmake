@@ -13,4 +13,5 @@ vwd_core(
   passive_joints.cpp
   shifted_samples.cpp
   sample_rows.cpp
+  scene_doubts.cpp
   wrench_history.cpp)
