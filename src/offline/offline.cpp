@@ -10,6 +10,7 @@
 #include "base/number_text.h"
 #include "base/output_file.h"
 #include "base/printable.h"
+#include "base/text_file.h"
 #include "dynamics/given_joints.h"
 #include "dynamics/motion_start.h"
 #include "motion/free_columns.h"
@@ -20,6 +21,7 @@
 #include "offline/deviation_rows.h"
 #include "offline/inputs.h"
 #include "offline/lagrange_rows.h"
+#include "offline/limit_rows.h"
 #include "offline/loop_report.h"
 #include "offline/measured_file.h"
 #include "offline/recorded_motion.h"
@@ -28,6 +30,7 @@
 #include "offline/root_rows.h"
 #include "offline/row_loads.h"
 #include "offline/rows.h"
+#include "robot/effort_limits.h"
 #include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/joint_types.h"
 #include "virtual_work_dynamics/urdf_reader.h"
@@ -150,6 +153,11 @@ RecordedMotion readStart(const Arguments& arguments, const Mechanism& mechanism,
     throw SceneError(prefixOf(arguments) + error.what());
   }
   return recorded;
+}
+
+std::vector<double> limitsOf(const Arguments& arguments, const Mechanism& mechanism) {
+  constexpr std::size_t kLongestDescription = std::size_t{1} << 28;  // bytes
+  return effortLimits(readTextFile(arguments.urdf, kLongestDescription), mechanism);
 }
 
 // The efforts that were measured, if they are asked for.
@@ -279,6 +287,10 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
     const Names motion_columns = motionColumns(mechanism);
     columns.more.insert(columns.more.end(), motion_columns.begin(), motion_columns.end());
   }
+  std::optional<LimitRows> limits;
+  if (arguments.effort_limits) {
+    limits.emplace(mechanism.coordinateNames(), limitsOf(arguments, mechanism));
+  }
   const std::string header = resultHeader(columns);
   OutputFile file(arguments.output);
   ResultWriter writer(file, header);
@@ -290,6 +302,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
     Computation(dynamics, motion, loads, arguments.threads)
         .run([&](std::size_t row, const Motion& at, const Load& load, const Results& results) {
           rows.write(row, at, load, lagrange ? lagrange->compute(at, load, results) : results);
+          if (limits) limits->add(motion.file().table.times[row], results);
         });
     warning = rows.warning();
   }
@@ -299,6 +312,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
               << ": certificates judge arithmetic, not input: "
               << certified->summary(motion.file().row_name) << "\n";
   }
+  if (limits) std::cerr << limits->text(printable(arguments.motion.name()));
   printNotes(arguments, mechanism, scene, deviations ? &*deviations : nullptr,
              residuals ? &*residuals : nullptr);
   writer.finish();

@@ -14,6 +14,7 @@ foreach(file
     joint_renaming.cpp
     joint_state_rows.cpp
     lagrange_rows.cpp
+    limit_rows.cpp
     loop_report.cpp
     measured_efforts.cpp
     measured_file.cpp

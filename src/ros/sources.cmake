@@ -9,6 +9,7 @@ foreach(file
     deviation_output.cpp
     deviation_report.cpp
     diagnostics.cpp
+    effort_measurements.cpp
     fixed_frames.cpp
     imu_conversion.cpp
     inverse_dynamics_node.cpp
@@ -26,6 +27,7 @@ foreach(file
     plan_switch.cpp
     private_name.cpp
     private_parameters.cpp
+    residual_output.cpp
     robot_task.cpp
     root_conversion.cpp
     root_frames.cpp
@@ -42,6 +44,8 @@ foreach(file
     start_position.cpp
     stream_record.cpp
     stream_report.cpp
+    threshold_record.cpp
+    threshold_report.cpp
     topic_names.cpp
     trajectory_conversion.cpp
     trajectory_output.cpp
