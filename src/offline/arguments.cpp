@@ -230,6 +230,7 @@ const std::map<std::string, Switch>& switches() {
       {"--copy-input", [](Arguments& all) -> bool& { return all.copy_input; }},
       {"--degrees", [](Arguments& all) -> bool& { return all.motion.degrees; }},
       {"--deviations", [](Arguments& all) -> bool& { return all.deviations; }},
+      {"--effort-limits", [](Arguments& all) -> bool& { return all.effort_limits; }},
       {"--explain", [](Arguments& all) -> bool& { return all.explain; }},
       {"--help", [](Arguments& all) -> bool& { return all.help; }},
       {"--no-efforts", [](Arguments& all) -> bool& { return all.no_efforts; }},
@@ -339,6 +340,11 @@ void checkForBag(const Arguments& arguments) {
       {arguments.no_efforts, "--no-efforts: a bag has the topics of the node"},
       {lagrange, "--method lagrange: its results are written as CSV only"},
       {arguments.certificates, "--certificates: they are written as CSV only"},
+      {!arguments.measured.empty(),
+       "--measured: measured efforts of a bag are those of its joint states"},
+      {!arguments.measured.topic.empty(),
+       "--measured-topic: measured efforts of a bag are those of its joint states"},
+      {arguments.effort_limits, "--effort-limits: they are listed of rows of CSV only"},
       {arguments.positions, "--positions: the topic motion of a bag has them"},
       {arguments.threads != 1, "--threads: a bag is computed as the node does it, in one thread"}};
   for (const auto& [given, text] : kRefused) {
@@ -408,6 +414,9 @@ Arguments parseArguments(const std::vector<std::string>& words) {
   }
   if (!arguments.report.empty() && (arguments.check || arguments.explain)) {
     throw UsageError("--report cannot be used with --check or --explain");
+  }
+  if (arguments.effort_limits && arguments.no_efforts) {
+    throw UsageError("--effort-limits: need the efforts that --no-efforts leaves out");
   }
   if (arguments.deviation_warn && !arguments.deviations) {
     throw UsageError("--deviation-warn is of use with --deviations only");

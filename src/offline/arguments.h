@@ -50,7 +50,8 @@ struct Arguments {
   std::vector<std::string> parameters;  ///< of the regressor: joints, links or names of links
   bool deviations = false;
   bool positions = false;
-  bool residuals = false;                ///< of measured efforts, which are in the motion unless…
+  bool effort_limits = false;  ///< whether efforts beyond the description's limits are listed
+  bool residuals = false;      ///< of measured efforts, which are in the motion unless…
   std::optional<double> observer_gain;   ///< 1/s; none: no momentum observer
   MotionSource measured;                 ///< …they are from here
   std::optional<double> deviation_warn;  ///< over the effort's rms; none: kDeviationWarn

@@ -76,6 +76,8 @@ What is computed
                         standard deviations of the results by the error of the estimated motion; and,
                         where the scene has tolerances, tolerance.effort.<joint>,
                         tolerance.<name>.{fx,...,tz}: by the errors of masses and inertias
+  --effort-limits       lists efforts beyond the limits of the description (<limit effort="...">): joint, times,
+                        peak and limit
   --positions           adds the columns position.<joint>, velocity.<joint> and acceleration.<joint>
                         of all joints: the motion that the results belong to, which can be read as a
                         motion again

@@ -22,6 +22,7 @@
 #include "offline/generated_files.h"
 #include "offline/inputs.h"
 #include "offline/lagrange_rows.h"
+#include "offline/limit_rows.h"
 #include "offline/load_report.h"
 #include "offline/loop_report.h"
 #include "offline/measured_file.h"
@@ -35,6 +36,7 @@
 #include "offline/root_rows.h"
 #include "offline/row_loads.h"
 #include "offline/rows.h"
+#include "robot/effort_limits.h"
 #include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/joint_types.h"
 #include "virtual_work_dynamics/urdf_reader.h"
@@ -321,6 +323,10 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
     const Names motion_columns = motionColumns(mechanism);
     columns.more.insert(columns.more.end(), motion_columns.begin(), motion_columns.end());
   }
+  std::optional<LimitRows> limits;
+  if (arguments.effort_limits) {
+    limits.emplace(mechanism.coordinateNames(), effortLimits(mechanism));
+  }
   const bool reports = !arguments.report.empty();
   const std::string described = reports || arguments.toNpz()
                                     ? mechanismJson(arguments, mechanism, scene, dynamics, columns)
@@ -339,6 +345,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
     Computation(dynamics, motion, loads, arguments.threads)
         .run([&](std::size_t row, const Motion& at, const Load& load, const Results& results) {
           rows.write(row, at, load, lagrange ? lagrange->compute(at, load, results) : results);
+          if (limits) limits->add(motion.file().table.times[row], results);
         });
     warning = rows.warning();
   }
@@ -348,6 +355,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
               << ": certificates judge arithmetic, not input: "
               << certified->summary(motion.file().row_name) << "\n";
   }
+  if (limits) std::cerr << limits->text(printable(arguments.motion.name()));
   printNotes(arguments, deviations ? &*deviations : nullptr, residuals ? &*residuals : nullptr);
   table->finish();
   if (reports) makeLoadReport(arguments, described);

@@ -16,6 +16,7 @@ foreach(file
     joint_state_rows.cpp
     lagrange_rows.cpp
     load_report.cpp
+    limit_rows.cpp
     loop_report.cpp
     measured_efforts.cpp
     measured_file.cpp

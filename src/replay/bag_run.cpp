@@ -44,6 +44,7 @@ InverseDynamicsParameters parametersOf(const Arguments& arguments) {
   for (const auto& [name, position] : arguments.recording.rest) {
     parameters.rest.push_back({name, position});
   }
+  if (arguments.observer_gain) parameters.external.observer_gain = *arguments.observer_gain;
   if (arguments.loop_tolerance) parameters.loop_limits.tolerance = *arguments.loop_tolerance;
   return parameters;
 }
@@ -79,6 +80,7 @@ Audience audienceOf(const RobotTask& task, const Arguments& arguments) {
     const Output& output = *task.outputs[i];
     if (output.ofTrajectories() || output.isForLooking()) continue;
     if (output.ofDeviations() && !arguments.deviations) continue;
+    if (output.ofMeasuredEfforts() && !arguments.residuals) continue;
     audience.push_back(i);
   }
   return audience;

@@ -39,6 +39,7 @@ ReplayedStates::ReplayedStates(const RobotTask& task, const MotionSource& source
   if (task.everything.closed()) estimator_.waitFor(completer_.needed());
   for (const auto& [coordinate, position] : task.rest) estimator_.setRest(coordinate, position);
   loops_.setPassiveGiven(completer_.allGiven());
+  computation_.measureEfforts(*task.efforts);
 }
 
 void ReplayedStates::take(const JointStateContent& content, std::size_t number) {
@@ -51,6 +52,7 @@ void ReplayedStates::take(const JointStateContent& content, std::size_t number) 
 void ReplayedStates::translate(const JointStateContent& content) {
   message_.position = content.positions;
   message_.velocity = content.velocities;
+  message_.effort = content.efforts;
   if (source_.rename.empty() && !source_.degrees) {
     message_.name = content.names;
     return;

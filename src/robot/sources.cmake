@@ -1,5 +1,6 @@
 vwd_core(
   compound_joints.cpp
+  effort_limits.cpp
   inertia_doubts.cpp
   mechanism.cpp
   unit_doubts.cpp

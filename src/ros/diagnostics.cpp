@@ -30,7 +30,8 @@ void addMicroseconds(DiagnosticStatusWrapper& status, const char* key, std::int6
 Diagnostics::Diagnostics(const Counters& counters_read, RunTimeHistogram& run_times,
                          const JointWatch& joints, const SelfCheckReport& self_check,
                          const LoopReport& loops, const StreamReport& streams,
-                         const DeviationReport& deviations, const std::string& robot, double period)
+                         const DeviationReport& deviations, const ThresholdReport& thresholds,
+                         const std::string& robot, double period)
     : counters_(counters_read),
       run_times_(run_times),
       joints_(joints),
@@ -38,6 +39,7 @@ Diagnostics::Diagnostics(const Counters& counters_read, RunTimeHistogram& run_ti
       loops_(loops),
       streams_(streams),
       deviations_(deviations),
+      thresholds_(thresholds),
       period_(std::chrono::duration_cast<std::chrono::nanoseconds>(
           std::chrono::duration<double>(period))),
       next_(JointWatch::Clock::now() + period_) {
@@ -100,6 +102,7 @@ void Diagnostics::report(DiagnosticStatusWrapper& status) {
   loops_.add(status);
   streams_.add(status);
   deviations_.add(status);
+  thresholds_.add(status);
   addCounts(status);
   status.add("joints waited for", missing.empty() ? "none" : shortList(missing));
   status.add("subscribed outputs", outputs_);

@@ -13,6 +13,7 @@
 #include "ros/loop_report.h"
 #include "ros/self_check_report.h"
 #include "ros/stream_report.h"
+#include "ros/threshold_report.h"
 
 namespace virtual_work_dynamics {
 
@@ -23,7 +24,7 @@ class Diagnostics {
   Diagnostics(const Counters& counters_read, RunTimeHistogram& run_times, const JointWatch& joints,
               const SelfCheckReport& self_check, const LoopReport& loops,
               const StreamReport& streams, const DeviationReport& deviations,
-              const std::string& robot, double period);
+              const ThresholdReport& thresholds, const std::string& robot, double period);
 
   /// Sets what the node does now: the subscribed outputs, and what it computes for them.
   void setPlan(const std::vector<std::string>& outputs, const std::string& plan,
@@ -61,6 +62,7 @@ class Diagnostics {
   LoopReport loops_;
   StreamReport streams_;
   DeviationReport deviations_;
+  ThresholdReport thresholds_;
   const std::chrono::nanoseconds period_;
   JointWatch::Clock::time_point next_;
   Before before_;

@@ -62,11 +62,13 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
                    LoopReport(task_.everything, task_.reactions, loops_, parameters.loop_limits),
                    StreamReport(streams_, task_.mechanism.coordinateNames(), task_.units()),
                    DeviationReport(task_.deviations, parameters.deviation_warn),
-                   task_.mechanism.name(), parameters.diagnostic_period),
+                   ThresholdReport(task_.external, task_.limits), task_.mechanism.name(),
+                   parameters.diagnostic_period),
       sim_time_(ros::Time::isSimTime()),
       wrench_inputs_(task_.mechanism, parameters.frame_prefix, wrenches_, parameters.wrench_timeout,
                      counters_, [this](const auto&... what) { drop(what...); }) {
   task_.log(parameters);
+  joint_states_.measureEfforts(*task_.efforts);
   ros::NodeHandle node;
   if (task_.everything.closed()) estimator_.waitFor(completer_.needed());
   for (const auto& [coordinate, position] : task_.rest) estimator_.setRest(coordinate, position);

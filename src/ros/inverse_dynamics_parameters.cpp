@@ -105,6 +105,50 @@ std::vector<RestingJoint> readRest(PrivateParameters& parameters) {
   return rest;
 }
 
+std::vector<std::pair<std::string, double>> readThresholds(PrivateParameters& parameters) {
+  constexpr char kName[] = "external_effort/thresholds";
+  constexpr char kForm[] = "expected a list like [{name: elbow, effort: 4.5}]";
+  std::vector<std::pair<std::string, double>> thresholds;
+  XmlRpc::XmlRpcValue list = parameters.raw(kName);
+  if (!list.valid()) return thresholds;
+  if (list.getType() != XmlRpc::XmlRpcValue::TypeArray) throw parameterError(kName, kForm);
+  for (int i = 0; i < list.size(); ++i) {
+    XmlRpc::XmlRpcValue entry = list[i];
+    const bool form = entry.getType() == XmlRpc::XmlRpcValue::TypeStruct && entry.size() == 2 &&
+                      entry.hasMember("name") && entry.hasMember("effort") &&
+                      entry["name"].getType() == XmlRpc::XmlRpcValue::TypeString;
+    if (!form) throw parameterError(kName, kForm);
+    const std::string name = entry["name"];
+    const double effort = numberOf(entry["effort"], kName + (" of " + inQuotes(name)));
+    if (!(effort > 0)) {
+      throw parameterError(kName, inQuotes(name) + ": " + numberText(effort) + " is not positive");
+    }
+    thresholds.emplace_back(name, effort);
+  }
+  return thresholds;
+}
+
+ExternalEffortSettings readExternalEffort(PrivateParameters& parameters) {
+  ExternalEffortSettings settings;
+  settings.thresholds = readThresholds(parameters);
+  settings.hold = parameters.number("external_effort/hold", settings.hold);
+  if (!(settings.hold >= 0)) {
+    throw parameterError("external_effort/hold", numberText(settings.hold) + " s is less than 0");
+  }
+  const std::string by = parameters.text("external_effort/by", "residual");
+  if (by != "residual" && by != "observer") {
+    throw parameterError("external_effort/by", inQuotes(by) + " is neither residual nor observer");
+  }
+  settings.observed = by == "observer";
+  settings.observer_gain = parameters.number("external_effort/gain", settings.observer_gain);
+  if (!(settings.observer_gain > 0)) {
+    throw parameterError("external_effort/gain",
+                         numberText(settings.observer_gain) + " 1/s is not positive");
+  }
+  settings.effort_limits = parameters.boolean("effort_limit_warn", settings.effort_limits);
+  return settings;
+}
+
 int readQueueSize(PrivateParameters& parameters, const std::string& name, int fallback) {
   const int size = parameters.integer(name, fallback);
   if (size < 1) throw parameterError(name, std::to_string(size) + " is less than 1 message");
@@ -238,6 +282,7 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   result.root = readRoot(parameters);
   result.late_threshold = readPeriod(parameters, "late_threshold", result.late_threshold);
   result.self_check = readSelfCheck(parameters);
+  result.external = readExternalEffort(parameters);
   result.loop_limits = readLoopLimits(parameters);
   result.start_patience = readStartPatience(parameters, result.start_patience);
   result.deviation_warn = readDeviationWarn(parameters, result.deviation_warn);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dynamics/effort_doubts.h"
@@ -21,6 +22,16 @@ struct SelfCheckSettings {
   bool certificates = false;     ///< whether every sample is certified
   double residual_warn = 1e-10;  ///< WARN from here on, relative to sums of magnitudes
   double residual_error = 1e-7;  ///< ERROR from here on, relative to sums of magnitudes
+};
+
+/// What is made of measured efforts, and which efforts are watched.
+struct ExternalEffortSettings {
+  /// Thresholds of external efforts by joint, N m or N; none: nothing is watched.
+  std::vector<std::pair<std::string, double>> thresholds;
+  double hold = 0.02;          ///< s that one must be exceeded
+  bool observed = false;       ///< whether the thresholds are of ~external_effort, not of ~residual
+  double observer_gain = 25;   ///< of ~external_effort, 1/s
+  bool effort_limits = false;  ///< whether efforts beyond the description's limits are a WARN
 };
 
 /// A joint whose states may never come.
@@ -50,6 +61,7 @@ struct InverseDynamicsParameters {
   double start_patience = 0;       ///< s to wait for joint states where loops cannot be assembled
   LoopLimits loop_limits;          ///< samples beyond them are a WARN
   SelfCheckSettings self_check;
+  ExternalEffortSettings external;
   double marker_rate = 20;                 ///< largest rate of ~markers, Hz
   double deviation_warn = kDeviationWarn;  ///< deviation of an effort over the effort, both rms
 };

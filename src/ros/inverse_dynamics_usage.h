@@ -21,6 +21,8 @@ subscribes
 publishes (each only while somebody subscribes)
   ~effort            sensor_msgs/JointState           positions and velocities used, efforts
   ~effort_deviation  sensor_msgs/JointState           standard deviations of efforts by the motion's error
+  ~residual          sensor_msgs/JointState           external efforts: computed less measured ones
+  ~external_effort   sensor_msgs/JointState           the same by a momentum observer, without the lag
   ~effort_tolerance  sensor_msgs/JointState           the same by the scene's tolerances, where it has any
   ~reactions         sensor_msgs/MultiDOFJointState   joint poses and wrenches, axes of the root link
   ~reactions_inertial                                 the same in inertial axes, by ~root/axes
@@ -69,6 +71,11 @@ parameters
   ~residual_error            ERROR from this residual of a check on (1e-7)
   ~deviation_warn            WARN where an effort's deviation exceeds this times the effort, both rms,
                              while ~effort_deviation has subscribers (0.1)
+  ~external_effort/thresholds  [{name, effort}]: WARN where an external effort is larger ([])
+  ~external_effort/hold      s for which it must be (0.02)
+  ~external_effort/by        residual | observer: whose external efforts these are (residual)
+  ~external_effort/gain      of the momentum observer, 1/s (25)
+  ~effort_limit_warn         WARN where an effort is beyond the description's limit (false)
   ~loop_tolerance            closed loops: WARN where a motion violates one by more, relative (1e-6)
   ~start_patience            closed loops that cannot be assembled from the scene: s to wait at the start for
                              joint states that say where they are (0)

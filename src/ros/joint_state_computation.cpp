@@ -40,6 +40,10 @@ bool JointStateComputation::take(const sensor_msgs::JointState& message) {
     user_.warn(sample.velocity_problem + "; velocities that are not finite are not used");
   }
   if (!push(sample, &JointStateUser::dropJointState)) return false;
+  if (efforts_) {
+    efforts_->take(sample);
+    if (const auto news = efforts_->news()) user_.warn(*news);
+  }
   while (estimator_.ready()) evaluate();
   return true;
 }

@@ -9,6 +9,7 @@
 
 #include "ros/active_plan.h"
 #include "ros/counters.h"
+#include "ros/effort_measurements.h"
 #include "ros/free_joints.h"
 #include "ros/joint_state_conversion.h"
 #include "ros/motion_completer.h"
@@ -61,6 +62,9 @@ class JointStateComputation {
                         MotionEstimator& estimator, MotionCompleter& completer,
                         SampleComputation& samples, Counters& counters, JointStateUser& user);
 
+  /// Hands measured efforts on from now on. @param efforts must outlive this
+  void measureEfforts(EffortMeasurements& efforts) { efforts_ = &efforts; }
+
   /// Takes a joint state, and computes what is due then. Allocates only for what is told.
   /// @returns whether it is used
   bool take(const sensor_msgs::JointState& message);
@@ -87,6 +91,7 @@ class JointStateComputation {
   Counters& counters_;
   JointStateUser& user_;
   MotionCovariance covariance_;
+  EffortMeasurements* efforts_ = nullptr;
 };
 
 }  // namespace virtual_work_dynamics

@@ -30,6 +30,7 @@ JointStateConversion::JointStateConversion(const Mechanism& mechanism)
       coordinate_of_(coordinatesByName(mechanism)),
       q_(mechanism.coordinates().size()),
       qd_(mechanism.coordinates().size()),
+      effort_(mechanism.coordinates().size()),
       velocity_reported_(mechanism.coordinates().size(), 0),
       mimic_reported_(mechanism.joints().size(), 0) {
   for (Layout& layout : layouts_) resolve({}, layout);
@@ -55,6 +56,11 @@ std::optional<Rejection> JointStateConversion::convert(const sensor_msgs::JointS
   sample.coordinates = layout.coordinates.data();
   sample.q = q_.data();
   sample.qd = velocities != 0 ? qd_.data() : nullptr;
+  // A list of another length, as some drivers send, says nothing of efforts.
+  sample.effort = names > 0 && message.effort.size() == names ? effort_.data() : nullptr;
+  for (std::size_t i = 0; sample.effort && i < layout.columns.size(); ++i) {
+    effort_[i] = message.effort[static_cast<std::size_t>(layout.columns[i])];
+  }
   sample.mimic_disagreement.clear();
   checkMimics(layout, message.position, sample.mimic_disagreement);
   return std::nullopt;

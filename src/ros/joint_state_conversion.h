@@ -22,6 +22,7 @@ struct JointSample {
   const int* coordinates = nullptr;
   const double* q = nullptr;         ///< rad or m
   const double* qd = nullptr;        ///< rad/s or m/s, NaN where it is not finite; null: not given
+  const double* effort = nullptr;    ///< N m or N, as measured; null: not given
   bool velocity_not_finite = false;  ///< whether some velocity is not, so that it is not used
   /// Text about the first velocity of each joint that is not finite; else empty.
   std::string velocity_problem;
@@ -72,6 +73,7 @@ class JointStateConversion {
   std::size_t next_ = 0;
   std::vector<double> q_;
   std::vector<double> qd_;
+  std::vector<double> effort_;
   std::vector<char> velocity_reported_;
   std::vector<char> mimic_reported_;
 };

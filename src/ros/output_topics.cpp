@@ -15,20 +15,23 @@ OutputTopics::OutputTopics(ros::NodeHandle private_node, const Outputs& outputs,
     options.callback_queue = &callbacks;
     publishers_.push_back(private_node.advertise(options));
     output->start(publishers_.back());
+    always_.push_back(output->isAlwaysComputed());
   }
 }
 
 Audience OutputTopics::audience() const {
   Audience audience;
   for (std::size_t i = 0; i < publishers_.size(); ++i) {
-    if (publishers_[i].getNumSubscribers() > 0) audience.push_back(i);
+    if (always_[i] || publishers_[i].getNumSubscribers() > 0) audience.push_back(i);
   }
   return audience;
 }
 
 std::vector<std::string> OutputTopics::names(const Audience& audience) const {
   std::vector<std::string> names;
-  for (const std::size_t i : audience) names.push_back(publishers_[i].getTopic());
+  for (const std::size_t i : audience) {
+    if (publishers_[i].getNumSubscribers() > 0) names.push_back(publishers_[i].getTopic());
+  }
   return names;
 }
 

@@ -23,9 +23,9 @@ class OutputTopics {
   OutputTopics(ros::NodeHandle private_node, const Outputs& outputs, int queue_size,
                ros::CallbackQueueInterface& callbacks, const std::function<void()>& changed);
 
-  /// The outputs that have subscribers now.
+  /// The outputs that have subscribers now, or are always computed.
   Audience audience() const;
-  /// The topics of an audience.
+  /// The topics of an audience that have subscribers.
   std::vector<std::string> names(const Audience& audience) const;
 
   /// Publishes the messages of samples, or that of trajectories, to a plan's audience.
@@ -36,6 +36,7 @@ class OutputTopics {
   void publish(const ActivePlan& plan, bool trajectories) const;
 
   std::vector<ros::Publisher> publishers_;  // by output
+  std::vector<bool> always_;                // by output: whether it is computed without subscribers
 };
 
 }  // namespace virtual_work_dynamics

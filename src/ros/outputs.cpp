@@ -6,6 +6,7 @@
 #include <sensor_msgs/MultiDOFJointState.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -16,6 +17,7 @@
 #include "ros/deviation_output.h"
 #include "ros/marker_output.h"
 #include "ros/message_copies.h"
+#include "ros/residual_output.h"
 #include "ros/trajectory_output.h"
 
 namespace virtual_work_dynamics {
@@ -51,7 +53,11 @@ ros::AdvertiseOptions advertised(const std::string& topic, std::uint32_t queue) 
 
 class EffortMessage : public MessageOf<sensor_msgs::JointState> {
  public:
-  EffortMessage(const Dynamics& plan, const std::string& frame) : names_(plan.effortNames()) {
+  EffortMessage(const Dynamics& plan, const std::string& frame,
+                std::shared_ptr<ThresholdRecord> limits)
+      : names_(plan.effortNames()),
+        limits_(std::move(limits)),
+        values_(static_cast<std::size_t>(plan.coordinates())) {
     message_.header.frame_id = frame;
     message_.name = names_;
     for (auto* values : {&message_.position, &message_.velocity, &message_.effort}) {
@@ -78,6 +84,7 @@ class EffortMessage : public MessageOf<sensor_msgs::JointState> {
                                               : loops.actuated_velocities[closure]);
       message_.effort.push_back(sample.results.effort[index]);
     }
+    if (limits_) recordLimits(sample);
   }
 
  private:
@@ -86,12 +93,24 @@ class EffortMessage : public MessageOf<sensor_msgs::JointState> {
     return std::find(exists.begin(), exists.end(), false) == exists.end();
   }
 
+  void recordLimits(const OutputSample& sample) {
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      values_[i] = sample.results.effortExists(i)
+                       ? sample.results.effort[static_cast<Eigen::Index>(i)]
+                       : std::numeric_limits<double>::quiet_NaN();
+    }
+    limits_->record(sample.stamp_ns, values_);
+  }
+
   const Names names_;  // all names; the message has those of existing results
+  const std::shared_ptr<ThresholdRecord> limits_;
+  std::vector<double> values_;  // of the coordinates
 };
 
 class EffortOutput : public Output {
  public:
-  explicit EffortOutput(std::string frame) : frame_(std::move(frame)) {}
+  EffortOutput(std::string frame, std::shared_ptr<ThresholdRecord> limits)
+      : frame_(std::move(frame)), limits_(std::move(limits)) {}
 
   std::string topic() const override { return "effort"; }
   ros::AdvertiseOptions options(const std::string& topic, std::uint32_t queue) const override {
@@ -99,11 +118,13 @@ class EffortOutput : public Output {
   }
   void addTo(Request& request) const override { request.efforts = true; }
   std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan, const Scene&) const override {
-    return std::make_unique<EffortMessage>(plan, frame_);
+    return std::make_unique<EffortMessage>(plan, frame_, limits_);
   }
+  bool isAlwaysComputed() const override { return limits_ != nullptr; }
 
  private:
   std::string frame_;
+  std::shared_ptr<ThresholdRecord> limits_;
 };
 
 // --- ~motion: the positions, velocities and accelerations used
@@ -338,10 +359,19 @@ Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
                     const OutputSettings& settings) {
   const std::string root_frame = settings.frame_prefix + mechanism.links().front().name;
   Outputs outputs;
-  outputs.push_back(std::make_unique<EffortOutput>(root_frame));
+  outputs.push_back(std::make_unique<EffortOutput>(root_frame, settings.limits));
   outputs.push_back(std::make_unique<MotionOutput>(mechanism.coordinateNames(), root_frame));
   if (settings.deviations) {
     outputs.push_back(makeDeviationOutput(mechanism, root_frame, settings.deviations));
+  }
+  if (settings.efforts) {
+    outputs.push_back(makeResidualOutput(root_frame, settings.efforts,
+                                         settings.external_observed ? nullptr : settings.external));
+  }
+  if (settings.efforts && settings.observer_gain > 0) {
+    outputs.push_back(makeExternalEffortOutput(
+        mechanism, root_frame, settings.observer_gain, settings.max_gap, settings.efforts,
+        settings.external_observed ? settings.external : nullptr));
   }
   if (settings.scene.tolerances.any()) {
     outputs.push_back(makeToleranceOutput(mechanism, root_frame));

@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "ros/deviation_record.h"
+#include "ros/effort_measurements.h"
 #include "ros/message_recorder.h"
 #include "ros/root_settings.h"
+#include "ros/threshold_record.h"
 #include "ros/trajectory_conversion.h"
 #include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/motion_covariance.h"
@@ -86,6 +88,10 @@ class Output {
   virtual bool isForLooking() const { return false; }
   /// Whether it says how far results may be off, which recordings have when asked for.
   virtual bool ofDeviations() const { return false; }
+  /// Whether it needs measured efforts, which recordings compare when asked for.
+  virtual bool ofMeasuredEfforts() const { return false; }
+  /// Whether it is computed even if nobody listens, as something is watched by it.
+  virtual bool isAlwaysComputed() const { return false; }
   /// Whether its message uses OutputSample::covariance.
   virtual bool usesCovariance() const { return false; }
   /// Adds what its subscribers need.
@@ -109,6 +115,12 @@ struct OutputSettings {
   std::shared_ptr<DeviationRecord> deviations;  ///< what they are recorded in; null: no deviations
   double marker_rate = 20;                      ///< largest rate of ~markers, Hz
   RootSettings root;                            ///< in which axes reactions are
+  std::shared_ptr<EffortMeasurements> efforts;  ///< null: nothing is measured
+  std::shared_ptr<ThresholdRecord> external;    ///< of external efforts; null: no thresholds
+  std::shared_ptr<ThresholdRecord> limits;      ///< of efforts; null: limits are not looked at
+  bool external_observed = false;               ///< whether `external` is of ~external_effort
+  double observer_gain = 0;                     ///< of ~external_effort, 1/s; 0: it is not offered
+  double max_gap = 0.25;                        ///< s, after which an observer starts anew
 };
 
 /// All outputs of the node for a mechanism and a scene.

@@ -2,10 +2,14 @@
 
 #include <ros/console.h>
 
+#include <cmath>
+#include <limits>
+
 #include "base/nearest_name.h"
 #include "base/number_text.h"
 #include "base/printable.h"
 #include "dynamics/given_joints.h"
+#include "robot/effort_limits.h"
 #include "ros/closure_frames.h"
 #include "ros/loop_report.h"
 #include "ros/message_text.h"
@@ -15,6 +19,7 @@
 #include "ros/topic_names.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/joint_types.h"
+#include "virtual_work_dynamics/momentum_observer.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {
@@ -81,6 +86,42 @@ Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const s
   return Dynamics(mechanism, scene, request);
 }
 
+// Why a momentum observer cannot follow the joint states; empty when it can.
+std::string whyNotObserved(const Mechanism& mechanism, const Scene& scene, double gain) {
+  try {
+    const MomentumObserver check(mechanism, scene, gain);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  // It is at the newest joint state, and these are known behind it.
+  if (scene.root_moves) return "momentum observer: a root that moves is not observed live";
+  if (!liveWrenches(scene).empty()) return "momentum observer: live wrenches are not observed";
+  return "";
+}
+
+// The record of the thresholds, if there are any.
+std::shared_ptr<ThresholdRecord> externalRecord(const Mechanism& mechanism,
+                                                const ExternalEffortSettings& asked) {
+  if (asked.thresholds.empty()) return nullptr;
+  std::vector<double> thresholds(mechanism.coordinates().size(),
+                                 std::numeric_limits<double>::infinity());
+  for (const auto& [name, effort] : asked.thresholds) {
+    const int coordinate = mechanism.coordinateIndex(name);
+    if (coordinate < 0) {
+      throw parameterError("external_effort/thresholds",
+                           "robot " + inQuotes(mechanism.name()) + " has no joint " +
+                               inQuotes(name) + " that moves by itself" +
+                               nameHelp(name, mechanism.coordinateNames()));
+    }
+    double& threshold = thresholds[static_cast<std::size_t>(coordinate)];
+    if (std::isfinite(threshold)) {
+      throw parameterError("external_effort/thresholds", inQuotes(name) + " is given twice");
+    }
+    threshold = effort;
+  }
+  return std::make_shared<ThresholdRecord>(mechanism.coordinateNames(), thresholds, asked.hold);
+}
+
 }  // namespace
 
 RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
@@ -99,10 +140,23 @@ RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
   closure_frames = closureFrames(mechanism, scene, reactions, parameters.frame_prefix);
   deviations = std::make_shared<DeviationRecord>(everything.effortNames(), everything.residuals(),
                                                  mechanism.coordinateNames(), otherCauses(scene));
-  outputs = makeOutputs(mechanism, everything,
-                        {reactions, reaction_topics, parameters.frame_prefix, parameters.twist,
-                         parameters.loop_limits.condition, scene, deviations,
-                         parameters.marker_rate, parameters.root});
+  efforts = std::make_shared<EffortMeasurements>(mechanism.coordinateNames(), estimator.max_gap);
+  const ExternalEffortSettings& asked = parameters.external;
+  not_observed = whyNotObserved(mechanism, scene, asked.observer_gain);
+  if (asked.observed && !not_observed.empty()) {
+    throw parameterError("external_effort/by", "observer: " + not_observed);
+  }
+  external = externalRecord(mechanism, asked);
+  if (asked.effort_limits) {
+    limits =
+        std::make_shared<ThresholdRecord>(mechanism.coordinateNames(), effortLimits(mechanism), 0);
+  }
+  outputs =
+      makeOutputs(mechanism, everything,
+                  {reactions, reaction_topics, parameters.frame_prefix, parameters.twist,
+                   parameters.loop_limits.condition, scene, deviations, parameters.marker_rate,
+                   parameters.root, efforts, external, limits, asked.observed,
+                   not_observed.empty() ? asked.observer_gain : 0, estimator.max_gap});
   plan_lines = everything.closed()
                    ? loopLines(mechanism, scene, everything, parameters.loop_limits.condition)
                    : everything.summary().lines();
@@ -153,6 +207,10 @@ void RobotTask::log(const InverseDynamicsParameters& parameters) const {
   if (!exact.empty()) {
     ROS_INFO("%s takes as exact the applied wrenches that the scene gives no deviation: %s",
              privateName("effort_deviation").c_str(), shortList(exact).c_str());
+  }
+  if (!not_observed.empty()) {
+    ROS_INFO("%s is not offered: %s", privateName("external_effort").c_str(),
+             printable(not_observed).c_str());
   }
   std::string plan;
   for (const std::string& line : plan_lines) plan += (plan.empty() ? "" : "\n  ") + line;

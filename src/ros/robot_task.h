@@ -44,6 +44,10 @@ struct RobotTask {
   tf2_msgs::TFMessage closure_frames;
   Dynamics everything;                          ///< of all that the scene asks for, in both axes
   std::shared_ptr<DeviationRecord> deviations;  ///< of ~effort_deviation
+  std::shared_ptr<EffortMeasurements> efforts;  ///< of joint states
+  std::shared_ptr<ThresholdRecord> external;    ///< of external efforts; null: no thresholds
+  std::shared_ptr<ThresholdRecord> limits;      ///< of efforts; null: limits are not looked at
+  std::string not_observed;  ///< why there is no ~external_effort; empty: there is
   Outputs outputs;
   std::vector<std::string> plan_lines;  ///< what everything that the scene asks for costs
 };

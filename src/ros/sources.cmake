@@ -9,6 +9,7 @@ foreach(file
     deviation_output.cpp
     deviation_report.cpp
     diagnostics.cpp
+    effort_measurements.cpp
     fixed_frames.cpp
     free_joint_conversion.cpp
     free_joints.cpp
@@ -29,6 +30,7 @@ foreach(file
     pose_reading.cpp
     private_name.cpp
     private_parameters.cpp
+    residual_output.cpp
     robot_task.cpp
     root_conversion.cpp
     root_frames.cpp
@@ -45,6 +47,8 @@ foreach(file
     start_position.cpp
     stream_record.cpp
     stream_report.cpp
+    threshold_record.cpp
+    threshold_report.cpp
     topic_names.cpp
     trajectory_conversion.cpp
     trajectory_output.cpp

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <sstream>
 #include <string>
@@ -340,6 +341,57 @@ TEST_F(OfflineBags, LeaveOutAChunkThatIsBroken) {
     for (const std::string& line : lines) {
       EXPECT_NE(std::find(whole.begin(), whole.end(), line), whole.end()) << line;
     }
+  }
+}
+
+std::uint32_t wordAt(const std::string& bytes, std::size_t at) {
+  std::uint32_t word = 0;
+  std::memcpy(&word, bytes.data() + at, sizeof word);
+  return word;
+}
+
+// Where the lengths of data of the records between two places stand.
+std::vector<std::size_t> dataLengths(const std::string& bytes, std::size_t begin, std::size_t end) {
+  std::vector<std::size_t> places;
+  for (std::size_t at = begin; at < end;) {
+    const std::size_t length = at + 4 + wordAt(bytes, at);
+    places.push_back(length);
+    at = length + 4 + wordAt(bytes, length);
+  }
+  return places;
+}
+
+TEST_F(OfflineBags, LeaveOutTheRestOfAChunkWhoseRecordGoesBeyondItsEnd) {
+  const std::string whole = readFile(bag("none.bag"));
+  const std::size_t magic = std::string("#ROSBAG V2.0\n").size();
+  // Within the second chunk, all of whose bytes are there, its second message seems to be longer.
+  std::vector<std::size_t> chunks;
+  std::size_t header = magic;
+  for (const std::size_t length : dataLengths(whole, magic, whole.size())) {
+    if (whole.substr(header, length - header).find("compression=") != std::string::npos) {
+      chunks.push_back(length);
+    }
+    header = length + 4 + wordAt(whole, length);
+  }
+  ASSERT_GT(chunks.size(), 3U);
+  const std::size_t begin = chunks[1] + 4, end = begin + wordAt(whole, chunks[1]);
+  const std::vector<std::size_t> records = dataLengths(whole, begin, end);
+  ASSERT_GT(records.size(), 3U);
+  const auto inFirst = dataLengths(whole, chunks[0] + 4, chunks[0] + 4 + wordAt(whole, chunks[0]));
+  const auto before = inFirst.size() - 1;  // messages; the first record is the connection
+  for (const std::uint32_t more : {1000U, 100000U, 4000000000U}) {
+    std::string changed = whole;
+    const std::uint32_t length = wordAt(whole, records[1]) + more;
+    std::memcpy(&changed[records[1]], &length, sizeof length);
+    copy("beyond.bag", changed);
+    const Run result = positions("beyond.bag");
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(countLines(result.err, "is damaged, what can be read is: byte "), 1) << result.err;
+    EXPECT_EQ(countLines(result.err, "a chunk ends in a record"), 1) << result.err;
+    std::vector<int> messages = allMessages();
+    const auto from = messages.begin() + static_cast<std::ptrdiff_t>(before) + 1;
+    messages.erase(from, from + static_cast<std::ptrdiff_t>(records.size()) - 1);
+    expectRows(result.out, messages);
   }
 }
 

@@ -270,6 +270,44 @@ TEST_F(OfflineResiduals, RefuseInOneLineWhatCannotBeCompared) {
   EXPECT_NE(overwritten.err.find("would overwrite the input"), std::string::npos);
 }
 
+TEST_F(OfflineResiduals, ListEffortsBeyondTheLimitsOfTheDescription) {
+  const std::string bare(kPendulum);
+  const std::size_t place = bare.find("<axis xyz=\"0 1 0\"/></joint>");
+  ASSERT_NE(place, std::string::npos);
+  std::string limited = bare;
+  limited.insert(place, "<limit effort=\"3\" velocity=\"9\"/>");
+  write("limited.urdf", limited);
+  const Run result = run("--urdf limited.urdf --reactions none --motion m.csv --effort-limits");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  int rows = 0;
+  double first = -1, last = 0, peak = 0, at = 0;
+  for (int i = 0; i < kRows; ++i) {
+    const double t = i * kStep, effort = effortAt(t);
+    if (std::abs(effort) <= 3) continue;
+    ++rows;
+    if (first < 0) first = t;
+    last = t;
+    if (std::abs(effort) > std::abs(peak)) {
+      peak = effort;
+      at = t;
+    }
+  }
+  ASSERT_GT(rows, 3);
+  std::ostringstream expected;
+  expected << "warning: m.csv: effort of 'hinge' is beyond its limit 3 in " << rows << " rows from "
+           << first << " s to " << last << " s, at most " << peak;
+  // The tool writes all digits of the peak.
+  EXPECT_NE(result.err.find(expected.str().substr(0, expected.str().size() - 1)), std::string::npos)
+      << result.err << expected.str();
+  std::ostringstream when;
+  when << " at " << at << " s\n";
+  EXPECT_NE(result.err.find(when.str()), std::string::npos) << result.err << when.str();
+  const Run none = computed("--motion m.csv --effort-limits");
+  EXPECT_NE(none.err.find("no effort is beyond its limit; 0 of 1 joints have one"),
+            std::string::npos)
+      << none.err;
+}
+
 TEST_F(OfflineResiduals, OfSomeJointsLeaveTheOthers) {
   write("two.urdf", R"(<robot name="two"><link name="base"/>
     <link name="a"><inertial><mass value="1"/>

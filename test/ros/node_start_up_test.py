@@ -192,6 +192,18 @@ BAD_PARAMETERS = {
                                  ['~rest', "'tester' has no joint 'knee'"]),
     'rest_that_is_text': ({'rest': [{'name': 'hinge', 'position': 'closed'}]},
                           ["parameter ~rest of 'hinge'", "'closed'"]),
+    'threshold_of_an_unknown_joint': (
+        {'external_effort': {'thresholds': [{'name': 'knee', 'effort': 1}]}},
+        ["parameter ~external_effort/thresholds: robot 'tester' has no joint 'knee'"]),
+    'threshold_of_nothing': ({'external_effort': {'thresholds': [{'name': 'hinge', 'effort': 0}]}},
+                             ["parameter ~external_effort/thresholds: 'hinge': 0 is not positive"]),
+    'thresholds_that_are_a_map': ({'external_effort': {'thresholds': {'hinge': 1}}},
+                                  ['~external_effort/thresholds: expected a list like']),
+    'observer_of_a_static_scene': (
+        {'external_effort': {'by': 'observer'}, 'scene': {'motion': 'static'}},
+        ['parameter ~external_effort/by: observer: momentum observer: a static scene']),
+    'observer_gain_of_nothing': ({'external_effort': {'gain': 0}},
+                                 ['parameter ~external_effort/gain: 0 1/s is not positive']),
     'negative_trajectory_rate': ({'trajectory_rate': -1}, ['~trajectory_rate: -1 points/s']),
     'trajectory_rate_too_high': ({'trajectory_rate': 1e6}, ['~trajectory_rate: ', 'to 20000']),
     'negative_trajectory_sampling': ({'trajectory_sampling': -1},

@@ -1,0 +1,97 @@
+#include "ros/effort_measurements.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/printable.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+constexpr double kUnknownEffort = std::numeric_limits<double>::quiet_NaN();
+// Joint states after which joints without efforts are named: several drivers publish in turn.
+constexpr std::size_t kPatienceForEfforts = 100;
+
+}  // namespace
+
+EffortMeasurements::EffortMeasurements(std::vector<std::string> coordinates, double max_gap)
+    : names_(std::move(coordinates)),
+      max_gap_ns_(std::llround(std::min(max_gap, 1e9) * 1e9)),
+      rings_(names_.size()) {
+  for (Ring& ring : rings_) ring.values.resize(kMost);
+  for (auto* values : {&latest_.q, &latest_.qd, &latest_.effort}) {
+    values->assign(names_.size(), kUnknownEffort);
+  }
+}
+
+void EffortMeasurements::forget() {
+  for (Ring& ring : rings_) ring.size = 0;
+  for (auto* values : {&latest_.q, &latest_.qd, &latest_.effort}) {
+    std::fill(values->begin(), values->end(), kUnknownEffort);
+  }
+}
+
+void EffortMeasurements::take(const JointSample& sample) {
+  if (users_ == 0) return;
+  const bool ahead = sample.stamp_ns > latest_.stamp_ns;
+  if (!ahead) {
+    // A little late: it comes in between others, which stand for it. Later still: time went back.
+    if (latest_.stamp_ns - sample.stamp_ns <= max_gap_ns_) return;
+    forget();
+  }
+  latest_.stamp_ns = sample.stamp_ns;
+  ++taken_;
+  for (int i = 0; i < sample.count; ++i) {
+    const auto coordinate = static_cast<std::size_t>(sample.coordinates[i]);
+    const double effort = sample.effort ? sample.effort[i] : kUnknownEffort;
+    latest_.q[coordinate] = sample.q[i];
+    latest_.qd[coordinate] = sample.qd ? sample.qd[i] : kUnknownEffort;
+    latest_.effort[coordinate] = effort;
+    Ring& ring = rings_[coordinate];
+    ring.seen = true;
+    if (!std::isfinite(effort)) continue;
+    if (ring.size == kMost) {
+      ring.first = (ring.first + 1) % kMost;
+      --ring.size;
+    }
+    ring.values[(ring.first + ring.size++) % kMost] = {sample.stamp_ns, effort};
+  }
+}
+
+std::optional<std::string> EffortMeasurements::news() {
+  if (told_ || taken_ < kPatienceForEfforts) return std::nullopt;
+  told_ = true;
+  std::vector<std::string> without;
+  for (std::size_t i = 0; i < rings_.size(); ++i) {
+    if (rings_[i].seen && rings_[i].size == 0) without.push_back(names_[i]);
+  }
+  if (without.empty()) return std::nullopt;
+  return "there are no measured efforts of " + namesInQuotes(without) +
+         ", which then have no external effort";
+}
+
+double EffortMeasurements::at(std::size_t coordinate, std::int64_t stamp_ns) const {
+  const Ring& ring = rings_[coordinate];
+  std::size_t later = 0;
+  for (std::size_t end = ring.size; later < end;) {
+    const std::size_t middle = later + (end - later) / 2;
+    if (ring.at(middle).stamp_ns > stamp_ns) {
+      end = middle;
+    } else {
+      later = middle + 1;
+    }
+  }
+  if (later == 0) return kUnknownEffort;
+  const Measured& before = ring.at(later - 1);
+  if (before.stamp_ns == stamp_ns) return before.effort;
+  if (later == ring.size || ring.at(later).stamp_ns - before.stamp_ns > max_gap_ns_) {
+    return kUnknownEffort;
+  }
+  const Measured& after = ring.at(later);
+  const double share = static_cast<double>(stamp_ns - before.stamp_ns) /
+                       static_cast<double>(after.stamp_ns - before.stamp_ns);
+  return before.effort + share * (after.effort - before.effort);
+}
+
+}  // namespace virtual_work_dynamics

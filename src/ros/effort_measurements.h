@@ -1,0 +1,82 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ros/joint_state_conversion.h"
+
+namespace virtual_work_dynamics {
+
+/// The efforts that joint states say were measured, as long as somebody uses them, and the latest
+/// joint state as it came. Serves one thread but for users, which come and go in any. Does not
+/// allocate after construction.
+class EffortMeasurements {
+ public:
+  /// Measurements of a joint that are kept at most.
+  static constexpr std::size_t kMost = 4096;
+
+  /// @param max_gap s, between two measurements that are read on a straight line
+  EffortMeasurements(std::vector<std::string> coordinates, double max_gap);
+
+  /// Somebody who uses the measurements while it lives.
+  class User {
+   public:
+    explicit User(std::shared_ptr<EffortMeasurements> used) : used_(std::move(used)) {
+      ++used_->users_;
+    }
+    ~User() { --used_->users_; }
+    User(const User&) = delete;
+    const EffortMeasurements& operator*() const { return *used_; }
+    const EffortMeasurements* operator->() const { return used_.get(); }
+
+   private:
+    std::shared_ptr<EffortMeasurements> used_;
+  };
+
+  /// Takes a joint state if there are users.
+  void take(const JointSample& sample);
+  /// Says once, in a line, which joints come without efforts. Allocates where it says something.
+  std::optional<std::string> news();
+
+  /// The effort at an instant, between two measurements on a straight line; NaN where it is not
+  /// known, as beyond the newest one.
+  double at(std::size_t coordinate, std::int64_t stamp_ns) const;
+
+  /// The newest positions, velocities and efforts by coordinate, NaN where they are not known.
+  struct Latest {
+    std::int64_t stamp_ns = std::numeric_limits<std::int64_t>::min();
+    std::vector<double> q, qd, effort;
+  };
+  const Latest& latest() const { return latest_; }
+  std::size_t coordinates() const { return rings_.size(); }
+
+ private:
+  struct Measured {
+    std::int64_t stamp_ns;
+    double effort;
+  };
+  struct Ring {
+    std::vector<Measured> values;
+    std::size_t first = 0, size = 0;
+    bool seen = false;  // with or without an effort
+    const Measured& at(std::size_t i) const { return values[(first + i) % kMost]; }
+  };
+
+  void forget();
+
+  const std::vector<std::string> names_;
+  const std::int64_t max_gap_ns_;
+  std::atomic<int> users_{0};
+  std::vector<Ring> rings_;
+  Latest latest_;
+  std::size_t taken_ = 0;  // joint states
+  bool told_ = false;
+};
+
+}  // namespace virtual_work_dynamics
