@@ -50,7 +50,7 @@ struct CompoundCase {
     made.gravity = random.doubles(10);
     made.static_motion = is_static;
     made.include_active = random.chance(0.5);
-    for (int i = 0; i < 3; ++i) scene.applied_wrenches.push_back(random.appliedWrench(described));
+    for (int i = 0; i < 3; ++i) made.applied_wrenches.push_back(random.appliedWrench(described));
     for (std::size_t k = 0; k < described.joints().size(); ++k) {
       if (!mayChange(described, static_cast<int>(k)) || random.chance(0.3)) continue;
       made.joint_types.push_back(entryOf(described.joints()[k]));
