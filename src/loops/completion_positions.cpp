@@ -102,6 +102,8 @@ bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
     const bool fresh = !again && sound();
     double bend = 0;
     if (fresh && curvature * step_length_ * now > exact_) bend = bendStep(kinematics);
+    const double share = again ? left : bend > 0 ? 2 * bend * bend : curvature * step_length_;
+    const bool last = (again || fresh) && share * now <= exact_;  // more finds but rounding errors
     const int halvings = now <= closed ? kHalvingsWhenClosed : search.most_halvings;
     const double then = tryStep(kinematics, q, now, bend > 0, halvings);
     if (!(then < now)) {
@@ -119,7 +121,7 @@ bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
     if (!again) close_by_ = left < kUnknown && step_length_ <= kCloseBy;
     const bool stalled = then > search.stalled * now && then > closed;
     now = then;
-    if (stalled || (again && now <= rounding_)) break;
+    if (stalled || (last && now <= rounding_)) break;
   }
   return now <= closed;
 }
