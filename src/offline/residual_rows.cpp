@@ -114,8 +114,8 @@ Names ResidualRows::columns(bool deviations) const {
 }
 
 void ResidualRows::add(std::size_t row, const Motion& motion, const Load& load,
-                       const Eigen::VectorXd& effort,
-                       const DeviationRows* deviations, std::vector<double>& cells) {
+                       const Eigen::VectorXd& effort, const DeviationRows* deviations,
+                       std::vector<double>& cells) {
   const std::int64_t instant = instantNs(file_, row);
   const std::size_t first = cells.size();
   cells.resize(first + 2 * joints_.size());
