@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -13,16 +12,13 @@
 #include "base/printable.h"
 #include "dynamics/given_joints.h"
 #include "dynamics/motion_start.h"
-#include "motion/free_columns.h"
-#include "offline/certified_rows.h"
 #include "offline/check_report.h"
 #include "offline/completed_motion.h"
 #include "offline/computation.h"
-#include "offline/deviation_rows.h"
+#include "offline/extra_columns.h"
 #include "offline/generated_files.h"
 #include "offline/inputs.h"
 #include "offline/lagrange_rows.h"
-#include "offline/limit_rows.h"
 #include "offline/load_report.h"
 #include "offline/loop_report.h"
 #include "offline/measured_file.h"
@@ -30,13 +26,10 @@
 #include "offline/npz_result_writer.h"
 #include "offline/recorded_motion.h"
 #include "offline/regressor_files.h"
-#include "offline/report_columns.h"
-#include "offline/residual_rows.h"
 #include "offline/result_writer.h"
 #include "offline/root_rows.h"
 #include "offline/row_loads.h"
 #include "offline/rows.h"
-#include "robot/effort_limits.h"
 #include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/joint_types.h"
 #include "virtual_work_dynamics/urdf_reader.h"
@@ -94,10 +87,6 @@ Columns columnsOf(const Dynamics& dynamics, const Request& written, const Argume
   }
   columns.reactions = arguments.child_axes ? written.child_axes : written.root_axes;
   if (dynamics.closed()) columns.more = loopColumns(columns, dynamics.closureNames());
-  if (arguments.certificates) {
-    columns.more.insert(columns.more.end(), std::begin(kCertificateColumns),
-                        std::end(kCertificateColumns));
-  }
   return columns;
 }
 
@@ -177,16 +166,6 @@ MeasuredEfforts readMeasured(const Arguments& arguments) {
                     "measured efforts are");
   }
   return readMeasuredEfforts(source, !of_motion);
-}
-
-// Says what was found about the rows that were computed.
-void printNotes(const Arguments& arguments, const DeviationRows* deviations,
-                const ResidualRows* residuals) {
-  if (deviations) std::cerr << deviations->notes(arguments.deviation_warn.value_or(kDeviationWarn));
-  if (!residuals) return;
-  std::cerr << "note: " << printable(arguments.measuredSource().name())
-            << ": computed less measured efforts:\n"
-            << residuals->table();
 }
 
 double toleranceOf(const Arguments& arguments) {
@@ -285,8 +264,6 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   for (const std::string& doubt : dynamics.assemblyDoubts()) {
     std::cerr << "warning: " << doubt << "\n";
   }
-  std::optional<CertifiedRows> certified;
-  if (arguments.certificates) certified.emplace(mechanism, dynamics);
   std::optional<LagrangeRows> lagrange;
   if (arguments.method == Method::kLagrange) lagrange.emplace(mechanism, dynamics);
   Columns columns = columnsOf(dynamics, written, arguments);
@@ -297,36 +274,10 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   CompletedMotion motion(std::move(recorded), mechanism, scene, dynamics, toleranceOf(arguments),
                          recording);
   const RowLoads loads(scene, motion.file());
-  std::optional<DeviationRows> deviations;
-  if (arguments.deviations) {
-    deviations.emplace(mechanism, scene, written, motion.file().table, arguments.motion.name());
-    const Names more = deviations->columns(columns);
-    columns.more.insert(columns.more.end(), more.begin(), more.end());
-  }
-  std::optional<ResidualRows> residuals;
-  if (arguments.residuals) {
-    residuals.emplace(mechanism, dynamics, scene, std::move(measured), recording.completion.max_gap,
-                      motion.file(), arguments.measuredSource().name());
-    if (arguments.observer_gain) {
-      naming(prefixOf(arguments),
-             [&] { residuals->observe(mechanism, scene, *arguments.observer_gain); });
-    }
-    const Names more = residuals->columns(deviations.has_value());
-    columns.more.insert(columns.more.end(), more.begin(), more.end());
-  }
-  std::optional<ReportColumns> for_report;
-  if (dynamics.closed() && !arguments.report.empty()) {
-    for_report.emplace(mechanism, scene);
-    columns.more.insert(columns.more.end(), for_report->names().begin(), for_report->names().end());
-  }
-  if (arguments.positions) {
-    const Names motion_columns = motionColumns(mechanism);
-    columns.more.insert(columns.more.end(), motion_columns.begin(), motion_columns.end());
-  }
-  std::optional<LimitRows> limits;
-  if (arguments.effort_limits) {
-    limits.emplace(mechanism.coordinateNames(), effortLimits(mechanism));
-  }
+  ExtraColumns extra = naming(prefixOf(arguments), [&] {
+    return ExtraColumns(arguments, mechanism, scene, dynamics, written, motion.file(),
+                        std::move(measured), columns);
+  });
   const bool reports = !arguments.report.empty();
   const std::string described = reports || arguments.toNpz()
                                     ? mechanismJson(arguments, mechanism, scene, dynamics, columns)
@@ -338,25 +289,14 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
       tableOf(arguments, file, header, columns, motion.file().lines.size(), described);
   std::string warning;
   {
-    Rows rows(motion.file(), columns, axesOf(arguments), dynamics.closed(),
-              for_report ? &*for_report : nullptr, arguments.positions ? &mechanism : nullptr,
-              certified ? &*certified : nullptr, deviations ? &*deviations : nullptr,
-              residuals ? &*residuals : nullptr, *table);
+    Rows rows(motion.file(), columns, axesOf(arguments), dynamics.closed(), extra, *table);
     Computation(dynamics, motion, loads, arguments.threads)
         .run([&](std::size_t row, const Motion& at, const Load& load, const Results& results) {
           rows.write(row, at, load, lagrange ? lagrange->compute(at, load, results) : results);
-          if (limits) limits->add(motion.file().table.times[row], results);
         });
     warning = rows.warning();
   }
-  std::cerr << warning;
-  if (certified) {
-    std::cerr << "note: " << printable(arguments.motion.name())
-              << ": certificates judge arithmetic, not input: "
-              << certified->summary(motion.file().row_name) << "\n";
-  }
-  if (limits) std::cerr << limits->text(printable(arguments.motion.name()));
-  printNotes(arguments, deviations ? &*deviations : nullptr, residuals ? &*residuals : nullptr);
+  std::cerr << warning << extra.notes();
   table->finish();
   if (reports) makeLoadReport(arguments, described);
 }

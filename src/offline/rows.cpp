@@ -49,18 +49,13 @@ std::string Conditions::worst(const MotionFile& file) const {
 }
 
 Rows::Rows(const MotionFile& file, const Columns& columns, ReactionAxes axes, bool loops,
-           ReportColumns* report, const Mechanism* motion_of, CertifiedRows* certified,
-           DeviationRows* deviations, ResidualRows* residuals, ResultTable& table)
+           ExtraColumns& extra, ResultTable& table)
     : file_(file),
       columns_(columns),
       child_axes_(axes == ReactionAxes::kChild),
       inertial_axes_(axes == ReactionAxes::kInertial),
       loops_(loops),
-      report_(report),
-      motion_of_(motion_of),
-      certified_(certified),
-      deviations_(deviations),
-      residuals_(residuals),
+      extra_(extra),
       table_(table),
       effort_(static_cast<Eigen::Index>(columns.efforts.size())),
       reactions_(columns.reactions.size()) {}
@@ -75,11 +70,7 @@ void Rows::write(std::size_t row, const Motion& motion, const Load& load, const 
     conditions_.note(row, results);
     addLoopCells(results);
   }
-  if (certified_) certified_->check(motion, load, results, file_.lines[row], more_);
-  if (deviations_) deviations_->add(row, motion, load, results, more_);
-  if (residuals_) residuals_->add(row, motion, load, effort_, deviations_, more_);
-  if (report_) report_->add(motion, results, more_);
-  if (motion_of_) appendMotion(*motion_of_, motion, more_);
+  extra_.add(row, motion, load, results, effort_, more_);
   table_.beginRow(file_.table.times[row]);
   if (columns_.stamps) table_.writeStamp(file_.stamps_ns[row]);
   table_.writeResults(effort_, reactions_, more_);

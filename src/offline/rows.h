@@ -7,12 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "offline/certified_rows.h"
-#include "offline/deviation_rows.h"
+#include "offline/extra_columns.h"
 #include "offline/motion_file.h"
 #include "offline/progress.h"
-#include "offline/report_columns.h"
-#include "offline/residual_rows.h"
 #include "offline/result_writer.h"
 #include "virtual_work_dynamics/dynamics.h"
 
@@ -47,14 +44,9 @@ enum class ReactionAxes { kRoot, kChild, kInertial };
 class Rows {
  public:
   /// @param loops whether the columns include loopColumns()
-  /// @param report whose columns stand before those of the motion; null: there are none
-  /// @param motion_of whose motionColumns() the columns end with; null: they do not
-  /// @param certified null when no certificates are asked for
-  /// @param deviations null when no deviations are asked for
-  /// @param residuals null when no measured efforts are asked for
+  /// @param extra columns that stand last; must outlive it, as all other arguments must
   Rows(const MotionFile& file, const Columns& columns, ReactionAxes axes, bool loops,
-       ReportColumns* report, const Mechanism* motion_of, CertifiedRows* certified,
-       DeviationRows* deviations, ResidualRows* residuals, ResultTable& table);
+       ExtraColumns& extra, ResultTable& table);
 
   /// @param load with which `results` were computed
   void write(std::size_t row, const Motion& motion, const Load& load, const Results& results);
@@ -71,11 +63,7 @@ class Rows {
   const MotionFile& file_;
   const Columns& columns_;
   const bool child_axes_, inertial_axes_, loops_;
-  ReportColumns* const report_;
-  const Mechanism* const motion_of_;
-  CertifiedRows* certified_;
-  DeviationRows* deviations_;
-  ResidualRows* residuals_;
+  ExtraColumns& extra_;
   ResultTable& table_;
   // The results that are written; those that only certificates need come after them.
   Eigen::VectorXd effort_;

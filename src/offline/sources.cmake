@@ -8,6 +8,7 @@ foreach(file
     computation.cpp
     deviation_rows.cpp
     effort_comparison.cpp
+    extra_columns.cpp
     free_turn_rows.cpp
     generated_files.cpp
     help_text.cpp
