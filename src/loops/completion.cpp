@@ -230,12 +230,11 @@ bool LoopCompletion::determine(const LoopKinematics& kinematics, const std::vect
 
 void LoopCompletion::setRight(const LoopKinematics& kinematics, const System& system,
                               const Eigen::VectorXd& conditions) {
-  Eigen::Index row = 0;
+  double* right = right_.data();
   for (const std::size_t s : system.group.sets) {
-    const Eigen::Index first = kinematics.firstOf(s), count = conditionsOf(kinematics, s);
-    right_.segment(row, count) =
-        -row_scales_.segment(first, count).cwiseProduct(conditions.segment(first, count));
-    row += count;
+    for (Eigen::Index i = kinematics.firstOf(s); i < kinematics.firstOf(s + 1); ++i) {
+      *right++ = -row_scales_[i] * conditions[i];
+    }
   }
 }
 
