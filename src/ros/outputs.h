@@ -114,13 +114,13 @@ struct OutputSettings {
   Scene scene;                               ///< whose closures and springs are shown
   std::shared_ptr<DeviationRecord> deviations;  ///< what they are recorded in; null: no deviations
   double marker_rate = 20;                      ///< largest rate of ~markers, Hz
-  RootSettings root;                            ///< in which axes reactions are
-  std::shared_ptr<EffortMeasurements> efforts;  ///< null: nothing is measured
-  std::shared_ptr<ThresholdRecord> external;    ///< of external efforts; null: no thresholds
-  std::shared_ptr<ThresholdRecord> limits;      ///< of efforts; null: limits are not looked at
-  bool external_observed = false;               ///< whether `external` is of ~external_effort
-  double observer_gain = 0;                     ///< of ~external_effort, 1/s; 0: it is not offered
-  double max_gap = 0.25;                        ///< s, after which an observer starts anew
+  RootSettings root{};                          ///< in which axes reactions are
+  std::shared_ptr<EffortMeasurements> efforts{};  ///< null: nothing is measured
+  std::shared_ptr<ThresholdRecord> external{};    ///< of external efforts; null: no thresholds
+  std::shared_ptr<ThresholdRecord> limits{};      ///< of efforts; null: limits are not looked at
+  bool external_observed = false;                 ///< whether `external` is of ~external_effort
+  double observer_gain = 0;  ///< of ~external_effort, 1/s; 0: it is not offered
+  double max_gap = 0.25;     ///< s, after which an observer starts anew
 };
 
 /// All outputs of the node for a mechanism and a scene.
