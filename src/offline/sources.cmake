@@ -1,5 +1,6 @@
 set(offline_files)
 foreach(file
+    argument_checks.cpp
     arguments.cpp
     bag_topic.cpp
     certified_rows.cpp
