@@ -39,10 +39,8 @@ def parser():
     add('--urdf', required=True, metavar='FILE', help='robot description')
     add('--motion', required=True, nargs='+', metavar='FILE',
         help='recording, as inverse_dynamics_offline reads it; a CSV may have the columns effort.<joint>')
-    add('--efforts', metavar='FILE', help='CSV of the measured efforts, where they are not in --motion: time '
-        'and effort.<joint>, N m or N')
-    add('--effort-columns', metavar='LIST', help='joints that the columns of efforts after the time belong to, '
-        'separated by commas, for a file whose header does not say it')
+    add('--measured', metavar='FILE', help='measured efforts, N m or N, where they are not in --motion; as of '
+        'inverse_dynamics_offline')
     add('--scene', metavar='FILE', help='scene file of the robot as it was recorded')
     add('--fit', default='friction,offset', metavar='LIST', help='what is fitted (default: friction,offset)')
     add('--fit-until', type=float, metavar='S', help='seconds from the start that are fitted; the rest judges '

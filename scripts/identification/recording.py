@@ -7,7 +7,6 @@ import subprocess
 
 import numpy as np
 
-from .csv_efforts import csv_efforts, read_numbers
 from .refusal import Refusal, in_quotes
 
 TOOL = 'inverse_dynamics_offline'
@@ -37,6 +36,14 @@ def find_tool(given, program):
     return found
 
 
+def read_numbers(path):
+    """Rows of a CSV after its header; an empty cell is not a number."""
+    try:
+        return np.loadtxt(path, delimiter=',', skiprows=1, ndmin=2)
+    except ValueError:  # the other reader takes empty cells, and ten times as long
+        return np.atleast_2d(np.genfromtxt(path, delimiter=',', skip_header=1, invalid_raise=False))
+
+
 class Tool:
     """Runs the offline tool on a robot."""
 
@@ -50,13 +57,10 @@ class Tool:
         self._run(['--urdf', urdf, '--scene', scene, '--regressor', folder, '--parameters',
                    ','.join(parameters), '--motion'] + list(motion) + (self._options if recorded else []))
 
-    def measured(self, urdf, static_scene, motion, efforts, regressor, named):
+    def measured(self, urdf, static_scene, motion, efforts, regressor):
         """Measured efforts at the rows of a regressor: rows x efforts, not a number where there is none.
 
-        efforts: a file of their own, or nothing; named: names of its columns, in place of its header."""
-        if named or not self._reads_efforts():
-            rules = [value for option, value in zip(self._options, self._options[1:]) if option == '--rename']
-            return csv_efforts(efforts or motion[0], regressor.times, regressor.efforts, named, rules)
+        efforts: a file of their own, or nothing: they are in the motion."""
         table = static_scene + '.csv'
         source = ['--measured', efforts] if efforts else ['--residuals']
         self._run(['--urdf', urdf, '--scene', static_scene, '--reactions', 'none', '--output', table] + source +
@@ -64,16 +68,12 @@ class Tool:
         with open(table, newline='', encoding='utf-8') as file:
             header = next(csv.reader(file))
         columns = {name[len(MEASURED):]: i for i, name in enumerate(header) if name.startswith(MEASURED)}
-        numbers = read_numbers(table, 1)
+        numbers = read_numbers(table)
         result = np.full((len(regressor.times), len(regressor.efforts)), np.nan)
         for i, name in enumerate(regressor.efforts):
             if name in columns:
                 result[:, i] = numbers[:, columns[name]]
         return result
-
-    def _reads_efforts(self):
-        told = subprocess.run([self._path, '--help'], stdout=subprocess.PIPE, check=False).stdout
-        return b'--residuals' in told
 
     def _run(self, arguments):
         """The tool's own line says what is wrong."""

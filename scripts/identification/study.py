@@ -77,13 +77,10 @@ class Study:
         return asked + ([self.wanted.payload] if self.wanted.payload else [])
 
     def _measured(self, regressor, motion, own=False):
-        arguments = self.arguments
-        efforts = None if own else arguments.efforts
-        named = [] if own or not arguments.effort_columns else [
-            name.strip() for name in arguments.effort_columns.split(',')]
+        efforts = None if own else self.arguments.measured
         path = os.path.join(self.folder, 'static.yaml')
         write_scene(path, dict(self.fit_scene, motion='static'), [])
-        return self.tool.measured(arguments.urdf, path, motion, efforts, regressor, named)
+        return self.tool.measured(self.arguments.urdf, path, motion, efforts, regressor)
 
     def _recordings(self):
         arguments = self.arguments

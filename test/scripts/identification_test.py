@@ -15,10 +15,8 @@ sys.path.insert(0, str(ROOT / 'scripts'))
 from identification import bodies, files  # noqa: E402 (the folder has to be known first)
 from identification.base import BaseParameters  # noqa: E402
 from identification.colour import Colour  # noqa: E402
-from identification.csv_efforts import csv_efforts  # noqa: E402
 from identification.filtering import Filter, chosen_cutoff, pieces  # noqa: E402
 from identification.problem import Coupling, Parameter, Piece  # noqa: E402
-from identification.refusal import Refusal  # noqa: E402
 from identification.solver import Block, Solver  # noqa: E402
 
 CLOSE = 1e-9  # a few roundings, of numbers of size one and of matrices with conditions up to 1e4
@@ -132,31 +130,7 @@ class Files(unittest.TestCase):
                 'joints': [{'name': 'on', 'stiffness': 3, 'coulomb_velocity': 0.1, 'coulomb': 1.5}]})
 
 
-class Efforts(unittest.TestCase):
-    def read(self, text, times, **options):
-        with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, 'e.csv')
-            pathlib.Path(path).write_text(text)
-            return csv_efforts(path, np.array(times), ['a', 'b'], **options)
-
-    def test_efforts_come_to_the_instants_of_rows_on_straight_lines(self):
-        text = '"time","effort.b",x\n0,10,1\n0.02,20,1\n0.04,,1\n0.05,50,1\n1,60,1\n'
-        found = self.read(text, [-0.01, 0, 0.005, 0.03, 0.5, 1, 1.01])
-        self.assertTrue(np.isnan(found[:, 0]).all())  # nothing was measured of a
-        # Outside and in the gap there is none; an empty cell is no measurement.
-        np.testing.assert_allclose(found[:, 1], [np.nan, 10, 12.5, 30, np.nan, 60, np.nan])
-
-    def test_names_by_rules_or_in_the_order_of_columns(self):
-        text = 'time,effort.axis_1,effort.axis_2\n0,1,2\n1,1,2\n'
-        for options in ({'rules': ['axis_1=a', 'axis_(2)=b']}, {'named': ['a', 'b']}):
-            np.testing.assert_allclose(self.read(text, [0, 1], **options), [[1, 2], [1, 2]])
-        odd = 'time,tau1..2\n0,1,2\n1,1,2\n'
-        np.testing.assert_allclose(self.read(odd, [1], named=['b', 'a']), [[2, 1]])
-        for wrong, options in ((odd, {}), (odd, {'named': ['a']}), ('time,effort.c\n0,1\n1,1\n', {}),
-                               ('time,effort.a\n1,1\n0,1\n', {}), ('time,effort.a\n5,1\n6,1\n', {})):
-            with self.assertRaises(Refusal):
-                self.read(wrong, [0, 1], **options)
-
+class Couplings(unittest.TestCase):
     def test_coupled_friction_acts_on_both_joints_by_the_work_that_it_takes(self):
         class Motion:
             coordinates = efforts = ['x', 'a', 'b']
