@@ -60,7 +60,7 @@ class Arm {
         dynamics_(mechanism, sceneOf(true)),
         workspace_(dynamics_.makeWorkspace()),
         load_(sceneOf(true)),
-        limits_(effortLimits(urdf, mechanism)),
+        limits_(effortLimits(mechanism)),
         random_(seed),
         motion_(dynamics_.coordinates()) {}
 

@@ -26,8 +26,8 @@ struct GeneratedCodeOptions {
 /// sign; operations are fused as in the builds for AVX2 and AVX-512, or not as in the baseline
 /// build, by what it is compiled for.
 struct GeneratedCode {
-  std::string header;  ///< contents of the file <name>.h
-  std::string source;  ///< contents of the file <name>.c, which includes it
+  std::string header;  ///< contents of the header, NAME.h
+  std::string source;  ///< contents of the source, NAME.c, which includes it
   std::size_t multiplications = 0, additions = 0;  ///< of a sample, fused ones as one of both
   std::size_t fused = 0;                           ///< pairs of them that are fused
   std::size_t sines_and_cosines = 0;

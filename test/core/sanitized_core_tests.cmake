@@ -3,7 +3,6 @@
 # compiled for core_tests. So are the kernels of vector instructions: fenced arrays watch over what they
 # read and write.
 include(test/core/core_test_files.cmake)
-find_package(GTest REQUIRED)
 file(STRINGS ${VWD_CORE_TEST_OBJECTS} core_test_objects)
 find_library(VWD_QUADMATH quadmath HINTS ${CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES})
 
@@ -19,7 +18,7 @@ target_compile_definitions(sanitized_core_tests PRIVATE VWD_SANITIZED
   VWD_SHARED_DATA="${VWD_SHARED_DATA}")
 target_include_directories(sanitized_core_tests PRIVATE src test/core)
 target_link_libraries(sanitized_core_tests PRIVATE ${core_test_objects} ${sanitized_core}
-  GTest::GTest GTest::Main Threads::Threads $<$<BOOL:${VWD_QUADMATH}>:${VWD_QUADMATH}>)
+  ${gtest_libraries} Threads::Threads $<$<BOOL:${VWD_QUADMATH}>:${VWD_QUADMATH}>)
 add_dependencies(sanitized_core_tests ${sanitized_tool})
 foreach(target ${sanitized_tool} sanitized_core_tests)
   target_compile_options(${target} PRIVATE ${sanitized_options})
