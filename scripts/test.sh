@@ -100,6 +100,9 @@ stop_sanitized() {
   [[ -n "${started:-}" ]] || return 0
   kill -- "-$started" 2>/dev/null || true
   wait "$started" 2>/dev/null || true
+  while kill -0 -- "-$started" 2>/dev/null; do sleep 0.1; done
+  rm -rf "$results/shards"  # what it had taken is to be run
+  mkdir -p "$results/shards"
   started=
 }
 sanitized_core_tests() {
@@ -117,6 +120,8 @@ sanitized_core_tests() {
   for worker in "${workers[@]}"; do wait "$worker" || failed=true; done
   started=
   cat "$results/started_sanitized.log"
+  worker=$(find "$results/sanitized_core_tests.junit" -name '*.xml' | wc -l)
+  [[ $worker -eq $shards ]] || { echo "$worker of $shards shards have run"; failed=true; }
   ! $failed
 }
 

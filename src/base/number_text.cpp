@@ -147,4 +147,18 @@ std::string numberText(double value) {
   return text;
 }
 
+void appendSeconds(std::string& text, std::int64_t ns) {
+  constexpr std::int64_t kSecond = 1000000000;
+  const std::int64_t seconds = ns / kSecond;
+  if (ns < 0 && seconds == 0) text += '-';
+  // The leading one keeps the zeros of the nanoseconds.
+  text +=
+      std::to_string(seconds) + '.' + std::to_string(kSecond + std::abs(ns % kSecond)).substr(1);
+}
+
+bool isNotANumber(std::string_view text) {
+  if (!text.empty() && (text[0] == '-' || text[0] == '+')) text.remove_prefix(1);
+  return text == "nan" || text == "inf" || text == "NaN" || text == "Infinity";
+}
+
 }  // namespace virtual_work_dynamics

@@ -24,7 +24,6 @@ class OperationWriter {
   void sines();
   void leaf(std::uint32_t node);
   void operation(std::uint32_t node);
-  void outputsOf(const Term& value);
   std::string spelling(const Node& node);
   std::string text(const Term& term);
   std::string constant(double value) const;

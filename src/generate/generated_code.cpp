@@ -192,6 +192,9 @@ GeneratedCode generateCode(const Mechanism& mechanism, const Scene& scene, const
                            const GeneratedCodeOptions& options) {
   refuseLoops(scene);
   requireIdentifier(options.name);
+  if (options.operations_of_function == 0) {
+    throw Error("no code can be generated in functions of 0 operations");
+  }
   if (mechanism.coordinates().empty()) {
     throw SceneError("no code can be generated, as no joint moves");
   }

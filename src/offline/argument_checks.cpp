@@ -30,10 +30,13 @@ void checkForBag(const Arguments& arguments) {
 // What has no place beside a folder that is written instead of a result.
 void checkForRegressor(const Arguments& arguments) {
   const std::pair<bool, const char*> kRefused[] = {
+      {!arguments.report.empty(), "--report"},  // which says --output, --axes and --positions, too
       {!arguments.output.empty(), "--output"},
       {arguments.check, "--check"},
       {arguments.explain, "--explain"},
-      {arguments.child_axes, "--axes"},
+      {arguments.child_axes || arguments.inertial_axes, "--axes"},
+      {arguments.residuals, "--residuals"},  // which --measured and --observer-gain say, too
+      {arguments.effort_limits, "--effort-limits"},
       {arguments.reactions.has_value(), "--reactions"},
       {arguments.no_efforts, "--no-efforts"},
       {arguments.method == Method::kLagrange, "--method lagrange"},

@@ -257,6 +257,7 @@ class Parser {
 
   Arguments parse() {
     while (next_ < words_.size() && !arguments_.help && !arguments_.version) parseOption();
+    if (arguments_.help || arguments_.version) return arguments_;
     if (!arguments_.generate.empty()) checkForGenerating();
     if (!arguments_.report.empty()) completeForReport();
     return arguments_;
@@ -289,6 +290,9 @@ class Parser {
   }
 
   void checkForGenerating() const {
+    if (arguments_.inertial_axes) {
+      throw UsageError("--axes inertial cannot be used with --generate");
+    }
     static const std::set<std::string> kTaken{"--axes",  "--generate",   "--gravity",
                                               "--help",  "--no-efforts", "--reactions",
                                               "--scene", "--urdf",       "--version"};

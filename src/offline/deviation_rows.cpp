@@ -119,7 +119,7 @@ std::string DeviationRows::notes(double threshold) const {
   }
   if (!doubts_) return text;
   for (const EffortDoubt& doubt : doubts_->above(threshold)) {
-    text += "note: " + path_ + ": " + toString(doubt) + "\n";
+    text += "note: " + printable(path_) + ": " + toString(doubt) + "\n";
   }
   return text;
 }

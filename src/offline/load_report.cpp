@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <iostream>
@@ -34,7 +35,7 @@ std::filesystem::path reportProgram() {
     if (std::filesystem::exists(folder / kProgram, unknown)) return folder / kProgram;
   }
   throw FileError(std::string("--report: ") + kProgram + " is not beside this program in " +
-                  here.string() + "; the results are written");
+                  here.string());
 }
 
 // Runs a program, whose output is that of this one. @returns its exit status.
@@ -63,6 +64,7 @@ void makeReportFolder(const Arguments& arguments) {
   if (error) {
     throw FileError("--report: " + arguments.report + ": cannot be made: " + error.message());
   }
+  reportProgram();
 }
 
 void makeLoadReport(const Arguments& arguments, const std::string& mechanism) {

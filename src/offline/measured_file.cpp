@@ -14,7 +14,9 @@
 #include "base/printable.h"
 #include "base/text_file.h"
 #include "motion/csv_lines.h"
+#include "npz/npz_reader.h"
 #include "offline/bag_topic.h"
+#include "offline/npz_motion.h"
 #include "offline/progress.h"
 #include "offline/state_csv.h"
 #include "offline/state_motion.h"
@@ -180,7 +182,7 @@ class EffortCsv {
       if (targets_[i] == kTime) stamp_ns = nanosecondsOf(number(i), at());
     }
     for (std::size_t i = 0; i < cells_.size(); ++i) {
-      if (targets_[i] < 0 || cells_[i].empty() || cells_[i] == "nan") continue;
+      if (targets_[i] < 0 || cells_[i].empty() || isNotANumber(cells_[i])) continue;
       efforts.add(static_cast<std::size_t>(targets_[i]), stamp_ns, number(i));
     }
   }
@@ -201,6 +203,10 @@ class EffortCsv {
 
 void readText(const MotionSource& source, bool bare, Collector& efforts) {
   const std::string& path = source.files.front();
+  if (looksLikeNpz(path)) {
+    NpzMotion arrays(path);
+    return EffortCsv(arrays, path, bare).read(efforts);
+  }
   WatchedFile file(path);
   BegunText text(file);
   if (!StateCsv::isBegunBy(text.begin())) {

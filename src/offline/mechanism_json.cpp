@@ -7,6 +7,7 @@
 #include "base/number_text.h"
 #include "base/printable.h"
 #include "offline/report_columns.h"
+#include "scene/closure_types.h"
 #include "virtual_work_dynamics/joint_types.h"
 
 namespace virtual_work_dynamics {
@@ -49,28 +50,6 @@ const char* nameOfJoint(JointType type) {
   return "fixed";
 }
 
-const char* nameOfClosure(ClosureType type) {
-  switch (type) {
-    case ClosureType::kFixed:
-      return "fixed";
-    case ClosureType::kRevolute:
-      return "revolute";
-    case ClosureType::kPrismatic:
-      return "prismatic";
-    case ClosureType::kCylindrical:
-      return "cylindrical";
-    case ClosureType::kUniversal:
-      return "universal";
-    case ClosureType::kSpherical:
-      return "spherical";
-    case ClosureType::kPlanar:
-      return "planar";
-    case ClosureType::kDistance:
-      break;
-  }
-  return "distance";
-}
-
 bool hasOneAxis(ClosureType type) {
   return type == ClosureType::kRevolute || type == ClosureType::kPrismatic ||
          type == ClosureType::kCylindrical || type == ClosureType::kPlanar;
@@ -107,7 +86,7 @@ void addJoint(JsonObject& object, const Mechanism& mechanism, int index) {
 
 void addClosure(JsonObject& object, const Mechanism& mechanism, const Closure& closure) {
   object.addText("kind", "closure");
-  object.addText("type", nameOfClosure(closure.type));
+  object.addText("type", traitsOf(closure.type).name);
   object.addText("parent", closure.parent.link);
   object.addText("child", closure.child.link);
   if (hasOneAxis(closure.type)) object.add("axis", jsonVector(Eigen::Vector3d::UnitZ()));
@@ -146,7 +125,8 @@ std::string effortJson(const Mechanism& mechanism, const Scene& scene, const Dyn
   if (effort >= coordinates) {
     const auto closure = std::find_if(scene.closures.begin(), scene.closures.end(),
                                       [&](const Closure& other) { return other.name == name; });
-    const bool slides = closure != scene.closures.end() && closure->type == ClosureType::kPrismatic;
+    const bool slides =
+        closure != scene.closures.end() && traitsOf(closure->type).free_axis == Unit::kMetre;
     object.addText("unit", slides ? "m" : "rad");
     return object.text();
   }
@@ -188,7 +168,9 @@ std::string mechanismJson(const Arguments& arguments, const Mechanism& mechanism
   add("description", jsonText(printable(arguments.urdf)));
   add("scene", jsonText(printable(arguments.scene)));
   add("motion", jsonText(printable(arguments.motion.name())));
-  add("axes", jsonText(arguments.child_axes ? "child" : "root"));
+  add("axes", jsonText(arguments.child_axes      ? "child"
+                       : arguments.inertial_axes ? "inertial"
+                                                 : "root"));
   add("gravity", jsonVector(scene.gravity));
   add("max_gap", numberText(arguments.recording.completion.max_gap));
   add("reactions", listed(reactions));

@@ -156,16 +156,18 @@ void warnOfFarPositions(const MotionFile& motion, const std::string& joint,
 void readNpz(const MotionSource& source, const JointChoice& choose, Names& unused,
              MotionFile& motion) {
   NpzMotion file(motion.path);
-  motion.table = readMotionText(file, motion.path, source.rename, choose, &unused, &motion.lines);
-  motion.row_name = "index";
-  for (std::size_t& line : motion.lines) line -= 2;  // behind the header, from 0 on
   std::vector<std::string> others;
   for (const std::string& name : file.others()) {
     if (name != kMechanismFile) others.push_back(name);
   }
-  if (others.empty()) return;
-  std::cerr << "note: " << printable(motion.path)
-            << ": ignored, no one-dimensional arrays of numbers: " << namesInQuotes(others) << "\n";
+  if (!others.empty()) {
+    std::cerr << "note: " << printable(motion.path)
+              << ": ignored, no one-dimensional arrays of numbers: " << namesInQuotes(others)
+              << "\n";
+  }
+  motion.table = readMotionText(file, motion.path, source.rename, choose, &unused, &motion.lines);
+  motion.row_name = "index";
+  for (std::size_t& line : motion.lines) line -= 2;  // behind the header, from 0 on
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
 #include <utility>
 
 #include "base/number_text.h"
@@ -27,13 +28,7 @@ bool isOfMotion(const std::string& name) {
   return kind == "time" || kind == "position" || kind == "velocity" || kind == "acceleration";
 }
 
-void appendSeconds(std::string& text, std::int64_t ns) {
-  constexpr std::int64_t kSecond = 1000000000;
-  const std::int64_t seconds = ns >= 0 ? ns / kSecond : -((-ns + kSecond - 1) / kSecond);
-  // The leading one keeps the zeros of the nanoseconds.
-  text +=
-      std::to_string(seconds) + '.' + std::to_string(kSecond + ns - seconds * kSecond).substr(1);
-}
+constexpr std::int64_t kNotATime = std::numeric_limits<std::int64_t>::min();  // numpy's NaT
 
 }  // namespace
 
@@ -88,8 +83,9 @@ void NpzMotion::addRows() {
 }
 
 void NpzMotion::addCell(std::size_t array, std::size_t row) {
-  if (file_.areTimes(array)) return appendSeconds(text_, times_[array][row]);
-  const double value = values_[array][row];
+  const bool is_time = file_.areTimes(array);
+  if (is_time && times_[array][row] != kNotATime) return appendSeconds(text_, times_[array][row]);
+  const double value = is_time ? std::numeric_limits<double>::quiet_NaN() : values_[array][row];
   if (std::isfinite(value)) return appendNumber(text_, value);
   if (!moves_[array]) return;
   throw FileError(path_ + ": index " + std::to_string(next_ + row) + " of " +

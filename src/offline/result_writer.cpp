@@ -52,10 +52,8 @@ void ResultWriter::appendCell(double value) {
 }
 
 void ResultWriter::writeStamp(std::int64_t stamp_ns) {
-  constexpr std::int64_t kSecond = 1000000000;
-  // The leading one keeps the zeros of the nanoseconds.
-  const std::string nanoseconds = std::to_string(kSecond + stamp_ns % kSecond);
-  text_ += ',' + std::to_string(stamp_ns / kSecond) + '.' + nanoseconds.substr(1);
+  text_ += ',';
+  appendSeconds(text_, stamp_ns);
 }
 
 void ResultWriter::writeResults(const Eigen::VectorXd& effort, const std::vector<Wrench>& reactions,

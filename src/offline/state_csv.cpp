@@ -49,11 +49,6 @@ bool parseNanoseconds(const std::string& text, std::int64_t& ns) {
   return true;
 }
 
-bool isNotANumber(std::string_view text) {
-  if (!text.empty() && (text[0] == '-' || text[0] == '+')) text.remove_prefix(1);
-  return text == "nan" || text == "inf" || text == "NaN" || text == "Infinity";
-}
-
 }  // namespace
 
 bool StateCsv::isBegunBy(std::string_view text) {

@@ -127,6 +127,9 @@ void runToBag(const Arguments& arguments) {
   const InverseDynamicsParameters parameters = parametersOf(arguments);
   const RobotTask task = taskOf(arguments, parameters);
   refuseOtherInputs(arguments, task);
+  if (arguments.observer_gain && !task.not_observed.empty()) {
+    throw SceneError((arguments.scene.empty() ? "" : arguments.scene + ": ") + task.not_observed);
+  }
   for (const std::string& file : arguments.motion.files) {
     if (!looksLikeBag(file)) {
       throw FileError(file + ": is not a bag, and --output is one: results of CSV are CSV");

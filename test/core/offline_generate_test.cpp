@@ -76,6 +76,8 @@ TEST_F(OfflineGenerate, RefusesInOneLine) {
       "a letter and have but letters, digits and underscores before its ending");
   EXPECT_EQ(errorOf("--generate crane.c --motion m.csv"),
             "--motion cannot be used with --generate");
+  EXPECT_EQ(errorOf("--axes inertial --generate crane.c"),
+            "--axes inertial cannot be used with --generate");
   EXPECT_EQ(errorOf("--check --generate crane.c"), "--check cannot be used with --generate");
   write(
       "loop.yaml",

@@ -171,6 +171,21 @@ TEST_F(OfflineNpz, OfOtherNumbersIsRead) {
   EXPECT_EQ(at(1, "velocity.hinge"), 0.25);
 }
 
+TEST_F(OfflineNpz, TimesInNanosecondsMayBeNegative) {
+  ASSERT_EQ(
+      python("np.savez('m.npz', time=np.array([-1300000000, -300000000, 700000000], 'M8[ns]'),\n"
+             "  **{'position.hinge': np.zeros(3), 'velocity.hinge': np.zeros(3),\n"
+             "     'acceleration.hinge': np.zeros(3)})\n"),
+      "");
+  const Run result = compute("m.npz", "r.csv");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const NumberTable table = parseTable(readFile(path("r.csv")));
+  ASSERT_EQ(table.rows.size(), 3U);
+  EXPECT_EQ(table.rows[0][0], -1.3);
+  EXPECT_EQ(table.rows[1][0], -0.3);
+  EXPECT_EQ(table.rows[2][0], 0.7);
+}
+
 TEST_F(OfflineNpz, WithSomethingWrongIsRefusedInOneLine) {
   const std::string begin = "m = {'time': np.arange(3.0), 'position.hinge': np.zeros(3)}\n";
   ASSERT_EQ(python(begin + "np.savez_compressed('m.npz', **m)\n"), "");
@@ -179,6 +194,10 @@ TEST_F(OfflineNpz, WithSomethingWrongIsRefusedInOneLine) {
   expectRefused("m.npz", "the array 'velocity.hinge' has 4 values, 'time' has 3");
   ASSERT_EQ(python(begin + "m['position.hinge'][1] = np.nan\nnp.savez('m.npz', **m)\n"), "");
   expectRefused("m.npz", "m.npz: index 1 of 'position.hinge' is nan, no number");
+  ASSERT_EQ(python(begin + "m['time'] = np.array([0, 'NaT', 2], 'M8[ns]')\n" +
+                   "np.savez('m.npz', **m)\n"),
+            "");
+  expectRefused("m.npz", "m.npz: index 1 of 'time' is nan, no number");
   ASSERT_EQ(python("np.savez('m.npz', time=np.zeros((3, 2)))\n"), "");
   expectRefused("m.npz", "has no one-dimensional arrays of numbers");
   ASSERT_EQ(python(begin + "np.savez('whole.npz', **m)\n"), "");

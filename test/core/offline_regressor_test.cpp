@@ -113,7 +113,8 @@ TEST_F(OfflineRegressor, HasNoNumbersWhereThereAreNoEfforts) {
 TEST_F(OfflineRegressor, TakesThePlaceOfAResult) {
   for (const char* other :
        {"--output o.csv", "--check", "--explain", "--axes child", "--reactions none",
-        "--no-efforts", "--method lagrange", "--certificates", "--deviations", "--positions"}) {
+        "--no-efforts", "--method lagrange", "--certificates", "--deviations", "--positions",
+        "--axes inertial", "--report r", "--residuals", "--measured m.csv", "--effort-limits"}) {
     const Run result = run(start_ + other);
     EXPECT_EQ(result.exit_code, 2) << other;
     EXPECT_NE(result.err.find("is of no use with --regressor"), std::string::npos) << result.err;

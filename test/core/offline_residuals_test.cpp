@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <functional>
 #include <sstream>
 #include <string>
@@ -135,6 +136,21 @@ TEST_F(OfflineResiduals, ReadAnotherFileAtTheInstantsOfTheRows) {
   }
   EXPECT_GT(known, 200);
   EXPECT_NE(result.err.find("none is computed, of 'valve'"), std::string::npos) << result.err;
+}
+
+TEST_F(OfflineResiduals, OfAnNpzAreThoseOfTheCsv) {
+  writeMotion("m.csv", [](double t) { return effortAt(t) - 0.7; });
+  const std::string make =
+      "import numpy as np; c = np.genfromtxt('m.csv', delimiter=',', names=True, deletechars=''); "
+      "np.savez('m.npz', **{n: c[n] for n in c.dtype.names})";
+  ASSERT_EQ(std::system(("cd '" + folder() + "' && /usr/bin/python3 -c \"" + make + "\"").c_str()),
+            0);
+  const Run csv = computed("--motion m.csv --residuals");
+  for (const char* from : {"--motion m.npz --residuals", "--motion m.csv --measured m.npz"}) {
+    const Run npz = computed(from);
+    ASSERT_EQ(npz.exit_code, 0) << npz.err;
+    EXPECT_EQ(npz.out, csv.out) << from;
+  }
 }
 
 TEST_F(OfflineResiduals, TakeANameOrARangeOfNamesThatRulesTurnIntoJoints) {
