@@ -172,6 +172,10 @@ double toleranceOf(const Arguments& arguments) {
   return arguments.loop_tolerance.value_or(kLoopTolerance);
 }
 
+void printAssemblyDoubts(std::ostream& out, const Dynamics& dynamics) {
+  for (const std::string& doubt : dynamics.assemblyDoubts()) out << "warning: " << doubt << "\n";
+}
+
 void checkMotion(const Arguments& arguments, RecordedMotion recorded, const Mechanism& mechanism,
                  const Scene& scene, const Dynamics& dynamics) {
   CompletedMotion motion(std::move(recorded), mechanism, scene, dynamics, toleranceOf(arguments),
@@ -204,9 +208,7 @@ void check(const Arguments& arguments, const Mechanism& mechanism, Scene scene) 
       dynamicsOf(mechanism, scene, requestOf(mechanism, scene, arguments), arguments);
   if (scene.root_moves) printNames(std::cout, "root", {"moves as columns root.… say"});
   if (dynamics.closed()) printLoops(std::cout, mechanism, scene, dynamics);
-  for (const std::string& doubt : dynamics.assemblyDoubts()) {
-    std::cout << "warning: " << doubt << "\n";
-  }
+  printAssemblyDoubts(std::cout, dynamics);
   printReactions(dynamics.request());
   printMomentPoints(scene, dynamics.request());
   if (recorded) checkMotion(arguments, std::move(*recorded), mechanism, scene, dynamics);
@@ -232,6 +234,7 @@ void writeRegressor(const Arguments& arguments, const Mechanism& mechanism, Scen
   Request request;
   request.determinacy = false;
   const Dynamics dynamics = dynamicsOf(mechanism, scene, request, arguments);
+  printAssemblyDoubts(std::cerr, dynamics);
   CompletedMotion motion(std::move(recorded), mechanism, scene, dynamics, toleranceOf(arguments),
                          arguments.recording);
   files.write(dynamics, motion, RowLoads(scene, motion.file()), parameters);
@@ -261,9 +264,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   }
   const Dynamics dynamics =
       dynamicsOf(mechanism, scene, computedFor(written, arguments), arguments);
-  for (const std::string& doubt : dynamics.assemblyDoubts()) {
-    std::cerr << "warning: " << doubt << "\n";
-  }
+  printAssemblyDoubts(std::cerr, dynamics);
   std::optional<LagrangeRows> lagrange;
   if (arguments.method == Method::kLagrange) lagrange.emplace(mechanism, dynamics);
   Columns columns = columnsOf(dynamics, written, arguments);
@@ -279,6 +280,9 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
                         std::move(measured), columns);
   });
   const bool reports = !arguments.report.empty();
+  if (reports && columns.efforts.empty() && columns.reactions.empty()) {
+    throw UsageError("--report: neither efforts nor reactions are asked for");
+  }
   const std::string described = reports || arguments.toNpz()
                                     ? mechanismJson(arguments, mechanism, scene, dynamics, columns)
                                     : "";
