@@ -4,13 +4,13 @@
 
 namespace virtual_work_dynamics {
 
-OperationWriter::OperationWriter(const std::string& name, const Recording& recording, bool packs)
+OperationWriter::OperationWriter(const std::string& name, const RecordedPlan& recording, bool packs)
     : name_(name),
       capitals_(inCapitals(name)),
       recording_(recording),
       packs_(packs),
       outputs_of_(recording.graph.nodes().size()) {
-  for (const Output& output : recording.graph.outputs) {
+  for (const GraphOutput& output : recording.graph.outputs) {
     if (output.value.isNode()) outputs_of_[output.value.node()].push_back(&output);
   }
 }
@@ -102,22 +102,22 @@ void OperationWriter::operation(std::uint32_t node) {
   define(node, value);
 }
 
-std::string OperationWriter::part(const Part& part, bool last) {
+std::string OperationWriter::part(const ProgramPart& part, bool last) {
   start();
-  const auto outputName = [&](const Output& output) {
+  const auto outputName = [&](const GraphOutput& output) {
     return element(recording_.outputs[static_cast<std::size_t>(output.array)].name, output.index);
   };
   for (const Kept& kept : part.taken) define(kept.node, "m[" + std::to_string(kept.slot) + "]");
   for (const std::uint32_t node : part.nodes) {
     operation(node);
-    for (const Output* output : outputs_of_[node]) {
+    for (const GraphOutput* output : outputs_of_[node]) {
       assign(outputName(*output), "x" + std::to_string(node));
     }
   }
   for (const Kept& kept : part.kept) {
     out_ += "  m[" + std::to_string(kept.slot) + "] = x" + std::to_string(kept.node) + ";\n";
   }
-  for (const Output& output : recording_.graph.outputs) {
+  for (const GraphOutput& output : recording_.graph.outputs) {
     const bool read =
         output.value.isNode() && !isLeaf(recording_.graph.nodes()[output.value.node()]);
     if (!last || read) continue;

@@ -12,10 +12,10 @@ namespace virtual_work_dynamics {
 class OperationWriter {
  public:
   /// @param name with which the names of the source begin
-  OperationWriter(const std::string& name, const Recording& recording, bool packs);
+  OperationWriter(const std::string& name, const RecordedPlan& recording, bool packs);
 
   /// The statements of a part, outputs and what is kept in memory included.
-  std::string part(const Part& part, bool last);
+  std::string part(const ProgramPart& part, bool last);
   /// Statements that find the sines and cosines of the angles, and their rests: of a sample whole,
   /// of a pack of samples its angles into the array `angle`.
   std::string angles();
@@ -33,11 +33,11 @@ class OperationWriter {
   void start();
 
   const std::string name_, capitals_;
-  const Recording& recording_;
+  const RecordedPlan& recording_;
   const bool packs_;
   std::string out_;
   std::vector<bool> defined_;
-  std::vector<std::vector<const Output*>> outputs_of_;  // by node
+  std::vector<std::vector<const GraphOutput*>> outputs_of_;  // by node
 };
 
 }  // namespace virtual_work_dynamics

@@ -138,7 +138,7 @@ $N_WITHIN $n_pack $n_exact_rest($n_pack a, $n_pack b, $n_pack product) {
   struct Handed {
     Names parameters, arguments;
   };
-  Handed handedTo(const Part& part, bool last, bool packs) const {
+  Handed handedTo(const ProgramPart& part, bool last, bool packs) const {
     std::set<int> inputs, outputs;
     std::set<int> angle_parts;
     const auto leaf = [&](const Term& term) {
@@ -153,7 +153,7 @@ $N_WITHIN $n_pack $n_exact_rest($n_pack a, $n_pack b, $n_pack product) {
         leaf(operandOf(graph().nodes()[node], i));
       }
     }
-    for (const Output& output : graph().outputs) {
+    for (const GraphOutput& output : graph().outputs) {
       const bool operation = output.value.isNode() && !isLeaf(graph().nodes()[output.value.node()]);
       if (operation ? here.count(output.value.node()) > 0 : last) outputs.insert(output.array);
       if (!operation && last) leaf(output.value);
@@ -182,7 +182,7 @@ $N_WITHIN $n_pack $n_exact_rest($n_pack a, $n_pack b, $n_pack product) {
 
   void parts(bool packs) {
     OperationWriter writer(name_, content_.recording, packs);
-    const std::vector<Part>& all = content_.program.parts;
+    const std::vector<ProgramPart>& all = content_.program.parts;
     for (std::size_t p = 0; p < all.size(); ++p) {
       const bool last = p + 1 == all.size();
       const Names parameters = handedTo(all[p], last, packs).parameters;
@@ -194,7 +194,7 @@ $N_WITHIN $n_pack $n_exact_rest($n_pack a, $n_pack b, $n_pack product) {
   }
 
   void callParts(bool packs) {
-    const std::vector<Part>& all = content_.program.parts;
+    const std::vector<ProgramPart>& all = content_.program.parts;
     for (std::size_t p = 0; p < all.size(); ++p) {
       const Names arguments = handedTo(all[p], p + 1 == all.size(), packs).arguments;
       out_ += "  " + partName(p, packs) + "(" + listed(arguments) + ");\n";
@@ -324,7 +324,7 @@ std::string cSource(const SourceContent& content) {
   return Source(content).text();
 }
 
-std::string cDeclarations(const std::string& name, const Recording& recording) {
+std::string cDeclarations(const std::string& name, const RecordedPlan& recording) {
   Names one, block = {"size_t samples", "size_t stride"};
   std::string says;
   const auto add = [&](const NamedArray& array, const std::string& type) {

@@ -12,7 +12,7 @@ namespace virtual_work_dynamics {
 struct SourceContent {
   std::string name;  ///< an identifier, with which all names begin
   std::string head;  ///< the comment at the top
-  const Recording& recording;
+  const RecordedPlan& recording;
   const Program& program;
 };
 
@@ -20,6 +20,6 @@ struct SourceContent {
 std::string cSource(const SourceContent& content);
 
 /// The declarations of those functions, with what they do.
-std::string cDeclarations(const std::string& name, const Recording& recording);
+std::string cDeclarations(const std::string& name, const RecordedPlan& recording);
 
 }  // namespace virtual_work_dynamics

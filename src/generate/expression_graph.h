@@ -72,7 +72,7 @@ struct Angle {
 };
 
 /// Where a term goes: number `index` of the array `array` of results.
-struct Output {
+struct GraphOutput {
   int array;
   int index;
   Term value;
@@ -98,7 +98,7 @@ class ExpressionGraph {
 
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::vector<Angle>& angles() const { return angles_; }
-  std::vector<Output> outputs;
+  std::vector<GraphOutput> outputs;
 
  private:
   struct Key {

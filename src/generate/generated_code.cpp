@@ -37,8 +37,8 @@ void requireIdentifier(const std::string& name) {
   }
 }
 
-void count(const Recording& recording, const Program& program, GeneratedCode& code) {
-  for (const Part& part : program.parts) {
+void count(const RecordedPlan& recording, const Program& program, GeneratedCode& code) {
+  for (const ProgramPart& part : program.parts) {
     for (const std::uint32_t index : part.nodes) {
       switch (recording.graph.nodes()[index].operation) {
         case Operation::kMulAdd:
@@ -162,7 +162,7 @@ std::string appliedOf(const std::string& capitals, const Plan<double>& plan) {
 
 std::string headerOf(const std::string& comment, const std::string& name,
                      const Mechanism& mechanism, const Request& request, const Plan<double>& plan,
-                     const Recording& recording) {
+                     const RecordedPlan& recording) {
   const std::string capitals = inCapitals(name);
   const auto number = [&](const std::string& what, std::size_t value) {
     return "#define " + capitals + "_" + what + " " + std::to_string(value) + "\n";
@@ -200,7 +200,7 @@ GeneratedCode generateCode(const Mechanism& mechanism, const Scene& scene, const
   }
   const Plan<double> plan =
       roundPlan<double>(compilePlan(LoadedMechanism(mechanism, scene).get(), scene, request));
-  const Recording recording = record(plan);
+  const RecordedPlan recording = record(plan);
   if (recording.graph.outputs.empty()) {
     throw SceneError("no code can be generated, as neither efforts nor reactions are asked for");
   }

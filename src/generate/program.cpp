@@ -42,7 +42,7 @@ class Division {
 
   void listOperations() {
     std::vector<Term> wanted;
-    for (const Output& output : graph_.outputs) wanted.push_back(output.value);
+    for (const GraphOutput& output : graph_.outputs) wanted.push_back(output.value);
     const std::vector<bool> needed = leadingTo(graph_, wanted);
     place_.assign(needed.size(), kNever);
     for (std::uint32_t i = 0; i < needed.size(); ++i) {
@@ -87,7 +87,7 @@ class Division {
           if (alive[at] < alive[end]) end = at;
         }
       }
-      Part part;
+      ProgramPart part;
       for (std::size_t at = begin; at < end; ++at) {
         part_of_[at] = program_.parts.size();
         part.nodes.push_back(order_[at]);
@@ -107,7 +107,7 @@ class Division {
   }
 
   void connect(std::size_t p) {
-    Part& part = program_.parts[p];
+    ProgramPart& part = program_.parts[p];
     std::vector<std::uint32_t> taken;
     for (const std::uint32_t node : part.nodes) {
       for (int j = 0; j < operandsOf(graph_.nodes()[node]); ++j) {

@@ -15,7 +15,7 @@ struct Kept {
 };
 
 /// Some of the nodes of a program, in the order in which they are computed.
-struct Part {
+struct ProgramPart {
   std::vector<std::uint32_t> nodes;
   std::vector<Kept> taken;  ///< from parts before it
   std::vector<Kept> kept;   ///< for parts after it
@@ -23,7 +23,7 @@ struct Part {
 
 /// What of a graph leads to its outputs, divided into parts that a compiler can cope with.
 struct Program {
-  std::vector<Part> parts;
+  std::vector<ProgramPart> parts;
   int slots = 0;  ///< numbers in memory between parts
 };
 

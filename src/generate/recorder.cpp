@@ -25,7 +25,7 @@ Term termAt(const Numbers& numbers, std::size_t at) {
 }
 
 // Adds an array of inputs, if it has any numbers, and returns what stands for them.
-Numbers inputArray(Recording& recording, const NamedArray& array) {
+Numbers inputArray(RecordedPlan& recording, const NamedArray& array) {
   Numbers numbers(static_cast<std::size_t>(array.count) + 1);
   if (array.count == 0) return numbers;
   const int index = static_cast<int>(recording.inputs.size());
@@ -69,7 +69,7 @@ void recordAngles(const PlanView<double>& view, const KernelInputs<double>& in,
 }
 
 // Adds an array of results, if it has any numbers.
-void outputArray(Recording& recording, const NamedArray& array, const Numbers& numbers) {
+void outputArray(RecordedPlan& recording, const NamedArray& array, const Numbers& numbers) {
   if (array.count == 0) return;
   const int index = static_cast<int>(recording.outputs.size());
   recording.outputs.push_back(array);
@@ -86,12 +86,12 @@ class GraphInUse {
 
 }  // namespace
 
-bool Recording::anyRest() const {
+bool RecordedPlan::anyRest() const {
   return std::any_of(graph.angles().begin(), graph.angles().end(),
                      [](const Angle& angle) { return !angle.rest.is(0); });
 }
 
-Recording record(const Plan<double>& plan) {
+RecordedPlan record(const Plan<double>& plan) {
   const PlanView<double> view = viewOf(plan);
   ScratchDealer counting(nullptr);
   dealScratch<Term>(view, 0, counting);
@@ -100,7 +100,7 @@ Recording record(const Plan<double>& plan) {
   const Scratch<Term, double> scratch = dealScratch<Term>(view, 0, dealer);
   prepareScratch(view, 0, scratch);
 
-  Recording recording;
+  RecordedPlan recording;
   const GraphInUse in_use(recording.graph);
   const int coordinates = plan.coordinates;
   const auto input = [&](const char* name, int count, const char* says) {

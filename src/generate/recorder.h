@@ -16,16 +16,16 @@ struct NamedArray {
 };
 
 /// The arithmetic of one evaluation of a plan.
-struct Recording {
+struct RecordedPlan {
   ExpressionGraph graph;
   std::vector<NamedArray> inputs;   ///< Node::array is an index into these
-  std::vector<NamedArray> outputs;  ///< Output::array is an index into these
+  std::vector<NamedArray> outputs;  ///< GraphOutput::array is an index into these
 
   /// Whether rounding takes anything from an angle.
   bool anyRest() const;
 };
 
 /// Runs the recursion once on terms.
-Recording record(const Plan<double>& plan);
+RecordedPlan record(const Plan<double>& plan);
 
 }  // namespace virtual_work_dynamics
