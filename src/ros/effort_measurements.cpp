@@ -20,6 +20,7 @@ EffortMeasurements::EffortMeasurements(std::vector<std::string> coordinates, dou
       max_gap_ns_(std::llround(std::min(max_gap, 1e9) * 1e9)),
       rings_(names_.size()) {
   for (Ring& ring : rings_) ring.values.resize(kMost);
+  latest_.stamps_ns.assign(names_.size(), kNever);
   for (auto* values : {&latest_.q, &latest_.qd, &latest_.effort}) {
     values->assign(names_.size(), kUnknownEffort);
   }
@@ -27,6 +28,8 @@ EffortMeasurements::EffortMeasurements(std::vector<std::string> coordinates, dou
 
 void EffortMeasurements::forget() {
   for (Ring& ring : rings_) ring.size = 0;
+  latest_.stamp_ns = kNever;
+  std::fill(latest_.stamps_ns.begin(), latest_.stamps_ns.end(), kNever);
   for (auto* values : {&latest_.q, &latest_.qd, &latest_.effort}) {
     std::fill(values->begin(), values->end(), kUnknownEffort);
   }
@@ -34,16 +37,16 @@ void EffortMeasurements::forget() {
 
 void EffortMeasurements::take(const JointSample& sample) {
   if (users_ == 0) return;
-  const bool ahead = sample.stamp_ns > latest_.stamp_ns;
-  if (!ahead) {
-    // A little late: it comes in between others, which stand for it. Later still: time went back.
-    if (latest_.stamp_ns - sample.stamp_ns <= max_gap_ns_) return;
+  // A little late: it comes in between others, which stand for it. Later still: time went back.
+  if (latest_.stamp_ns > sample.stamp_ns && latest_.stamp_ns - sample.stamp_ns > max_gap_ns_) {
     forget();
   }
-  latest_.stamp_ns = sample.stamp_ns;
+  latest_.stamp_ns = std::max(latest_.stamp_ns, sample.stamp_ns);
   ++taken_;
   for (int i = 0; i < sample.count; ++i) {
     const auto coordinate = static_cast<std::size_t>(sample.coordinates[i]);
+    if (sample.stamp_ns <= latest_.stamps_ns[coordinate]) continue;
+    latest_.stamps_ns[coordinate] = sample.stamp_ns;
     const double effort = sample.effort ? sample.effort[i] : kUnknownEffort;
     latest_.q[coordinate] = sample.q[i];
     latest_.qd[coordinate] = sample.qd ? sample.qd[i] : kUnknownEffort;

@@ -20,6 +20,8 @@ class EffortMeasurements {
  public:
   /// Measurements of a joint that are kept at most.
   static constexpr std::size_t kMost = 4096;
+  /// Stands for the stamp of what has not come.
+  static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min();
 
   /// @param max_gap s, between two measurements that are read on a straight line
   EffortMeasurements(std::vector<std::string> coordinates, double max_gap);
@@ -39,7 +41,7 @@ class EffortMeasurements {
     std::shared_ptr<EffortMeasurements> used_;
   };
 
-  /// Takes a joint state if there are users.
+  /// Takes a joint state if there are users; of each joint, only what is newer than before.
   void take(const JointSample& sample);
   /// Says once, in a line, which joints come without efforts. Allocates where it says something.
   std::optional<std::string> news();
@@ -50,7 +52,8 @@ class EffortMeasurements {
 
   /// The newest positions, velocities and efforts by coordinate, NaN where they are not known.
   struct Latest {
-    std::int64_t stamp_ns = std::numeric_limits<std::int64_t>::min();
+    std::int64_t stamp_ns = kNever;       ///< of the newest joint state
+    std::vector<std::int64_t> stamps_ns;  ///< of each coordinate
     std::vector<double> q, qd, effort;
   };
   const Latest& latest() const { return latest_; }
