@@ -29,21 +29,31 @@ class EffortMeasurements {
   /// Somebody who uses the measurements while it lives.
   class User {
    public:
-    explicit User(std::shared_ptr<EffortMeasurements> used) : used_(std::move(used)) {
+    /// @param observes whether no joint may be without position and velocity, see news()
+    explicit User(std::shared_ptr<EffortMeasurements> used, bool observes = false)
+        : used_(std::move(used)), observes_(observes) {
       ++used_->users_;
+      if (observes_) ++used_->observers_;
     }
-    ~User() { --used_->users_; }
+    ~User() {
+      if (observes_) --used_->observers_;
+      --used_->users_;
+    }
     User(const User&) = delete;
     const EffortMeasurements& operator*() const { return *used_; }
     const EffortMeasurements* operator->() const { return used_.get(); }
 
    private:
     std::shared_ptr<EffortMeasurements> used_;
+    const bool observes_;
   };
 
   /// Takes a joint state if there are users; of each joint, only what is newer than before.
   void take(const JointSample& sample);
-  /// Says once, in a line, which joints come without efforts. Allocates where it says something.
+  /// Gives a coordinate that may never come a position to rest at until it does, rad or m.
+  void setRest(int coordinate, double position);
+  /// Says in a line, once of each, which joints come without efforts, and which have no position or
+  /// no velocity although somebody observes. Allocates where it says something.
   std::optional<std::string> news();
 
   /// The effort at an instant, between two measurements on a straight line; NaN where it is not
@@ -72,14 +82,18 @@ class EffortMeasurements {
   };
 
   void forget();
+  void clearLatest();
+  std::optional<std::string> newsOfEfforts();
+  std::optional<std::string> newsOfMotions();
 
   const std::vector<std::string> names_;
   const std::int64_t max_gap_ns_;
-  std::atomic<int> users_{0};
+  std::atomic<int> users_{0}, observers_{0};
+  std::vector<double> rest_;  // positions, NaN: does not rest
   std::vector<Ring> rings_;
   Latest latest_;
-  std::size_t taken_ = 0;  // joint states
-  bool told_ = false;
+  std::size_t taken_ = 0;  // joint states since time went back
+  bool efforts_told_ = false, motions_told_ = false;
 };
 
 }  // namespace virtual_work_dynamics

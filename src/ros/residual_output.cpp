@@ -20,9 +20,9 @@ class ExternalEfforts : public MessageOf<sensor_msgs::JointState> {
  public:
   ExternalEfforts(Names names, const std::string& frame,
                   std::shared_ptr<EffortMeasurements> efforts,
-                  std::shared_ptr<ThresholdRecord> record)
+                  std::shared_ptr<ThresholdRecord> record, bool observes)
       : names_(std::move(names)),
-        efforts_(std::move(efforts)),
+        efforts_(std::move(efforts), observes),
         record_(std::move(record)),
         values_(names_.size(), std::numeric_limits<double>::quiet_NaN()) {
     message_.header.frame_id = frame;
@@ -62,7 +62,7 @@ class ResidualMessage : public ExternalEfforts {
                   std::shared_ptr<ThresholdRecord> record)
       : ExternalEfforts(
             {plan.effortNames().begin(), plan.effortNames().begin() + plan.coordinates()}, frame,
-            std::move(efforts), std::move(record)) {
+            std::move(efforts), std::move(record), false) {
     for (std::size_t i = 0; i < names_.size(); ++i) {
       delivered_.push_back(plan.actuated()[i] && !plan.residuals()[i]);
     }
@@ -111,7 +111,8 @@ class ObservedMessage : public ExternalEfforts {
   ObservedMessage(const Mechanism& mechanism, const Scene& scene, const std::string& frame,
                   double gain, double max_gap, std::shared_ptr<EffortMeasurements> efforts,
                   std::shared_ptr<ThresholdRecord> record)
-      : ExternalEfforts(mechanism.coordinateNames(), frame, std::move(efforts), std::move(record)),
+      : ExternalEfforts(mechanism.coordinateNames(), frame, std::move(efforts), std::move(record),
+                        true),
         max_gap_ns_(std::llround(std::min(max_gap, 1e9) * 1e9)),
         observer_(mechanism, scene, gain),
         load_(scene),

@@ -141,6 +141,7 @@ RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
   deviations = std::make_shared<DeviationRecord>(everything.effortNames(), everything.residuals(),
                                                  mechanism.coordinateNames(), otherCauses(scene));
   efforts = std::make_shared<EffortMeasurements>(mechanism.coordinateNames(), estimator.max_gap);
+  for (const auto& [coordinate, position] : rest) efforts->setRest(coordinate, position);
   const ExternalEffortSettings& asked = parameters.external;
   not_observed = whyNotObserved(mechanism, scene, asked.observer_gain);
   if (asked.observed && !not_observed.empty()) {

@@ -31,6 +31,7 @@ class EffortMeasurement : public testing::Test {
   std::shared_ptr<EffortMeasurements> measurements =
       std::make_shared<EffortMeasurements>(std::vector<std::string>{"elbow", "finger"}, kMaxGap);
   EffortMeasurements::User user{measurements};
+  std::int64_t now = 0;
 };
 
 TEST_F(EffortMeasurement, TakesEachDriverByItsOwnStamps) {
@@ -58,6 +59,45 @@ TEST_F(EffortMeasurement, KeepsTheNewestOfAJointWhereOneComesLate) {
   EXPECT_EQ(measurements->latest().effort[0], 3);
   EXPECT_EQ(measurements->at(0, 10 * kMs), 3);
   EXPECT_TRUE(std::isnan(measurements->at(0, 9 * kMs)));
+}
+
+TEST_F(EffortMeasurement, LetsAJointRestUntilItComes) {
+  measurements->setRest(1, 0.4);
+  const EffortMeasurements::Latest& latest = measurements->latest();
+  take(10 * kMs, 0, 1, 2, 3);
+  EXPECT_EQ(latest.q[1], 0.4);
+  EXPECT_EQ(latest.qd[1], 0);
+  EXPECT_TRUE(std::isnan(latest.effort[1]));
+  take(12 * kMs, 1, 7, 8, 9);
+  EXPECT_EQ(latest.q[1], 7);
+  EXPECT_EQ(latest.qd[1], 8);
+}
+
+TEST_F(EffortMeasurement, NamesOnceWhatAnObserverLacks) {
+  const auto takeMany = [&] {
+    std::vector<std::string> news;
+    for (int i = 0; i < 200; ++i) {
+      now += kMs;
+      take(now, 0, 1, 2, 3);
+      if (const auto text = measurements->news()) news.push_back(*text);
+    }
+    return news;
+  };
+  EXPECT_TRUE(takeMany().empty());  // the residual of a joint that never comes is not asked for
+  const EffortMeasurements::User observer(measurements, true);
+  const std::vector<std::string> news = takeMany();
+  ASSERT_EQ(news.size(), 1U);
+  EXPECT_NE(news[0].find("no position or no velocity of 'finger'"), std::string::npos) << news[0];
+  EXPECT_TRUE(takeMany().empty());
+}
+
+TEST_F(EffortMeasurement, HasNothingToSayToAnObserverOfAJointAtRest) {
+  measurements->setRest(1, 0.4);
+  const EffortMeasurements::User observer(measurements, true);
+  for (int i = 1; i <= 200; ++i) {
+    take(i * kMs, 0, 1, 2, 3);
+    EXPECT_FALSE(measurements->news());
+  }
 }
 
 }  // namespace

@@ -116,6 +116,33 @@ class ExternalEfforts(StreamTest):
         self.assertEqual(len(told), 1, self.node.lines('WARN'))
         self.assertIn("there are no measured efforts of 'shoulder', which", told[0])
 
+    def test_observer_takes_a_joint_of_rest_that_never_comes(self):
+        self.start({'rest': [{'name': 'slide', 'position': 0.05}]})
+        observed = self.node.record('external_effort', JointState)
+        self.node.wait_for_plan('effort', 'external_effort')
+        self.encoders, self.random = Encoders(), random.Random(2)
+        for i in range(200):
+            message = self.message(i)
+            for values in (message.name, message.position, message.velocity, message.effort):
+                del values[COORDINATES.index('slide')]
+            self.states.publish(message)
+        for message in observed.wait(100):
+            self.assertEqual(message.name, ['shoulder', 'elbow'])
+            self.assertTrue(np.isfinite(message.effort).all())
+
+    def test_observer_names_the_joints_without_velocities(self):
+        self.start()
+        self.node.record('external_effort', JointState)
+        self.node.wait_for_plan('effort', 'external_effort')
+        self.encoders, self.random = Encoders(), random.Random(2)
+        for i in range(300):
+            message = self.message(i)
+            message.velocity[COORDINATES.index('elbow')] = float('nan')
+            self.states.publish(message)
+        wait_until(lambda: [line for line in self.node.lines('WARN')
+                            if "no position or no velocity of 'elbow'," in line],
+                   lambda: 'the warning in %s' % self.node.lines('WARN'))
+
     def test_efforts_beyond_the_limits_of_the_description(self):
         weak = ARM.replace('effort="100" velocity="5"', 'effort="1.5" velocity="5"')
         self.assertNotEqual(weak, ARM)
