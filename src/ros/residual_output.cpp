@@ -123,12 +123,15 @@ class ObservedMessage : public ExternalEfforts {
   void fill(const OutputSample&) override {
     const EffortMeasurements::Latest& latest = efforts_->latest();
     exists_ = false;
+    if (latest.stamp_ns == EffortMeasurements::kNever) return;
     if (started_ && latest.stamp_ns == latest_ns_) return;
     for (std::size_t i = 0; i < names_.size(); ++i) {
       const auto index = static_cast<Eigen::Index>(i);
       motion_.q[index] = latest.q[i];
-      motion_.qd[index] = latest.qd[i];
-      measured_[index] = latest.effort[i];
+      // A joint whose driver has stopped is held where it was, and its effort is no longer known.
+      const bool held = latest.stamps_ns[i] < latest.stamp_ns - max_gap_ns_;
+      motion_.qd[index] = held ? 0 : latest.qd[i];
+      measured_[index] = held ? std::numeric_limits<double>::quiet_NaN() : latest.effort[i];
     }
     if (!motion_.q.allFinite() || !motion_.qd.allFinite()) return;
     const std::int64_t length = started_ ? latest.stamp_ns - latest_ns_ : 0;

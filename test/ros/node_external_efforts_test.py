@@ -6,7 +6,7 @@ from diagnostic_msgs.msg import DiagnosticStatus
 import numpy as np
 from sensor_msgs.msg import JointState
 
-from encoder_streams import ARM, COORDINATES, LATEST, MOTION, STEP, Encoders, StreamTest
+from encoder_streams import ARM, COORDINATES, LATEST, MOTION, MS, STEP, Encoders, StreamTest
 from node_under_test import EPOCH, Node, joint_state, run, wait_until
 from rigid_bodies import RigidBodies
 
@@ -129,6 +129,28 @@ class ExternalEfforts(StreamTest):
         for message in observed.wait(100):
             self.assertEqual(message.name, ['shoulder', 'elbow'])
             self.assertTrue(np.isfinite(message.effort).all())
+
+    def test_a_driver_that_stops_has_no_external_effort_and_others_work(self):
+        self.start({'estimator': {'max_gap': 0.1}})
+        observed = self.node.record('external_effort', JointState)
+        self.node.wait_for_plan('effort', 'external_effort')
+        self.encoders, self.random = Encoders(), random.Random(2)
+        stop, end = 200, 500
+        for i in range(end):
+            message = self.message(i)
+            if i >= stop:
+                for values in (message.name, message.position, message.velocity, message.effort):
+                    del values[COORDINATES.index('slide')]
+            self.states.publish(message)
+        at_end = STAMPS[end - 1]
+        wait_until(lambda: any(m.header.stamp.to_nsec() == at_end for m in observed.messages()),
+                   'the last message')
+        for message in observed.messages():
+            ns = message.header.stamp.to_nsec()
+            if ns < STAMPS[stop]:
+                self.assertEqual(message.name, COORDINATES)
+            elif ns > STAMPS[stop] + 100 * MS:
+                self.assertEqual(message.name, ['shoulder', 'elbow'])
 
     def test_observer_names_the_joints_without_velocities(self):
         self.start()
