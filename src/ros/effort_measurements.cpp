@@ -41,7 +41,7 @@ void EffortMeasurements::clearLatest() {
   }
 }
 
-void EffortMeasurements::forget() {
+void EffortMeasurements::restart() {
   for (Ring& ring : rings_) ring.size = 0;
   taken_ = 0;
   clearLatest();
@@ -49,14 +49,11 @@ void EffortMeasurements::forget() {
 
 void EffortMeasurements::take(const JointSample& sample) {
   if (users_ == 0) return;
-  // A little late: it comes in between others, which stand for it. Later still: time went back.
-  if (latest_.stamp_ns > sample.stamp_ns && latest_.stamp_ns - sample.stamp_ns > max_gap_ns_) {
-    forget();
-  }
   latest_.stamp_ns = std::max(latest_.stamp_ns, sample.stamp_ns);
   ++taken_;
   for (int i = 0; i < sample.count; ++i) {
     const auto coordinate = static_cast<std::size_t>(sample.coordinates[i]);
+    // What comes late is in between others of the joint, which stand for it.
     if (sample.stamp_ns <= latest_.stamps_ns[coordinate]) continue;
     latest_.stamps_ns[coordinate] = sample.stamp_ns;
     const double effort = sample.effort ? sample.effort[i] : kUnknown;

@@ -48,6 +48,8 @@ class EffortMeasurements {
     const bool observes_;
   };
 
+  /// Time went back: forgets all that was measured.
+  void restart();
   /// Takes a joint state if there are users; of each joint, only what is newer than before.
   void take(const JointSample& sample);
   /// Gives a coordinate that may never come a position to rest at until it does, rad or m.
@@ -81,7 +83,6 @@ class EffortMeasurements {
     const Measured& at(std::size_t i) const { return values[(first + i) % kMost]; }
   };
 
-  void forget();
   void clearLatest();
   std::optional<std::string> newsOfEfforts();
   std::optional<std::string> newsOfMotions();

@@ -61,6 +61,20 @@ TEST_F(EffortMeasurement, KeepsTheNewestOfAJointWhereOneComesLate) {
   EXPECT_TRUE(std::isnan(measurements->at(0, 9 * kMs)));
 }
 
+TEST_F(EffortMeasurement, ForgetsWhatWasMeasuredWhereTimeWentBack) {
+  measurements->setRest(1, 0.4);
+  take(1000 * kMs, 0, 1, 2, 3);
+  take(1000 * kMs, 1, 4, 5, 6);
+  measurements->restart();
+  const EffortMeasurements::Latest& latest = measurements->latest();
+  EXPECT_EQ(latest.stamp_ns, EffortMeasurements::kNever);
+  EXPECT_TRUE(std::isnan(measurements->at(0, 1000 * kMs)));
+  take(990 * kMs, 0, 7, 8, 9);  // less than the longest gap before
+  EXPECT_EQ(latest.stamp_ns, 990 * kMs);
+  EXPECT_EQ(latest.q, (std::vector<double>{7, 0.4}));
+  EXPECT_EQ(measurements->at(0, 990 * kMs), 9);
+}
+
 TEST_F(EffortMeasurement, LetsAJointRestUntilItComes) {
   measurements->setRest(1, 0.4);
   const EffortMeasurements::Latest& latest = measurements->latest();
