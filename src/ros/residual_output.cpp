@@ -2,6 +2,7 @@
 
 #include <sensor_msgs/JointState.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -46,7 +47,7 @@ class ExternalEfforts : public MessageOf<sensor_msgs::JointState> {
       message_.effort.push_back(values_[i]);
     }
     exists_ = known > 0;
-    if (record_ && exists_) record_->record(stamp_ns, values_);
+    if (record_) record_->record(stamp_ns, values_);
   }
 
   const Names names_;
@@ -133,7 +134,11 @@ class ObservedMessage : public ExternalEfforts {
       motion_.qd[index] = held ? 0 : latest.qd[i];
       measured_[index] = held ? std::numeric_limits<double>::quiet_NaN() : latest.effort[i];
     }
-    if (!motion_.q.allFinite() || !motion_.qd.allFinite()) return;
+    if (!motion_.q.allFinite() || !motion_.qd.allFinite()) {
+      std::fill(values_.begin(), values_.end(), std::numeric_limits<double>::quiet_NaN());
+      write(latest.stamp_ns);
+      return;
+    }
     const std::int64_t length = started_ ? latest.stamp_ns - latest_ns_ : 0;
     if (!started_ || length < 0 || length > max_gap_ns_) {
       observer_.restart();

@@ -101,7 +101,8 @@ std::string whyNotObserved(const Mechanism& mechanism, const Scene& scene, doubl
 
 // The record of the thresholds, if there are any.
 std::shared_ptr<ThresholdRecord> externalRecord(const Mechanism& mechanism,
-                                                const ExternalEffortSettings& asked) {
+                                                const ExternalEffortSettings& asked,
+                                                double max_gap) {
   if (asked.thresholds.empty()) return nullptr;
   std::vector<double> thresholds(mechanism.coordinates().size(),
                                  std::numeric_limits<double>::infinity());
@@ -119,7 +120,8 @@ std::shared_ptr<ThresholdRecord> externalRecord(const Mechanism& mechanism,
     }
     threshold = effort;
   }
-  return std::make_shared<ThresholdRecord>(mechanism.coordinateNames(), thresholds, asked.hold);
+  return std::make_shared<ThresholdRecord>(mechanism.coordinateNames(), thresholds, asked.hold,
+                                           max_gap);
 }
 
 }  // namespace
@@ -147,10 +149,10 @@ RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
   if (asked.observed && !not_observed.empty()) {
     throw parameterError("external_effort/by", "observer: " + not_observed);
   }
-  external = externalRecord(mechanism, asked);
+  external = externalRecord(mechanism, asked, estimator.max_gap);
   if (asked.effort_limits) {
-    limits =
-        std::make_shared<ThresholdRecord>(mechanism.coordinateNames(), effortLimits(mechanism), 0);
+    limits = std::make_shared<ThresholdRecord>(mechanism.coordinateNames(), effortLimits(mechanism),
+                                               0, estimator.max_gap);
   }
   outputs =
       makeOutputs(mechanism, everything,
