@@ -70,6 +70,8 @@ class ResidualMessage : public ExternalEfforts {
   }
 
   void fill(const OutputSample& sample) override {
+    exists_ = false;
+    if (!sample.measured) return;
     for (std::size_t i = 0; i < values_.size(); ++i) {
       values_[i] = std::numeric_limits<double>::quiet_NaN();
       if (!delivered_[i] || !sample.results.effortExists(i)) continue;
@@ -121,9 +123,10 @@ class ObservedMessage : public ExternalEfforts {
         measured_(motion_.q) {}
 
   // Takes the newest joint state, which is ahead of the sample.
-  void fill(const OutputSample&) override {
+  void fill(const OutputSample& sample) override {
     const EffortMeasurements::Latest& latest = efforts_->latest();
     exists_ = false;
+    if (!sample.measured) return;
     if (latest.stamp_ns == EffortMeasurements::kNever) return;
     if (started_ && latest.stamp_ns == latest_ns_) return;
     for (std::size_t i = 0; i < names_.size(); ++i) {
