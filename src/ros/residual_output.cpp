@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "ros/delivered_efforts.h"
 #include "ros/message_copies.h"
 #include "virtual_work_dynamics/momentum_observer.h"
 
@@ -63,11 +64,8 @@ class ResidualMessage : public ExternalEfforts {
                   std::shared_ptr<ThresholdRecord> record)
       : ExternalEfforts(
             {plan.effortNames().begin(), plan.effortNames().begin() + plan.coordinates()}, frame,
-            std::move(efforts), std::move(record), false) {
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      delivered_.push_back(plan.actuated()[i] && !plan.residuals()[i]);
-    }
-  }
+            std::move(efforts), std::move(record), false),
+        delivered_(deliveredEfforts(plan)) {}
 
   void fill(const OutputSample& sample) override {
     exists_ = false;
@@ -82,7 +80,7 @@ class ResidualMessage : public ExternalEfforts {
   }
 
  private:
-  std::vector<bool> delivered_;  // by coordinate: whether an actuator delivers its effort
+  const std::vector<bool> delivered_;
 };
 
 class ResidualOutput : public Output {
