@@ -120,5 +120,26 @@ TEST_F(ResidualOutputs, ObserverLeavesOutAJointThatHasStopped) {
   EXPECT_EQ(valueOf(*observed, "joint_2"), 0);  // begins anew
 }
 
+TEST_F(ResidualOutputs, ObserverGoesOnInANewPlanUnlessLoadsChange) {
+  const auto output = observer();
+  const auto first = output->makeMessage(plan_, scene_);
+  for (int i = 0; i < 200; ++i) {
+    take();
+    fill(*first);
+  }
+  const double before = valueOf(*first, "joint_2");
+  EXPECT_NEAR(before, kPush, 1e-3);  // 3 N m e^(-50 * 0.199)
+  const auto second = output->makeMessage(plan_, scene_);
+  take();
+  fill(*second);
+  EXPECT_NEAR(valueOf(*second, "joint_2"), kPush, 1e-3);
+  Scene loaded = scene_;
+  loaded.payloads.push_back({"rod_2", 0.5, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Zero()});
+  const auto third = output->makeMessage(plan_, loaded);
+  take();
+  fill(*third);
+  EXPECT_EQ(valueOf(*third, "joint_2"), 0);
+}
+
 }  // namespace
 }  // namespace virtual_work_dynamics
