@@ -116,6 +116,13 @@ class ExternalEfforts(StreamTest):
         self.assertEqual(len(told), 1, self.node.lines('WARN'))
         self.assertIn("there are no measured efforts of 'shoulder', which", told[0])
 
+    def test_diagnostics_name_subscribers_of_what_is_always_computed(self):
+        self.start({'external_effort': {'thresholds': [{'name': 'elbow', 'effort': 3.0}]}})
+        residuals = self.node.record('residual', JointState)
+        self.node.wait_for_plan('effort', 'residual')
+        residuals.stop()
+        self.node.wait_for_plan('effort')
+
     def test_observer_takes_a_joint_of_rest_that_never_comes(self):
         self.start({'rest': [{'name': 'slide', 'position': 0.05}]})
         observed = self.node.record('external_effort', JointState)
