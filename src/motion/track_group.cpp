@@ -23,11 +23,16 @@ bool TrackGroup::startsWith(std::int64_t stamp_ns) const {
   return empty() || last() - stamp_ns > max_gap_ns_ || behind_ >= kMostBehind;
 }
 
+void TrackGroup::restart() {
+  for (CoordinateTrack& track : tracks_) track.clear();
+  behind_ = 0;
+}
+
 TrackGroup::Verdict TrackGroup::push(std::int64_t stamp_ns, const double* values,
                                      const double* rates) {
   Verdict verdict = Verdict::kAccepted;
   if (!empty() && startsWith(stamp_ns)) {
-    for (CoordinateTrack& track : tracks_) track.clear();
+    restart();
     verdict = Verdict::kRestartedBack;
   }
   const std::int64_t ahead = empty() ? 1 : stamp_ns - last();

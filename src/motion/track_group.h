@@ -30,6 +30,8 @@ class TrackGroup {
   };
   /// @param values,rates one of each coordinate; a rate that is NaN is not given
   Verdict push(std::int64_t stamp_ns, const double* values, const double* rates);
+  /// Forgets all samples: the next one is taken as the first.
+  void restart();
   /// Whether a sample of this stamp would be taken as the first one.
   bool startsWith(std::int64_t stamp_ns) const;
 

@@ -40,6 +40,10 @@ class TurnEstimator {
   /// empty().
   FreeTurn held() const;
   bool empty() const { return tracks_.empty(); }
+  /// The latest stamp, ns; to be called unless empty().
+  std::int64_t last() const { return tracks_.last(); }
+  /// Forgets all samples.
+  void restart() { tracks_.restart(); }
   /// What the orientations were found to be.
   StreamQuality quality() const;
 

@@ -48,11 +48,13 @@ Diagnostics::Diagnostics(const Counters& counters_read, RunTimeHistogram& run_ti
   updater_.add("inverse dynamics", this, &Diagnostics::report);
 }
 
-void Diagnostics::setPlan(const std::vector<std::string>& outputs, const std::string& plan,
-                          const std::string& operations) {
+void Diagnostics::setOutputs(const std::vector<std::string>& outputs) {
   outputs_.clear();
   for (const std::string& output : outputs) outputs_ += (outputs_.empty() ? "" : ", ") + output;
   if (outputs.empty()) outputs_ = "none";
+}
+
+void Diagnostics::setPlan(const std::string& plan, const std::string& operations) {
   plan_ = plan;
   operations_ = operations;
 }
@@ -69,7 +71,8 @@ void Diagnostics::update(JointWatch::Clock::time_point now) {
 Diagnostics::Before Diagnostics::count() const {
   Before now;
   now.time = JointWatch::Clock::now();
-  now.inputs = counters_.joint_states.value() + counters_.trajectories.value();
+  now.inputs = counters_.joint_states.value() + counters_.free_joints.value() +
+               counters_.trajectories.value();
   now.accepted = counters_.accepted_joint_states.value();
   now.restarts = counters_.restarts.value();
   now.gaps = counters_.gaps.value();

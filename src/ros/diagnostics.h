@@ -26,9 +26,10 @@ class Diagnostics {
               const StreamReport& streams, const DeviationReport& deviations,
               const ThresholdReport& thresholds, const std::string& robot, double period);
 
-  /// Sets what the node does now: the subscribed outputs, and what it computes for them.
-  void setPlan(const std::vector<std::string>& outputs, const std::string& plan,
-               const std::string& operations);
+  /// Sets the outputs that are subscribed to now.
+  void setOutputs(const std::vector<std::string>& outputs);
+  /// Sets what the node computes for them.
+  void setPlan(const std::string& plan, const std::string& operations);
 
   /// Publishes when the period is over.
   void update(JointWatch::Clock::time_point now);

@@ -20,6 +20,8 @@ class EffortMeasurements {
  public:
   /// Measurements of a joint that are kept at most.
   static constexpr std::size_t kMost = 4096;
+  /// Stands for the stamp of what has not come.
+  static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min();
 
   /// @param max_gap s, between two measurements that are read on a straight line
   EffortMeasurements(std::vector<std::string> coordinates, double max_gap);
@@ -27,21 +29,33 @@ class EffortMeasurements {
   /// Somebody who uses the measurements while it lives.
   class User {
    public:
-    explicit User(std::shared_ptr<EffortMeasurements> used) : used_(std::move(used)) {
+    /// @param observes whether no joint may be without position and velocity, see news()
+    explicit User(std::shared_ptr<EffortMeasurements> used, bool observes = false)
+        : used_(std::move(used)), observes_(observes) {
       ++used_->users_;
+      if (observes_) ++used_->observers_;
     }
-    ~User() { --used_->users_; }
+    ~User() {
+      if (observes_) --used_->observers_;
+      --used_->users_;
+    }
     User(const User&) = delete;
     const EffortMeasurements& operator*() const { return *used_; }
     const EffortMeasurements* operator->() const { return used_.get(); }
 
    private:
     std::shared_ptr<EffortMeasurements> used_;
+    const bool observes_;
   };
 
-  /// Takes a joint state if there are users.
+  /// Time went back: forgets all that was measured.
+  void restart();
+  /// Takes a joint state if there are users; of each joint, only what is newer than before.
   void take(const JointSample& sample);
-  /// Says once, in a line, which joints come without efforts. Allocates where it says something.
+  /// Gives a coordinate that may never come a position to rest at until it does, rad or m.
+  void setRest(int coordinate, double position);
+  /// Says in a line, once of each, which joints come without efforts, and which have no position or
+  /// no velocity although somebody observes. Allocates where it says something.
   std::optional<std::string> news();
 
   /// The effort at an instant, between two measurements on a straight line; NaN where it is not
@@ -50,7 +64,8 @@ class EffortMeasurements {
 
   /// The newest positions, velocities and efforts by coordinate, NaN where they are not known.
   struct Latest {
-    std::int64_t stamp_ns = std::numeric_limits<std::int64_t>::min();
+    std::int64_t stamp_ns = kNever;       ///< of the newest joint state
+    std::vector<std::int64_t> stamps_ns;  ///< of each coordinate
     std::vector<double> q, qd, effort;
   };
   const Latest& latest() const { return latest_; }
@@ -68,15 +83,18 @@ class EffortMeasurements {
     const Measured& at(std::size_t i) const { return values[(first + i) % kMost]; }
   };
 
-  void forget();
+  void clearLatest();
+  std::optional<std::string> newsOfEfforts();
+  std::optional<std::string> newsOfMotions();
 
   const std::vector<std::string> names_;
   const std::int64_t max_gap_ns_;
-  std::atomic<int> users_{0};
+  std::atomic<int> users_{0}, observers_{0};
+  std::vector<double> rest_;  // positions, NaN: does not rest
   std::vector<Ring> rings_;
   Latest latest_;
-  std::size_t taken_ = 0;  // joint states
-  bool told_ = false;
+  std::size_t taken_ = 0;  // joint states since time went back
+  bool efforts_told_ = false, motions_told_ = false;
 };
 
 }  // namespace virtual_work_dynamics

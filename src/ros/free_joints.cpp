@@ -52,6 +52,12 @@ std::optional<Rejection> FreeJoints::take(const sensor_msgs::MultiDOFJointState&
   return std::nullopt;
 }
 
+void FreeJoints::restart(std::int64_t stamp_ns) {
+  for (TurnEstimator& turn : turns_) {
+    if (!turn.empty() && turn.last() > stamp_ns) turn.restart();
+  }
+}
+
 std::optional<std::size_t> FreeJoints::set(std::int64_t stamp_ns, const MotionEstimator& estimator,
                                            Motion& motion, MotionCovariance* covariance) const {
   for (std::size_t i = 0; i < turns_.size(); ++i) {

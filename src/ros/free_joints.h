@@ -30,6 +30,9 @@ class FreeJoints {
   /// @returns why the message is to be dropped, or nothing.
   std::optional<Rejection> take(const sensor_msgs::MultiDOFJointState& message,
                                 JointSample& sample);
+  /// Time went back to a stamp, which may be of the latest message: forgets the orientations of
+  /// joints that have later ones.
+  void restart(std::int64_t stamp_ns);
   std::string takeDoubt() { return conversion_.takeDoubt(); }
 
   /// Sets orientations and angles of a motion at an instant. Of a joint that the estimator holds it

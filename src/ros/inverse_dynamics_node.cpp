@@ -365,10 +365,11 @@ std::unique_ptr<ActivePlan> InverseDynamicsNode::compile(const Audience& audienc
 void InverseDynamicsNode::adaptPlan() {
   audience_changed_ = false;
   const Audience audience = outputs_.audience();
+  diagnostics_.setOutputs(outputs_.names(audience));
   if (audience == audience_ && !scene_inputs_.changed()) return;
   try {
     std::unique_ptr<ActivePlan> plan = compile(audience);
-    diagnostics_.setPlan(outputs_.names(audience), describe(*plan), operationsOf(*plan));
+    diagnostics_.setPlan(describe(*plan), operationsOf(*plan));
     if (cross_check_) cross_check_->watch(plan->cross_check);
     plans_.offer(std::move(plan));
     audience_ = audience;

@@ -21,9 +21,9 @@ subscribes
 publishes (each only while somebody subscribes)
   ~effort            sensor_msgs/JointState           positions and velocities used, efforts
   ~effort_deviation  sensor_msgs/JointState           standard deviations of efforts by the motion's error
+  ~effort_tolerance  sensor_msgs/JointState           the same by the scene's tolerances, where it has any
   ~residual          sensor_msgs/JointState           external efforts: computed less measured ones
   ~external_effort   sensor_msgs/JointState           the same by a momentum observer, without the lag
-  ~effort_tolerance  sensor_msgs/JointState           the same by the scene's tolerances, where it has any
   ~reactions         sensor_msgs/MultiDOFJointState   joint poses and wrenches, axes of the root link
   ~reactions_inertial                                 the same in inertial axes, by ~root/axes
   ~reaction/<joint>  geometry_msgs/WrenchStamped      the same wrench, frame of the child link

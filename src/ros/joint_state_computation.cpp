@@ -83,6 +83,8 @@ bool JointStateComputation::push(const JointSample& sample, Drop drop) {
   }
   if (verdict == Verdict::kRestartedBack) {
     counters_.restarts.add();
+    free_joints_.restart(sample.stamp_ns);
+    if (efforts_) efforts_->restart();
     user_.noteRestart(sample.stamp_ns);
   }
   counters_.accepted_joint_states.add();

@@ -13,6 +13,7 @@
 
 #include "dynamics/inertial_axes.h"
 #include "ros/closure_frames.h"
+#include "ros/delivered_efforts.h"
 #include "ros/determinacy_message.h"
 #include "ros/deviation_output.h"
 #include "ros/marker_output.h"
@@ -57,7 +58,8 @@ class EffortMessage : public MessageOf<sensor_msgs::JointState> {
                 std::shared_ptr<ThresholdRecord> limits)
       : names_(plan.effortNames()),
         limits_(std::move(limits)),
-        values_(static_cast<std::size_t>(plan.coordinates())) {
+        values_(static_cast<std::size_t>(plan.coordinates())),
+        delivered_(deliveredEfforts(plan)) {
     message_.header.frame_id = frame;
     message_.name = names_;
     for (auto* values : {&message_.position, &message_.velocity, &message_.effort}) {
@@ -95,7 +97,7 @@ class EffortMessage : public MessageOf<sensor_msgs::JointState> {
 
   void recordLimits(const OutputSample& sample) {
     for (std::size_t i = 0; i < values_.size(); ++i) {
-      values_[i] = sample.results.effortExists(i)
+      values_[i] = delivered_[i] && sample.results.effortExists(i)
                        ? sample.results.effort[static_cast<Eigen::Index>(i)]
                        : std::numeric_limits<double>::quiet_NaN();
     }
@@ -105,6 +107,7 @@ class EffortMessage : public MessageOf<sensor_msgs::JointState> {
   const Names names_;  // all names; the message has those of existing results
   const std::shared_ptr<ThresholdRecord> limits_;
   std::vector<double> values_;  // of the coordinates
+  const std::vector<bool> delivered_;
 };
 
 class EffortOutput : public Output {

@@ -27,6 +27,7 @@ struct OutputSample {
   const Results& results;
   const MotionCovariance* covariance = nullptr;  ///< of the motion; null: not known
   const LoadLaw* law = nullptr;                  ///< of the load of the sample; null: the scene's
+  bool measured = false;  ///< whether joint states say so, rather than a trajectory
 };
 
 /// The message of one output in one plan, with names, frames and sizes set once. Only the computing

@@ -42,16 +42,19 @@ std::optional<Rejection> PoseReading::readTransform(const geometry_msgs::Transfo
 void PoseReading::takeTwist(const geometry_msgs::Twist& message, Eigen::Vector3d& linear,
                             Eigen::Vector3d& angular) {
   twist_left_out_ = false;
-  const auto leaveOut = [&](const std::string& why, Eigen::Vector3d& part) {
-    part.setConstant(std::numeric_limits<double>::quiet_NaN());
+  const auto take = [&](const geometry_msgs::Vector3& given, const char* name,
+                        Eigen::Vector3d& part) {
+    if (copyVector(given, part)) return;
     twist_left_out_ = true;
-    if (!twist_doubted_)
-      doubt(twist_doubted_, why + ": poses count without rates that are not finite");
+    // The text is made once only, as it allocates.
+    if (!twist_doubted_) {
+      doubt(twist_doubted_, readVector(given, name, part)->text +
+                                ": poses count without rates that are not finite");
+    }
+    part.setConstant(std::numeric_limits<double>::quiet_NaN());
   };
-  if (const auto wrong = readVector(message.linear, "twist.linear", linear))
-    leaveOut(wrong->text, linear);
-  if (const auto wrong = readVector(message.angular, "twist.angular", angular))
-    leaveOut(wrong->text, angular);
+  take(message.linear, "twist.linear", linear);
+  take(message.angular, "twist.angular", angular);
 }
 
 void PoseReading::doubt(bool& doubted, const std::string& text) {

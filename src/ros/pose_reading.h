@@ -16,11 +16,19 @@
 
 namespace virtual_work_dynamics {
 
+/// Copies three numbers. Returns whether all are finite and no larger than any robot's.
+template <typename Message>
+bool copyVector(const Message& message, Eigen::Vector3d& vector) {
+  vector << message.x, message.y, message.z;
+  return std::abs(message.x) <= kLargestMotion && std::abs(message.y) <= kLargestMotion &&
+         std::abs(message.z) <= kLargestMotion;
+}
+
 /// Copies three numbers; refuses those that are not finite, or are beyond any robot's.
 template <typename Message>
 std::optional<Rejection> readVector(const Message& message, const std::string& what,
                                     Eigen::Vector3d& vector) {
-  vector << message.x, message.y, message.z;
+  if (copyVector(message, vector)) return std::nullopt;
   for (int i = 0; i < 3; ++i) {
     if (std::abs(vector[i]) <= kLargestMotion) continue;
     return Rejection{DropReason::kNotFinite,

@@ -11,6 +11,7 @@
 #include "dynamics/given_joints.h"
 #include "robot/effort_limits.h"
 #include "ros/closure_frames.h"
+#include "ros/delivered_efforts.h"
 #include "ros/loop_report.h"
 #include "ros/message_text.h"
 #include "ros/private_name.h"
@@ -99,9 +100,24 @@ std::string whyNotObserved(const Mechanism& mechanism, const Scene& scene, doubl
   return "";
 }
 
+// Why a coordinate never has an external effort; empty when it may have one.
+std::string whyNotMeasured(const Mechanism& mechanism, const Dynamics& dynamics, int coordinate) {
+  for (std::size_t i = 0; i < mechanism.orientations(); ++i) {
+    const int angle = coordinate - mechanism.anglesOf(i);
+    if (angle >= 0 && angle < 3) {
+      return "is an angle of " + inQuotes(mechanism.freeJoint(i).name) +
+             ", a joint that turns freely, whose efforts joint states do not have";
+    }
+  }
+  const auto place = static_cast<std::size_t>(coordinate);
+  return deliveredEfforts(dynamics)[place] ? "" : "is passive: no actuator delivers its effort";
+}
+
 // The record of the thresholds, if there are any.
 std::shared_ptr<ThresholdRecord> externalRecord(const Mechanism& mechanism,
-                                                const ExternalEffortSettings& asked) {
+                                                const Dynamics& dynamics,
+                                                const ExternalEffortSettings& asked,
+                                                double max_gap) {
   if (asked.thresholds.empty()) return nullptr;
   std::vector<double> thresholds(mechanism.coordinates().size(),
                                  std::numeric_limits<double>::infinity());
@@ -113,13 +129,35 @@ std::shared_ptr<ThresholdRecord> externalRecord(const Mechanism& mechanism,
                                inQuotes(name) + " that moves by itself" +
                                nameHelp(name, mechanism.coordinateNames()));
     }
+    const std::string problem = whyNotMeasured(mechanism, dynamics, coordinate);
+    if (!problem.empty()) {
+      throw parameterError("external_effort/thresholds", inQuotes(name) + " " + problem);
+    }
     double& threshold = thresholds[static_cast<std::size_t>(coordinate)];
     if (std::isfinite(threshold)) {
       throw parameterError("external_effort/thresholds", inQuotes(name) + " is given twice");
     }
     threshold = effort;
   }
-  return std::make_shared<ThresholdRecord>(mechanism.coordinateNames(), thresholds, asked.hold);
+  return std::make_shared<ThresholdRecord>(mechanism.coordinateNames(), thresholds, asked.hold,
+                                           max_gap);
+}
+
+// The record of efforts beyond the description's limits.
+std::shared_ptr<ThresholdRecord> limitRecord(const Mechanism& mechanism, const Dynamics& dynamics,
+                                             double max_gap) {
+  std::vector<double> limits = effortLimits(mechanism);
+  const std::vector<bool> delivered = deliveredEfforts(dynamics);
+  bool any = false;
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    if (!delivered[i]) limits[i] = std::numeric_limits<double>::infinity();
+    any = any || std::isfinite(limits[i]);
+  }
+  if (!any) {
+    throw parameterError("effort_limit_warn", "robot " + inQuotes(mechanism.name()) +
+                                                  " has no actuated joint with a limit of effort");
+  }
+  return std::make_shared<ThresholdRecord>(mechanism.coordinateNames(), limits, 0, max_gap);
 }
 
 }  // namespace
@@ -141,16 +179,14 @@ RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
   deviations = std::make_shared<DeviationRecord>(everything.effortNames(), everything.residuals(),
                                                  mechanism.coordinateNames(), otherCauses(scene));
   efforts = std::make_shared<EffortMeasurements>(mechanism.coordinateNames(), estimator.max_gap);
+  for (const auto& [coordinate, position] : rest) efforts->setRest(coordinate, position);
   const ExternalEffortSettings& asked = parameters.external;
   not_observed = whyNotObserved(mechanism, scene, asked.observer_gain);
   if (asked.observed && !not_observed.empty()) {
     throw parameterError("external_effort/by", "observer: " + not_observed);
   }
-  external = externalRecord(mechanism, asked);
-  if (asked.effort_limits) {
-    limits =
-        std::make_shared<ThresholdRecord>(mechanism.coordinateNames(), effortLimits(mechanism), 0);
-  }
+  external = externalRecord(mechanism, everything, asked, estimator.max_gap);
+  if (asked.effort_limits) limits = limitRecord(mechanism, everything, estimator.max_gap);
   outputs =
       makeOutputs(mechanism, everything,
                   {reactions, reaction_topics, parameters.frame_prefix, parameters.twist,

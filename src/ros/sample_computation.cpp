@@ -40,7 +40,7 @@ SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan, std::int
   if (!setRoot(stamp_ns, motion_.root, covariance)) return Outcome::kNoRoot;
   const auto start = Clock::now();
   if (!completer_.complete(motion_, plan.dynamics, plan.workspace)) return Outcome::kOpenLoop;
-  const Outcome outcome = computeOne(plan, stamp_ns, start, covariance);
+  const Outcome outcome = computeOne(plan, stamp_ns, start, covariance, true);
   if (outcome == Outcome::kDone) completer_.took(motion_, plan.workspace.results());
   return outcome;
 }
@@ -107,13 +107,14 @@ void SampleComputation::computeBlock(ActivePlan& plan, const TrajectoryMotion& t
 
 SampleComputation::Outcome SampleComputation::computeOne(ActivePlan& plan, std::int64_t stamp_ns,
                                                          Clock::time_point start,
-                                                         MotionCovariance* covariance) {
+                                                         MotionCovariance* covariance,
+                                                         bool measured) {
   if (!motion_.finite()) return Outcome::kNotFinite;
   if (!setLoad(stamp_ns, covariance)) return Outcome::kNoWrench;
   plan.dynamics.compute(motion_, load_, plan.workspace);
   const std::chrono::nanoseconds time = Clock::now() - start;
   records_.counters.run_times.record(time.count());
-  return finish(plan, stamp_ns, plan.workspace.results(), Of::kSample, covariance);
+  return finish(plan, stamp_ns, plan.workspace.results(), Of::kSample, covariance, measured);
 }
 
 void SampleComputation::setRoots(TrajectoryMotion& trajectory) {
@@ -149,11 +150,12 @@ bool SampleComputation::setLoad(std::int64_t stamp_ns, MotionCovariance* covaria
 
 SampleComputation::Outcome SampleComputation::finish(ActivePlan& plan, std::int64_t stamp_ns,
                                                      const Results& results, Of messages,
-                                                     const MotionCovariance* covariance) {
+                                                     const MotionCovariance* covariance,
+                                                     bool measured) {
   if (!results.finite()) return Outcome::kNotFinite;
   for (ActiveOutput& output : plan.outputs) {
     if (messages == (output.of_trajectories ? Of::kSample : Of::kTrajectory)) continue;
-    output.message->fill({stamp_ns, motion_, results, covariance, &law_});
+    output.message->fill({stamp_ns, motion_, results, covariance, &law_, measured});
   }
   records_.loops.record(results, plan);
   check(plan, results);

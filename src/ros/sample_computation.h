@@ -47,7 +47,7 @@ class SampleComputation {
   /// motion: how a joint that turns freely does so is not known.
   enum class Outcome { kDone, kNotFinite, kOpenLoop, kNoWrench, kNoRoot, kNoTurn };
 
-  /// Computes the sample whose motion is motion() and writes messages of samples.
+  /// Computes the sample of joint states whose motion is motion() and writes messages of samples.
   /// @param covariance of all coordinates of motion(); it gets those of the root and of live
   ///   wrenches, and must have come from makeCovariance(). Null: not known
   Outcome compute(ActivePlan& plan, std::int64_t stamp_ns, MotionCovariance* covariance = nullptr);
@@ -76,10 +76,10 @@ class SampleComputation {
   bool setLoad(std::int64_t stamp_ns, MotionCovariance* covariance = nullptr);
   void computeBlock(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t first);
   Outcome computeOne(ActivePlan& plan, std::int64_t stamp_ns, Clock::time_point start,
-                     MotionCovariance* covariance);
+                     MotionCovariance* covariance, bool measured = false);
   enum class Of { kSample, kTrajectory, kBoth };  // messages
   Outcome finish(ActivePlan& plan, std::int64_t stamp_ns, const Results& results, Of messages,
-                 const MotionCovariance* covariance = nullptr);
+                 const MotionCovariance* covariance = nullptr, bool measured = false);
   void check(ActivePlan& plan, const Results& results);
 
   const bool static_motion_;

@@ -1,15 +1,17 @@
 #include "ros/threshold_record.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace virtual_work_dynamics {
 
 ThresholdRecord::ThresholdRecord(std::vector<std::string> names, std::vector<double> thresholds,
-                                 double hold)
+                                 double hold, double max_gap)
     : names_(std::move(names)),
       thresholds_(std::move(thresholds)),
       hold_ns_(std::llround(hold * 1e9)),
+      max_gap_ns_(std::llround(std::min(max_gap, 1e9) * 1e9)),
       states_(names_.size()) {}
 
 void ThresholdRecord::record(std::int64_t stamp_ns, const std::vector<double>& values) {
@@ -21,7 +23,7 @@ void ThresholdRecord::record(std::int64_t stamp_ns, const std::vector<double>& v
       state.beyond = false;
       continue;
     }
-    if (!state.beyond || stamp_ns < state.since_ns) {
+    if (!state.beyond || stamp_ns < state.latest_ns || stamp_ns - state.latest_ns > max_gap_ns_) {
       state.since_ns = stamp_ns;
       if (!state.counts) state.peak = 0;
       state.beyond = true;

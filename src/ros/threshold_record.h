@@ -14,7 +14,9 @@ class ThresholdRecord {
  public:
   /// @param thresholds of magnitudes, by name; infinite: none
   /// @param hold s that a value must stay beyond its threshold before it counts
-  ThresholdRecord(std::vector<std::string> names, std::vector<double> thresholds, double hold);
+  /// @param max_gap s between two instants; what is beyond after a longer time begins anew
+  ThresholdRecord(std::vector<std::string> names, std::vector<double> thresholds, double hold,
+                  double max_gap);
 
   /// Records the values of an instant, NaN where they are not known. An instant that comes while a
   /// report is taken is left out.
@@ -40,7 +42,7 @@ class ThresholdRecord {
 
   const std::vector<std::string> names_;
   const std::vector<double> thresholds_;
-  const std::int64_t hold_ns_;
+  const std::int64_t hold_ns_, max_gap_ns_;
   std::mutex mutex_;
   std::vector<State> states_;
 };

@@ -67,6 +67,19 @@ TEST(TurnEstimator, ExactOrientationsGiveTheTurnInTheAxesOfTheChild) {
   }
 }
 
+TEST(TurnEstimator, RestartsWhereTimeWentBackHoweverLittle) {
+  TurnEstimator estimator((EstimatorSettings()));
+  std::mt19937 generator(4);
+  for (int i = 0; i < 400; ++i) estimator.push(sampleAt(i / 200.0, 0, -1, generator));
+  FreeTurn turn;
+  EXPECT_TRUE(estimator.read(stampAt(1.9), turn, nullptr));
+  estimator.restart();
+  EXPECT_TRUE(estimator.empty());
+  EXPECT_FALSE(estimator.read(stampAt(1.9), turn, nullptr));
+  EXPECT_EQ(estimator.push(sampleAt(1.9, 0, -1, generator)), TurnEstimator::Verdict::kAccepted);
+  EXPECT_EQ(estimator.last(), stampAt(1.9));
+}
+
 TEST(TurnEstimator, DeviationsHold) {
   TurnEstimator estimator((EstimatorSettings()));
   std::mt19937 generator(5);

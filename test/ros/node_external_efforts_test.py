@@ -6,7 +6,7 @@ from diagnostic_msgs.msg import DiagnosticStatus
 import numpy as np
 from sensor_msgs.msg import JointState
 
-from encoder_streams import ARM, COORDINATES, LATEST, MOTION, STEP, Encoders, StreamTest
+from encoder_streams import ARM, COORDINATES, LATEST, MOTION, MS, STEP, Encoders, StreamTest
 from node_under_test import EPOCH, Node, joint_state, run, wait_until
 from rigid_bodies import RigidBodies
 
@@ -115,6 +115,62 @@ class ExternalEfforts(StreamTest):
         told = [line for line in self.node.lines('WARN') if 'measured efforts' in line]
         self.assertEqual(len(told), 1, self.node.lines('WARN'))
         self.assertIn("there are no measured efforts of 'shoulder', which", told[0])
+
+    def test_diagnostics_name_subscribers_of_what_is_always_computed(self):
+        self.start({'external_effort': {'thresholds': [{'name': 'elbow', 'effort': 3.0}]}})
+        residuals = self.node.record('residual', JointState)
+        self.node.wait_for_plan('effort', 'residual')
+        residuals.stop()
+        self.node.wait_for_plan('effort')
+
+    def test_observer_takes_a_joint_of_rest_that_never_comes(self):
+        self.start({'rest': [{'name': 'slide', 'position': 0.05}]})
+        observed = self.node.record('external_effort', JointState)
+        self.node.wait_for_plan('effort', 'external_effort')
+        self.encoders, self.random = Encoders(), random.Random(2)
+        for i in range(200):
+            message = self.message(i)
+            for values in (message.name, message.position, message.velocity, message.effort):
+                del values[COORDINATES.index('slide')]
+            self.states.publish(message)
+        for message in observed.wait(100):
+            self.assertEqual(message.name, ['shoulder', 'elbow'])
+            self.assertTrue(np.isfinite(message.effort).all())
+
+    def test_a_driver_that_stops_has_no_external_effort_and_others_work(self):
+        self.start({'estimator': {'max_gap': 0.1}})
+        observed = self.node.record('external_effort', JointState)
+        self.node.wait_for_plan('effort', 'external_effort')
+        self.encoders, self.random = Encoders(), random.Random(2)
+        stop, end = 200, 500
+        for i in range(end):
+            message = self.message(i)
+            if i >= stop:
+                for values in (message.name, message.position, message.velocity, message.effort):
+                    del values[COORDINATES.index('slide')]
+            self.states.publish(message)
+        at_end = STAMPS[end - 1]
+        wait_until(lambda: any(m.header.stamp.to_nsec() == at_end for m in observed.messages()),
+                   'the last message')
+        for message in observed.messages():
+            ns = message.header.stamp.to_nsec()
+            if ns < STAMPS[stop]:
+                self.assertEqual(message.name, COORDINATES)
+            elif ns > STAMPS[stop] + 100 * MS:
+                self.assertEqual(message.name, ['shoulder', 'elbow'])
+
+    def test_observer_names_the_joints_without_velocities(self):
+        self.start()
+        self.node.record('external_effort', JointState)
+        self.node.wait_for_plan('effort', 'external_effort')
+        self.encoders, self.random = Encoders(), random.Random(2)
+        for i in range(300):
+            message = self.message(i)
+            message.velocity[COORDINATES.index('elbow')] = float('nan')
+            self.states.publish(message)
+        wait_until(lambda: [line for line in self.node.lines('WARN')
+                            if "no position or no velocity of 'elbow'," in line],
+                   lambda: 'the warning in %s' % self.node.lines('WARN'))
 
     def test_efforts_beyond_the_limits_of_the_description(self):
         weak = ARM.replace('effort="100" velocity="5"', 'effort="1.5" velocity="5"')

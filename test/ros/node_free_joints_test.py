@@ -244,6 +244,13 @@ class FreeJoints(NodeTest):
         wait_until(lambda: [line for line in self.node.lines('WARN') if 'scaled to 1' in line],
                    self.node.output)
 
+    def test_thresholds_of_angles_are_refused(self):
+        node = Node(self, BALL, {'scene': SCENE, 'external_effort': {
+            'thresholds': [{'name': 'ball.rx', 'effort': 1}]}})
+        self.assertEqual(node.wait(), 1)
+        line, = node.lines('FATAL')
+        self.assertIn("external_effort/thresholds: 'ball.rx' is an angle of 'ball'", line)
+
 
 if __name__ == '__main__':
     run(FreeJoints)

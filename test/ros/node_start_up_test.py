@@ -197,6 +197,13 @@ BAD_PARAMETERS = {
         ["parameter ~external_effort/thresholds: robot 'tester' has no joint 'knee'"]),
     'threshold_of_nothing': ({'external_effort': {'thresholds': [{'name': 'hinge', 'effort': 0}]}},
                              ["parameter ~external_effort/thresholds: 'hinge': 0 is not positive"]),
+    'threshold_of_a_joint_without_an_actuator': (
+        {'external_effort': {'thresholds': [{'name': 'wrist', 'effort': 1}]},
+         'scene': {'actuated': ['hinge'], 'free_motion': True}},
+        ["parameter ~external_effort/thresholds: 'wrist' is passive"]),
+    'effort_limits_of_a_description_without_any': (
+        {'effort_limit_warn': True},
+        ["parameter ~effort_limit_warn: robot 'tester' has no actuated joint with a limit"]),
     'thresholds_that_are_a_map': ({'external_effort': {'thresholds': {'hinge': 1}}},
                                   ['~external_effort/thresholds: expected a list like']),
     'observer_of_a_static_scene': (

@@ -9,11 +9,12 @@ namespace virtual_work_dynamics {
 namespace {
 
 constexpr std::int64_t kMs = 1000000;
+constexpr double kMaxGap = 0.25;  // s
 constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 TEST(ThresholdRecord, CountsWhatStaysBeyondForTheHoldTime) {
-  ThresholdRecord record({"elbow", "wrist"}, {3, kNone}, 0.02);
+  ThresholdRecord record({"elbow", "wrist"}, {3, kNone}, 0.02, kMaxGap);
   record.record(0, {-4, 100});
   record.record(19 * kMs, {-6, 100});
   EXPECT_TRUE(record.take().empty());  // not long enough
@@ -33,7 +34,7 @@ TEST(ThresholdRecord, CountsWhatStaysBeyondForTheHoldTime) {
 }
 
 TEST(ThresholdRecord, BeginsAnewAfterEachInterruption) {
-  ThresholdRecord record({"elbow"}, {3}, 0.02);
+  ThresholdRecord record({"elbow"}, {3}, 0.02, kMaxGap);
   for (const double between : {3.0, kNotKnown}) {
     for (int i = 0; i < 10; ++i) {
       record.record(100 * i * kMs, {9});
@@ -43,6 +44,29 @@ TEST(ThresholdRecord, BeginsAnewAfterEachInterruption) {
     EXPECT_TRUE(record.take().empty()) << between;
     record.record(-5 * kMs, {between});  // time goes back
   }
+}
+
+TEST(ThresholdRecord, HoldsAcrossNoLongGap) {
+  ThresholdRecord record({"elbow"}, {3}, 0.02, kMaxGap);
+  record.record(0, {9});
+  record.record(251 * kMs, {9});
+  record.record(270 * kMs, {9});
+  EXPECT_TRUE(record.take().empty());
+  record.record(271 * kMs, {8});
+  const auto found = record.take();
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_DOUBLE_EQ(found[0].seconds, 0.02);
+}
+
+TEST(ThresholdRecord, BeginsAnewWhereTimeGoesBackALittle) {
+  ThresholdRecord record({"elbow"}, {3}, 0.02, kMaxGap);
+  record.record(100 * kMs, {9});
+  record.record(119 * kMs, {9});
+  record.record(110 * kMs, {9});
+  record.record(121 * kMs, {9});
+  EXPECT_TRUE(record.take().empty());
+  record.record(130 * kMs, {9});
+  EXPECT_EQ(record.take().size(), 1U);
 }
 
 }  // namespace
