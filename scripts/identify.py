@@ -41,6 +41,8 @@ def parser():
         help='recording, as inverse_dynamics_offline reads it; a CSV may have the columns effort.<joint>')
     add('--measured', metavar='FILE', help='measured efforts, N m or N, where they are not in --motion; as of '
         'inverse_dynamics_offline')
+    add('--measured-topic', metavar='NAME', help='topic of the joint states in --measured, as of '
+        'inverse_dynamics_offline')
     add('--scene', metavar='FILE', help='scene file of the robot as it was recorded')
     add('--fit', default='friction,offset', metavar='LIST', help='what is fitted (default: friction,offset)')
     add('--fit-until', type=float, metavar='S', help='seconds from the start that are fitted; the rest judges '

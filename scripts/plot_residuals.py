@@ -7,7 +7,7 @@ OFFLINE_TOOL is the executable inverse_dynamics_offline, which is run with the o
 robot, motion and measured efforts are, as --urdf, --motion, and --residuals or --measured. PICTURE (.png, .pdf,
 .svg) shows, for each joint that was measured, both efforts and computed less measured, the external effort;
 grey is two standard deviations of it where the options have --deviations. An option
---output FILE keeps the table.
+--output FILE.csv keeps the table.
 """
 import csv
 import os
@@ -23,6 +23,7 @@ import numpy as np
 from plot_closed_loops import STYLE
 
 RESIDUAL = 'measured_residual.'
+NO_TABLES = ('.npz', '.bag')  # what the tool writes by the end of a name
 MOST = 4000  # points of a line
 
 
@@ -94,8 +95,13 @@ def main(words):
         print(__doc__.strip(), file=sys.stderr)
         return 0 if words[:1] in (['-h'], ['--help']) else 2
     tool, picture, options = words[0], words[1], words[2:]
+    kept = output_of(options)
+    if kept is not None and kept.endswith(NO_TABLES):
+        print('plot_residuals.py: --output %s: the picture is drawn from a CSV, so the file has to be one' % kept,
+              file=sys.stderr)
+        return 2
     with tempfile.TemporaryDirectory() as folder:
-        output = output_of(options)
+        output = kept
         if output is None:
             output = os.path.join(folder, 'results.csv')
             options = options + ['--output', output]

@@ -5,7 +5,7 @@ Usage: one_motion.py --folder DIR --report LOAD_REPORT [--pages] [--keep] [--woe
 
 Writes what the tool says to DIR/log.txt and, last of all, DIR/outcome.txt: "done", or "failed: " and why. A
 recording that cannot be read or computed is such an outcome. What is no fault of the recording (a signal, no
-space, wrong usage) ends this program with an error, so that it is tried again.
+space, a missing package, wrong usage) ends this program with an error, so that it is tried again.
 """
 import argparse
 import os
@@ -14,7 +14,7 @@ import subprocess
 import sys
 
 ERROR = ': error: '
-BAD_INPUT = 1  # exit status of the tools
+BAD_INPUT = 1  # exit status of the tools; 2 and others are no fault of the recording
 
 
 class Failed(Exception):
@@ -43,7 +43,8 @@ def run(words, log, folder):
         file.seek(place)
         lines = file.read().splitlines()
     said = next((line.split(ERROR, 1)[1] for line in reversed(lines) if ERROR in line), '')
-    if status == BAD_INPUT and said and folder not in said:
+    # What is said of a file in the folder is about what is written there, as where there is no space.
+    if status == BAD_INPUT and said and folder + os.sep not in said:
         raise Failed(said)
     reason = said or ('killed by signal %d' % -status if status < 0 else 'status %d' % status)
     sys.exit('%s: %s' % (folder, reason))

@@ -1,10 +1,14 @@
 """What the workflow is asked for: recordings by name, and the commands for them."""
 import os
+import re
 import shlex
 import shutil
 
 KINDS = ('.bag', '.csv', '.npz')
 KNOWN = {'robot', 'bags', 'motions', 'scene', 'options', 'woehler', 'pages', 'keep', 'program'}
+TRUTHS = {'true': True, 'false': False, '1': True, '0': False}  # --config gives them as text
+# Names become folders and words of commands: Snakemake and Slurm read commas, braces and quotes as their own.
+NAME = re.compile(r'[\w .()+=@-]+')
 
 
 class ConfigError(Exception):
@@ -74,9 +78,17 @@ def quoted(words):
 
 def truth(config, key):
     value = config.get(key, False)
-    if value not in (True, False):
+    known = TRUTHS.get(str(value).lower())
+    if known is None:
         raise ConfigError('%s: %r is neither true nor false' % (key, value))
-    return value
+    return known
+
+
+def check_name(name, place):
+    """Refuses what cannot be the name of a recording. `place`: what it is the name of, for the user."""
+    if not NAME.fullmatch(name) or name in ('.', '..') or name != name.strip():
+        raise ConfigError('%s: a name is made of letters, digits, blanks within and _ . ( ) + = @ -; '
+                          'give it another one by motions' % place)
 
 
 def program(named, here):
@@ -99,11 +111,10 @@ def program(named, here):
 def motions_of(config):
     """Files of each recording by its name."""
     if config.get('motions'):
-        motions = {name: [os.path.abspath(part) for part in ([parts] if isinstance(parts, str) else parts)]
+        motions = {str(name): [os.path.abspath(part) for part in ([parts] if isinstance(parts, str) else parts)]
                    for name, parts in config['motions'].items()}
         for name in motions:
-            if '/' in name:
-                raise ConfigError('motions: %r: a name has no /' % name)
+            check_name(name, 'motions: %r' % name)
         return motions
     bags = config.get('bags')
     if not bags:
@@ -124,6 +135,7 @@ def motions_of(config):
 def named(files):
     motions = {}
     for path, name in files:
+        check_name(name, 'bags: %r' % path)
         if name in motions:
             raise ConfigError('bags: two recordings are called %s; name them by motions' % name)
         motions[name] = [os.path.abspath(path)]

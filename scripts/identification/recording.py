@@ -60,10 +60,9 @@ class Tool:
     def measured(self, urdf, static_scene, motion, efforts, regressor):
         """Measured efforts at the rows of a regressor: rows x efforts, not a number where there is none.
 
-        efforts: a file of their own, or nothing: they are in the motion."""
+        efforts: options of the tool that say where they are."""
         table = static_scene + '.csv'
-        source = ['--measured', efforts] if efforts else ['--residuals']
-        self._run(['--urdf', urdf, '--scene', static_scene, '--reactions', 'none', '--output', table] + source +
+        self._run(['--urdf', urdf, '--scene', static_scene, '--reactions', 'none', '--output', table] + efforts +
                   ['--motion'] + list(motion) + self._options)
         with open(table, newline='', encoding='utf-8') as file:
             header = next(csv.reader(file))

@@ -139,7 +139,7 @@ def draw_efforts(plt, path, outcome):
     before_efforts, after_efforts = outcome.before(before), outcome.after(after)
     count = len(outcome.efforts)
     figure, axes = plt.subplots(count, 2, figsize=(11, 1.7 * count + 0.8), sharex=True, squeeze=False,
-                                layout='constrained')
+                                constrained_layout=True)
     for row, i in enumerate(outcome.efforts):
         left, right = axes[row]
         left.plot(times, measured[::every, i], color='0.6', lw=1.6, label='measured')
@@ -166,7 +166,7 @@ def draw_efforts(plt, path, outcome):
 def draw_whiteness(plt, path, outcome):
     """Autocorrelations of what is left, and of the white rows that the fit weighs."""
     left, white, rows = outcome.colours()
-    figure, axes = plt.subplots(1, 2, figsize=(11, 3.6), sharey=True, layout='constrained')
+    figure, axes = plt.subplots(1, 2, figsize=(11, 3.6), sharey=True, constrained_layout=True)
     for axis, values, title in ((axes[0], left, 'what is left'), (axes[1], white, 'after the autoregression')):
         for i, name in enumerate(outcome.names):
             axis.plot(range(1, len(values)), values[1:, i], '.-', lw=0.8, label=name)
@@ -175,6 +175,6 @@ def draw_whiteness(plt, path, outcome):
         axis.set_xlabel('lag [rows of the fit]')
         axis.set_xticks(range(0, len(values), 5))
     axes[0].set_ylabel('autocorrelation')
-    axes[1].legend(fontsize=7, ncols=2, loc='upper right')
+    axes[1].legend(fontsize=7, ncol=2, loc='upper right')
     figure.savefig(path, dpi=110)
     plt.close(figure)

@@ -21,6 +21,7 @@ from .wanted import Wanted
 
 RESTS = 1e-3  # rad or m: a joint that stays within this does not move
 LARGE = 0.1  # of an effort's rms: a deviation that a joint's term would have to make up to count as unknown
+NO_EFFORTS = ('no column effort.<joint>', 'has no efforts that were measured')  # ends what the tool says
 RANDOM_STATES = 150  # for the base parameters: rows of every effort, for at most some hundred unknowns
 PAYLOAD_RADIUS = 0.1  # m: radius of gyration of a payload of which the motion does not tell it
 VAGUE = 1e-4  # weight of what is thought of a body of which nothing is known
@@ -42,6 +43,8 @@ class Study:
         self.description = Description(arguments.urdf)
         self.scene = read_scene(arguments.scene)
         self.wanted.check(self.scene, arguments.unloaded, arguments.masses_known)
+        if arguments.measured_topic and not arguments.measured:
+            raise Refusal('--measured-topic: is the topic in the file of --measured, which is not given')
         if arguments.coulomb_velocity <= 0:
             raise Refusal('--coulomb-velocity: is not a positive number')
         if self.wanted.payload:
@@ -77,10 +80,18 @@ class Study:
         return asked + ([self.wanted.payload] if self.wanted.payload else [])
 
     def _measured(self, regressor, motion, own=False):
-        efforts = None if own else self.arguments.measured
+        efforts = [] if own or not self.arguments.measured else ['--measured', self.arguments.measured]
+        if efforts and self.arguments.measured_topic:
+            efforts += ['--measured-topic', self.arguments.measured_topic]
         path = os.path.join(self.folder, 'static.yaml')
         write_scene(path, dict(self.fit_scene, motion='static'), [])
-        return self.tool.measured(self.arguments.urdf, path, motion, efforts, regressor)
+        try:
+            return self.tool.measured(self.arguments.urdf, path, motion, efforts or ['--residuals'], regressor)
+        except Refusal as problem:
+            if efforts or not str(problem).endswith(NO_EFFORTS):
+                raise
+            raise Refusal('%s: has no measured efforts: neither columns effort.<joint> nor efforts of joint states%s'
+                          % (' '.join(motion), '' if own else ', and no --measured FILE has them')) from None
 
     def _recordings(self):
         arguments = self.arguments

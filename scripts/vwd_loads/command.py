@@ -3,6 +3,7 @@ import argparse
 import os
 import sys
 
+BAD_INPUT, BAD_MACHINE = 1, 2  # exit status: the results are at fault, or what they are read and written with
 PACKAGES = {'numpy': 'python3-numpy', 'scipy': 'python3-scipy', 'matplotlib': 'python3-matplotlib'}
 
 DESCRIPTION = """Makes a load report of results of inverse_dynamics_offline, as .npz or CSV: peaks with their
@@ -18,7 +19,7 @@ def parse(words):
     parser.add_argument('--output', required=True, metavar='DIR', help='folder of the report')
     parser.add_argument('--mechanism', metavar='FILE', help='mechanism.json as inverse_dynamics_offline --report '
                         'writes it; an .npz has it in it')
-    parser.add_argument('--woehler', type=_positive, metavar='M', default=5.0,
+    parser.add_argument('--woehler', type=_positive, metavar='M',
                         help='Wöhler exponent of the equivalent range (default: 5; welded steel: 3)')
     parser.add_argument('--max-gap', type=_positive, metavar='S',
                         help='nothing is assumed across longer gaps (default: as the results say, or 0.25; at '
@@ -44,16 +45,27 @@ def main(words):
     except ImportError as error:
         package = PACKAGES.get((error.name or '').split('.')[0], 'python3-' + str(error.name))
         print('load_report.py: error: %s; install it: apt install %s' % (error, package), file=sys.stderr)
-        return 1
+        return BAD_MACHINE
     except (ReportError, OSError) as error:
         print('load_report.py: error: %s' % ' '.join(str(error).split()), file=sys.stderr)
-        return 1
+        return BAD_INPUT if isinstance(error, ReportError) else BAD_MACHINE
     return 0
 
 
-def run(arguments):
+def check_for_merge(arguments):
+    """Refuses what has no say in a report of reports."""
     from vwd_loads.errors import ReportError
-    from vwd_loads.loads import Settings
+    for option, given in (('--woehler', arguments.woehler), ('--max-gap', arguments.max_gap),
+                          ('--mechanism', arguments.mechanism), ('--figures-only', arguments.figures_only)):
+        if given:
+            raise ReportError('%s is of the report of one motion and cannot be used with --merge' % option)
+
+
+def run(arguments):
+    if arguments.merge:
+        check_for_merge(arguments)
+    from vwd_loads.errors import ReportError
+    from vwd_loads.loads import WOEHLER, Settings
     from vwd_loads.mechanism import mechanism_of, read_mechanism
     from vwd_loads.merged import write_merged
     from vwd_loads.progress import Progress
@@ -71,7 +83,7 @@ def run(arguments):
                           % len(arguments.results))
     table = read_table(arguments.results[0])
     said = read_mechanism(arguments.mechanism) if arguments.mechanism else table.mechanism
-    settings = Settings(arguments.woehler, arguments.max_gap)
+    settings = Settings(arguments.woehler or WOEHLER, arguments.max_gap)
     report = Report(table, mechanism_of(table, said), settings, arguments.output, Progress())
     if arguments.figures_only:
         report.write_figures_only()

@@ -75,8 +75,11 @@ def _uncertified(table):
     columns = [values for name, values in table.columns.items() if name.startswith('certificate.')]
     if not columns:
         return []
-    worst = np.max(np.column_stack(columns), axis=1)
-    return [Doubt('a certificate of the arithmetic is above %s' % number_text(CERTIFIED), worst > CERTIFIED)]
+    # A certificate that is no number certifies nothing.
+    with np.errstate(invalid='ignore'):
+        certified = np.all(np.column_stack(columns) <= CERTIFIED, axis=1)
+    return [Doubt('a certificate of the arithmetic is above %s, or there is none' % number_text(CERTIFIED),
+                  ~certified)]
 
 
 def deviation_of(table, part):

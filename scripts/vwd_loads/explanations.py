@@ -2,13 +2,23 @@
 from vwd_loads.document import Heading, Items, number_text
 from vwd_loads.spectrum import EVEN
 
+AXES = {'child': 'axes of the child link', 'root': 'axes of the root link',
+        'inertial': 'axes of the inertial frame that the root link moves against'}
+
+
+def axes_words(axes):
+    """In words, the axes that reactions are in; '' where the results do not say it."""
+    return AXES.get(axes, 'the axes of the results')
+
 
 def explanations(loads, clock, short_spectra):
     woehler = number_text(loads.settings.woehler)
+    mechanism = loads.mechanism
+    elsewhere = any(reaction.moment_elsewhere for reaction in mechanism.reactions)
     items = [
-        'Forces and moments are what the parent link exerts on the child link, in axes of the child link, '
-        'moments about the origin of the joint. Of rigid bodies: what a bearing is preloaded with, and what '
-        'bodies swing by, is not in them.',
+        'Forces and moments are what the parent link exerts on the child link, in %s, moments about the origin of '
+        'the joint%s. Of rigid bodies: what a bearing is preloaded with, and what bodies swing by, is not in them.'
+        % (axes_words(mechanism.axes), ' or about the point of the scene' if elsewhere else ''),
         'Means, rms and percentiles are over time: a row stands for half of the way to its neighbours. 95 %: '
         'for that part of the time the value is not larger.',
         'Peak: the value of the largest magnitude. Radial: what is normal to the axis of the joint; axial: '

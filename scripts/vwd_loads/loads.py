@@ -10,13 +10,14 @@ from vwd_loads.quantities import parts_of, state_columns
 
 SUMS = 'sums.json'
 SUMS_FORMAT = 1
+WOEHLER = 5.0  # exponent where none is given
 ROUNDING = 1e-12  # of the largest load of a unit
 
 
 class Settings:
     """What figures are found with."""
 
-    def __init__(self, woehler=5.0, max_gap=None):
+    def __init__(self, woehler=WOEHLER, max_gap=None):
         self.woehler = woehler  # exponent
         self.max_gap = max_gap  # s; None: as the results say
 

@@ -60,28 +60,43 @@ class Mechanism:
 
 
 def read_mechanism(path):
-    """Reads the file that inverse_dynamics_offline --report writes. Raises ReportError."""
+    """Reads the file that inverse_dynamics_offline --report writes. Raises ReportError, or OSError."""
     try:
         with open(path, encoding='utf-8') as file:
-            return json.load(file)
-    except (OSError, ValueError) as error:
+            said = json.load(file)
+    except ValueError as error:
         raise ReportError('%s: cannot be read: %s' % (path, ' '.join(str(error).split())))
+    if not isinstance(said, dict):
+        raise ReportError('%s: is not a map of keys' % path)
+    return said
+
+
+def _items(table, said, key, named):
+    """The list of maps of a key, each of which has the key `named`."""
+    items = said.get(key, [])
+    if not isinstance(items, list) or not all(isinstance(item, dict) and named in item for item in items):
+        raise ReportError('%s: the mechanism\'s %s are not a list of maps with the key %s'
+                          % (table.path, key, named))
+    return items
 
 
 def mechanism_of(table, said):
     """The mechanism of a table. `said`: what mechanism.json says, None: only what columns tell."""
-    said = said or {}
+    if said is None:
+        said = {}
+    if not isinstance(said, dict):
+        raise ReportError('%s: the mechanism is not a map of keys' % table.path)
     if said and said.get('format') != FORMAT:
         raise ReportError('%s: the mechanism has the format %r, this program reads %r'
                           % (table.path, said.get('format'), FORMAT))
     axes_known = said.get('axes') == 'child'
-    reactions = []
+    reactions, reactions_said = [], _items(table, said, 'reactions', 'name')
     for name in _reaction_names(table):
-        of_name = next((item for item in said.get('reactions', ()) if item['name'] == name), {})
+        of_name = next((item for item in reactions_said if item['name'] == name), {})
         if not axes_known:
             of_name = {key: value for key, value in of_name.items() if key != 'axis'}
         reactions.append(Reaction(name, of_name))
-    described = {item['column']: item for item in said.get('efforts', ())}
+    described = {item['column']: item for item in _items(table, said, 'efforts', 'column')}
     efforts = []
     for column in table.columns:
         if column.startswith('effort.') or column in described:

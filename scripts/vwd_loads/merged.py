@@ -107,7 +107,7 @@ def _read(folder):
         raise ReportError('no report: %s' % error.strerror)
     except ValueError:
         raise ReportError('its %s is broken' % SUMS)
-    if sums.get('format') != SUMS_FORMAT:
+    if not isinstance(sums, dict) or sums.get('format') != SUMS_FORMAT:
         raise ReportError('its %s has another format' % SUMS)
     return sums
 

@@ -7,7 +7,7 @@ import numpy as np
 from vwd_loads import doubts as doubting
 from vwd_loads import spectrum as spectra
 from vwd_loads.document import Figure, Heading, Items, Table, Text, as_html, as_markdown, number_text
-from vwd_loads.explanations import explanations
+from vwd_loads.explanations import axes_words, explanations
 from vwd_loads.loads import SUMS, Loads, sums_of, write_csv, write_json
 from vwd_loads.pieces import pieces_of
 from vwd_loads.quantities import state_columns
@@ -85,8 +85,9 @@ class Report:
             blocks.append(Text('Nothing is known of the joints: no radial and axial parts, no equivalent bearing '
                                'loads, no limits. Results as `.npz` say it, or `--mechanism`.', 'warning'))
         elif self.mechanism.axes != 'child':
-            blocks.append(Text('Reactions are in axes of the root link, in which axes of joints move: there are no '
-                               'radial and axial parts. Compute with `--axes child` for these.', 'warning'))
+            blocks.append(Text('Reactions are in %s, in which axes of joints move: there are no radial and axial '
+                               'parts. Compute with `--axes child` for these.' % axes_words(self.mechanism.axes),
+                               'warning'))
         return blocks
 
     def _peak_text(self, load):

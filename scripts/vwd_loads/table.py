@@ -2,12 +2,16 @@
 import csv
 import json
 import zipfile
+import zlib
 
 import numpy as np
 
 from vwd_loads.errors import ReportError
 
 MECHANISM = 'mechanism.json'
+# What an archive raises that is cut off, changed, of another kind or locked by a password.
+UNREADABLE = (ValueError, KeyError, EOFError, NotImplementedError, RuntimeError, csv.Error, zipfile.BadZipFile,
+              zlib.error)
 
 
 class Table:
@@ -43,12 +47,14 @@ def _check_times(path, times):
 
 
 def read_table(path):
-    """Reads results; what they are shows in their first bytes. Raises ReportError."""
+    """Reads results; what they are shows in their first bytes. Raises ReportError, or OSError."""
     try:
         with open(path, 'rb') as file:
             zipped = file.read(2) == b'PK'
         return _read_npz(path) if zipped else _read_csv(path)
-    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile) as error:
+    except OSError as error:
+        raise OSError('%s: cannot be read: %s' % (path, _reason(error)))
+    except UNREADABLE as error:
         raise ReportError('%s: cannot be read: %s' % (path, _reason(error)))
 
 
@@ -63,6 +69,8 @@ def _read_npz(path):
             value = file[name]
             if name == MECHANISM:
                 mechanism = json.loads(bytes(value).decode('utf-8'))
+            elif not isinstance(value, np.ndarray):
+                continue  # another file of an archive, as a spreadsheet is one
             elif value.ndim == 1 and value.dtype.kind in 'fiu':
                 columns[name] = value.astype(float)
             elif value.ndim == 1 and value.dtype.kind == 'M':

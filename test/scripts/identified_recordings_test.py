@@ -19,6 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / 'scripts'))
 import identify  # noqa: E402 (the folder has to be known first)
 from identification import files  # noqa: E402
+from identification.study import Study  # noqa: E402
 
 TERMS = {'damping': [12, 15, 8, 2, 1.5, 1.2], 'coulomb': [9, 11, 6, 2.5, 1.8, 1.5],
          'rotor_inertia': [2.5, 3, 1.5, 0.2, 0.15, 0.12], 'offset': [1, -2, 0.7, -0.3, 0.2, 0.1]}
@@ -188,6 +189,33 @@ class Recordings(unittest.TestCase):
         with open(self.out('scene.yaml')) as file:
             self.assertIn('a scene has no key for it', file.read())
 
+    def separate(self, rename):
+        """The recording without payload in two files: the motion, and efforts at half of its times."""
+        motion = self.changed('motion.csv', lambda header, rows: (header[:7], rows[:, :7]))
+        efforts = self.changed('efforts.csv', lambda header, rows: (
+            ['time'] + [rename + str(i) for i in range(1, 7)], np.delete(rows, range(1, 7), axis=1)[::2]))
+        return motion, efforts
+
+    def test_efforts_of_a_file_of_their_own_with_other_names(self):
+        motion, efforts = self.separate('tau')
+        rows, _ = self.found('--motion', motion, '--measured', efforts, '--rename', r'tau(\d)=joint_\1', '--fit',
+                             'friction,offset,rotor')
+        for name, damping, coulomb in list(zip(simulated.JOINTS, TERMS['damping'], TERMS['coulomb']))[:5]:
+            self.assert_near(rows, ('damping', name), damping)
+            self.assert_near(rows, ('coulomb', name), coulomb)
+
+    def test_the_topic_of_efforts_is_handed_on(self):
+        class Asked:
+            def measured(self, urdf, scene, motion, efforts, regressor):
+                return efforts
+
+        words = self.words(['--motion', self.empty, '--measured', 'm.bag', '--measured-topic', '/torques'])
+        study = Study(identify.parser().parse_args(words), [], identify.__file__)
+        study.folder, study.tool = self.folder, Asked()
+        self.assertEqual(study._measured(None, ['a.csv']), ['--measured', 'm.bag', '--measured-topic', '/torques'])
+        self.assertEqual(study._measured(None, ['a.csv'], True), ['--residuals'])
+        self.assert_refused('--measured-topic', '--motion', self.empty, '--measured-topic', '/torques')
+
     # --- one line for what is wrong
 
     def assert_refused(self, problem, *arguments):
@@ -210,7 +238,9 @@ class Recordings(unittest.TestCase):
 
     def test_what_no_recording_tells_is_refused_in_one_line(self):
         bare = self.changed('bare.csv', lambda header, rows: (header[:7], rows[:, :7]))
-        self.assert_refused('effort', '--motion', bare)
+        self.assert_refused('bare.csv: has no measured efforts: neither columns effort.<joint> nor efforts of joint '
+                            'states, and no --measured FILE has them', '--motion', bare)
+        self.assert_refused('bare.csv: has no measured efforts', '--motion', self.empty, '--unloaded', bare)
         renamed = self.changed('renamed.csv', lambda header, rows: (
             [name.replace('effort.joint', 'effort.axis') for name in header], rows))
         self.assert_refused('axis_1', '--motion', renamed)

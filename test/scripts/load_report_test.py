@@ -213,6 +213,32 @@ class Report(Shared):
         self.assertIn("50†", text)
         self.assertIn("Standard deviations of efforts", text)
 
+    def test_a_certificate_that_is_missing_hides_none_and_certifies_nothing(self):
+        columns = results()
+        for name in ("power", "ground_force"):
+            columns["certificate." + name] = np.full(2000, 1e-14)
+        columns["certificate.power"][100:110] = np.nan
+        columns["certificate.ground_force"][105:130] = 1e-3
+        folder = self.report("certified", columns)
+        self.assertRegex((folder / "report.md").read_text(encoding="utf-8"),
+                         r"a certificate of the arithmetic is above .*30 of 2000 rows, 0\.5 s to 0\.645 s")
+
+    def test_axes_and_points_of_moments_are_those_of_the_mechanism(self):
+        elsewhere = json.loads(json.dumps(MECHANISM))
+        elsewhere["reactions"][0]["moment_elsewhere"] = True
+        for name, mechanism, words, moved in (
+                ("child", elsewhere, "in axes of the child link, moments", True),
+                ("root", dict(MECHANISM, axes="root"), "in axes of the root link, moments", False),
+                ("inertial", dict(MECHANISM, axes="inertial"), "in axes of the inertial frame", False),
+                ("unknown", None, "in the axes of the results, moments", False)):
+            with self.subTest(axes=name):
+                text = (self.report(name, results(2), mechanism=mechanism) / "report.md").read_text(encoding="utf-8")
+                last = text[text.index("How the figures are found"):]
+                self.assertIn(words, last)
+                self.assertEqual("or about the point of the scene" in last, moved)
+                self.assertEqual("Reactions are in " in text, name in ("root", "inertial"))
+                self.assertEqual("root link, in which axes" in text, name == "root")
+
     def test_names_with_any_letters(self):
         columns = {name.replace("turn", "a/b |<c>"): value for name, value in results().items()}
         mechanism = json.loads(json.dumps(MECHANISM).replace("turn\"", "a/b |<c>\"").replace(
@@ -253,12 +279,36 @@ class BadInput(Folder):
         (self.folder / "z.npz").write_bytes(b"PK\x03\x04 cut off")
         self.refused("z.npz: cannot be read", "z.npz", "--output", "x")
         self.refused("format 7", self.npz("f.npz", results(), {"format": 7}), "--output", "x")
+        self.refused("the mechanism is not a map", self.npz("m.npz", results(), [1]), "--output", "x")
+        for key in ("reactions", "efforts"):
+            self.refused("the mechanism's %s are not a list of maps" % key,
+                         self.npz("l.npz", results(), dict(MECHANISM, **{key: ["turn"]})), "--output", "x")
+        (self.folder / "m.json").write_text("[1, 2]\n")
+        self.refused("m.json: is not a map of keys", self.npz("r.npz", results()), "--mechanism", "m.json",
+                     "--output", "x")
+        with zipfile.ZipFile(self.folder / "s.xlsx", "w") as file:
+            file.writestr("xl/workbook.xml", "<workbook/>")
+        self.refused("s.xlsx: no column time", "s.xlsx", "--output", "x")
+        (self.folder / "q.csv").write_text('time,effort.a\n0,"' + 200000 * "1" + '"\n')
+        self.refused("q.csv: cannot be read: field larger", "q.csv", "--output", "x")
+
+    def test_the_exit_status_says_whose_fault_it_is(self):
+        good = self.npz("r.npz", results(2))
+        (self.folder / "h.csv").write_text("time,effort.a\n")
+        (self.folder / "taken").write_text("")
+        for status, words in ((0, (good, "--output", "x")), (1, ("h.csv", "--output", "x")),
+                              (2, (good, "--output", "taken")), (2, ("not_there.npz", "--output", "x"))):
+            self.assertEqual(self.run_program(*words, "--figures-only").returncode, status, words)
 
     def test_a_missing_package_is_named(self):
         (self.folder / "fake").mkdir()
         (self.folder / "fake/scipy.py").write_text("raise ImportError(\"No module named 'scipy'\", name='scipy')\n")
         self.refused("apt install python3-scipy", self.npz("r.npz", results()), "--output", "x",
                      PYTHONPATH=str(self.folder / "fake"))
+        (self.folder / "fake/numpy.py").write_text("raise ImportError(\"No module named 'numpy'\", name='numpy')\n")
+        ran = self.run_program("r.npz", "--output", "x", "--figures-only", PYTHONPATH=str(self.folder / "fake"))
+        self.assertEqual(ran.returncode, 2)
+        self.assertIn("apt install python3-numpy", ran.stderr)
 
 
 class Merged(Folder):
@@ -291,6 +341,20 @@ class Merged(Folder):
         text = (self.folder / "merged/report.md").read_text(encoding="utf-8")
         self.assertIn("`broken`: it was cut off", text)
         self.assertIn("`lost`: no report", text)
+
+    def test_sums_that_are_no_map_are_listed(self):
+        a = self.report("a", results(2), "--figures-only")
+        (self.folder / "odd").mkdir()
+        (self.folder / "odd/sums.json").write_text("[1]\n")
+        ran = self.run_program("--merge", a, "odd", "--output", "merged")
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        self.assertIn("`odd`: its sums.json has another format",
+                      (self.folder / "merged/report.md").read_text(encoding="utf-8"))
+
+    def test_options_of_one_motion_are_refused_by_name(self):
+        for words in (("--woehler", "3"), ("--max-gap", "1"), ("--mechanism", "m.json"), ("--figures-only",)):
+            self.refused("error: %s .* cannot be used with --merge" % words[0], "--merge", "a", "--output", "x",
+                         *words)
 
     def test_different_robots_or_exponents_are_not_merged(self):
         a = self.report("a", results(), "--figures-only")

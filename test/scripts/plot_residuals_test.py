@@ -59,6 +59,13 @@ class PlotResiduals(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue(os.path.exists(self.path('r.csv')))
 
+    def test_a_table_that_is_no_csv_is_refused_before_the_tool_runs(self):
+        for words in (['--output', self.path('r.npz')], ['--output=' + self.path('r.bag')]):
+            done = self.run_script(self.tool, self.path('p.png'), *words, '--fail')
+            self.assertEqual(done.returncode, 2)
+            self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+            self.assertIn('drawn from a CSV', done.stderr)
+
     def test_the_tools_failure_is_the_commands(self):
         done = self.run_script(self.tool, self.path('p.png'), '--fail')
         self.assertEqual(done.returncode, 1)

@@ -42,6 +42,12 @@ def name_of(number):
     return ('run_%03d.bag' if number != BLANKS else 'run %03d (again).bag') % number
 
 
+def job_of(motion, log):
+    """The number that snakemake has given to the job of a recording."""
+    return re.search(r'^    output: motions/%s/outcome\.txt\n    jobid: (\d+)$' % re.escape(motion), log,
+                     re.MULTILINE).group(1)
+
+
 class Run:
     """Snakemake in a folder of its own."""
 
@@ -141,8 +147,8 @@ class Workflow(unittest.TestCase):
                       '--profile', str(ROOT / 'workflow/slurm'), '--latency-wait', '20')
 
             def cancel(_):
-                subprocess.run(['scancel', '--name', 'loads.loads.motion=%s' % name_of(KILLED)], check=True,
-                               env=slurm.environment)
+                job = job_of(name_of(KILLED), run.log('first.log'))
+                subprocess.run(['scancel', '--name', 'loads.loads.%s' % job], check=True, env=slurm.environment)
             self.check_run(run, cancel)
             jobs = list(run.work.glob('slurm_logs/*.loads.log'))
             self.assertEqual(len(jobs), OPTIONS.recordings + 1)  # that it was Slurm who did it
@@ -150,6 +156,7 @@ class Workflow(unittest.TestCase):
     def test_a_wrong_config_is_one_line(self):
         for words, why in ((['robot=/not/there'], 'robot: /not/there is not there'),
                            (['bags=/not/there'], 'bags: /not/there is not a folder'),
+                           (['pages=perhaps'], "pages: 'perhaps' is neither true nor false"),
                            (['nonsense=1'], "unknown key 'nonsense'")):
             run = Run(self.folder / ('config_' + words[0].split('=')[0]), self.recordings, os.environ,
                       '--cores', '1')
