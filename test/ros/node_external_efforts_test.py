@@ -116,6 +116,23 @@ class ExternalEfforts(StreamTest):
         self.assertEqual(len(told), 1, self.node.lines('WARN'))
         self.assertIn("there are no measured efforts of 'shoulder', which", told[0])
 
+    def test_two_drivers_with_equal_stamps_both_have_external_efforts(self):
+        self.start()
+        residuals = self.node.record('residual', JointState)
+        observed = self.node.record('external_effort', JointState)
+        self.node.wait_for_plan('effort', 'residual', 'external_effort')
+        self.encoders, self.random = Encoders(), random.Random(2)
+        for i in range(300):
+            whole = self.message(i)
+            for places in ((0, 1), (2,)):
+                part = JointState(header=whole.header)
+                for field in ('name', 'position', 'velocity', 'effort'):
+                    setattr(part, field, [getattr(whole, field)[place] for place in places])
+                self.states.publish(part)
+        for recorder in (residuals, observed):
+            for message in recorder.wait(150):
+                self.assertEqual(message.name, COORDINATES)
+
     def test_diagnostics_name_subscribers_of_what_is_always_computed(self):
         self.start({'external_effort': {'thresholds': [{'name': 'elbow', 'effort': 3.0}]}})
         residuals = self.node.record('residual', JointState)
