@@ -59,7 +59,7 @@ TEST(ExpressionGraph, IsDividedSoThatEachPartFindsWhatItReads) {
   ASSERT_GT(program.parts.size(), 5u);
   std::vector<std::uint32_t> memory(static_cast<std::size_t>(program.slots), 0);
   std::size_t operations = 0;
-  for (const Part& part : program.parts) {
+  for (const ProgramPart& part : program.parts) {
     EXPECT_LE(part.nodes.size(), 10u);
     std::vector<bool> known(graph.nodes().size(), false);
     for (const Kept& kept : part.taken) {
