@@ -64,6 +64,8 @@ class Outputs(NodeTest):
             ('effort', 'sensor_msgs/JointState'),
             ('motion', 'trajectory_msgs/JointTrajectory'),
             ('effort_deviation', 'sensor_msgs/JointState'),
+            ('residual', 'sensor_msgs/JointState'),
+            ('external_effort', 'sensor_msgs/JointState'),
             ('reactions', 'sensor_msgs/MultiDOFJointState'),
             ('markers', 'visualization_msgs/MarkerArray'),
             ('joint_trajectory', 'trajectory_msgs/JointTrajectory'),
@@ -177,7 +179,8 @@ class Outputs(NodeTest):
         self.assertEffort(effort, self.bodies, STATE, EXACT)
         self.assertEqual(set(self.advertised()), {self.node.name + '/' + topic
                                                   for topic in ('effort', 'motion',
-                                                                'effort_deviation',
+                                                                'effort_deviation', 'residual',
+                                                                'external_effort',
                                                                 'joint_trajectory')})
 
     def test_diagnostics(self):
