@@ -80,7 +80,7 @@ TEST_F(OfflineToolErrors, WrongUsageIsToldWithAHint) {
   EXPECT_EQ(usage("--motion --urdf p.urdf"), "--motion needs a value");
   EXPECT_EQ(usage(good + "--scene="), "--scene needs a value");
   EXPECT_EQ(usage(good + "--check=yes"), "--check takes no value");
-  EXPECT_EQ(usage(good + "--axes world"), "--axes: 'world' is neither root nor child");
+  EXPECT_EQ(usage(good + "--axes world"), "--axes: 'world' is neither root nor child nor inertial");
   EXPECT_EQ(usage(good + "--gravity '0 0'"),
             "--gravity: '0 0' is not three numbers, as in --gravity \"0 0 -9.81\"");
   EXPECT_EQ(usage(good + "--gravity '0 0 -9.81 1'"),
