@@ -56,7 +56,7 @@ struct NearestClosing::System {
       J.conservativeResize(rows + count, width);
     }
     misfits.segment(rows, count).setZero();
-    J.middleRows(rows, count).setZero();
+    if (width > 0) J.middleRows(rows, count).setZero();  // without columns it has no memory
     rows += count;
     return rows - count;
   }
