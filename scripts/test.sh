@@ -213,16 +213,21 @@ if check build_without_warnings build; then
   check core_links_no_ros core_links_no_ros || true
   check kernels_share_no_code kernels_share_no_code || true
   check sanitized_core_tests sanitized_core_tests || true
+  check scripts scripts_tests &  # takes one processor, as fuzzing does
+  scripts_check=$!
+  trap 'kill "$scripts_check" 2>/dev/null; stop_sanitized' EXIT
   check fuzz fuzz || true
   check contenders_agree contenders_agree || true
   check installs_core test/downstream/check.sh core || true
   check exports_devel_space test/downstream/check.sh devel || true
   check exports_install_space test/downstream/check.sh install || true
   check examples examples || true
+  wait "$scripts_check" || true
+else
+  check scripts scripts_tests || true
 fi
 check format format || true
 check architecture scripts/architecture.py || true
-check scripts scripts_tests || true
 check doxygen_pages doxygen_pages || true
 check catkin_lint lint || true
 

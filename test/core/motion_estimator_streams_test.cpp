@@ -393,7 +393,7 @@ double completionError(const Samples& samples) {
 }
 
 // Right in the mean, but so noisy that they say next to nothing.
-TEST(MotionEstimator, NoisyVelocitiesDoNoHarm) {
+TEST(MotionEstimatorAccuracy, NoisyVelocitiesDoNoHarm) {
   for (const int rate : {125, 1000})
     for (const double quantum : {1e-5, 1e-4}) {
       SCOPED_TRACE(std::to_string(rate) + " Hz, " + std::to_string(quantum) + " rad");

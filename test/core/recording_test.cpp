@@ -27,7 +27,7 @@ RecordedStream streamOf(int order, const std::vector<double>& times) {
   return stream;
 }
 
-TEST(Recording, ChoosesTheOrderOfTheMotion) {
+TEST(RecordingAccuracy, ChoosesTheOrderOfTheMotion) {
   const std::vector<double> times = evenlySpaced(6000, kInterval);
   std::vector<RecordedStream> streams;
   for (int order = 3; order <= kHighestOrder; ++order) streams.push_back(streamOf(order, times));
