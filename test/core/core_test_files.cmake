@@ -65,6 +65,7 @@ set(core_test_files
   test/core/motion_completion_test.cpp
   test/core/motion_csv_test.cpp
   test/core/motion_estimator_jumps_test.cpp
+  test/core/motion_estimator_noise_test.cpp
   test/core/motion_estimator_rules_test.cpp
   test/core/motion_estimator_start_test.cpp
   test/core/motion_estimator_streams_test.cpp

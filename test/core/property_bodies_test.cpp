@@ -127,7 +127,7 @@ TEST(PropertyOfBodies, EffortsAreReactionsAlongTheAxes) {
     std::vector<Measured> sums(outcome.coordinates().size());
     for (const Joint& joint : made.mechanism.joints()) {
       if (joint.coordinate < 0) continue;
-      const MeasuredWrench wrench = outcome.child(joint.name);
+      const LongWrench wrench = outcome.child(joint.name);
       const Measured along = joint.type == JointType::kPrismatic
                                  ? Measured{joint.axis_K.dot(wrench.force), wrench.force_error}
                                  : Measured{joint.axis_K.dot(wrench.torque), wrench.torque_error};

@@ -45,28 +45,28 @@ inline Measured operator*(long double factor, const Measured& a) {
 }
 
 /// A wrench and the errors that its force and its moment may have.
-struct MeasuredWrench {
+struct LongWrench {
   Vector3l force = Vector3l::Zero(), torque = Vector3l::Zero();
   long double force_error = 0, torque_error = 0;
 
-  MeasuredWrench turned(const Matrix3l& R) const {
+  LongWrench turned(const Matrix3l& R) const {
     return {R * force, R * torque, force_error, torque_error};
   }
   /// The wrench about a point that lies `d` from the present one.
-  MeasuredWrench about(const Vector3l& d) const {
+  LongWrench about(const Vector3l& d) const {
     return {force, torque - d.cross(force), force_error, torque_error + d.norm() * force_error};
   }
 };
 
-inline MeasuredWrench operator+(const MeasuredWrench& a, const MeasuredWrench& b) {
+inline LongWrench operator+(const LongWrench& a, const LongWrench& b) {
   return {a.force + b.force, a.torque + b.torque, a.force_error + b.force_error,
           a.torque_error + b.torque_error};
 }
-inline MeasuredWrench operator*(long double factor, const MeasuredWrench& a) {
+inline LongWrench operator*(long double factor, const LongWrench& a) {
   const long double size = std::abs(factor);
   return {factor * a.force, factor * a.torque, size * a.force_error, size * a.torque_error};
 }
-inline MeasuredWrench operator-(const MeasuredWrench& a, const MeasuredWrench& b) {
+inline LongWrench operator-(const LongWrench& a, const LongWrench& b) {
   return a + (-1) * b;
 }
 
@@ -97,10 +97,10 @@ class Outcome {
     return {workspace_.effort()[static_cast<Eigen::Index>(i)],
             allowedError(bound_.effortDepths()[i], bound_.efforts()[i])};
   }
-  MeasuredWrench child(const std::string& joint) const {
+  LongWrench child(const std::string& joint) const {
     return measured(workspace_.childAxes()[indexIn(reactions(), joint)], joint);
   }
-  MeasuredWrench root(const std::string& joint) const {
+  LongWrench root(const std::string& joint) const {
     return measured(workspace_.rootAxes()[indexIn(reactions(), joint)], joint);
   }
 
@@ -111,7 +111,7 @@ class Outcome {
     return static_cast<std::size_t>(found - names.begin());
   }
 
-  MeasuredWrench measured(const Wrench& wrench, const std::string& joint) const {
+  LongWrench measured(const Wrench& wrench, const std::string& joint) const {
     const std::size_t k = static_cast<std::size_t>(mechanism_.jointIndex(joint) + 1);
     const WrenchMagnitude& magnitude = bound_.wrenches()[k];
     const int depth = bound_.depths()[k];
@@ -134,7 +134,7 @@ class Agreement {
   void compare(const std::string& what, const Measured& a, const Measured& b) {
     judge(what, std::abs(a.value - b.value), a.error + b.error);
   }
-  void compare(const std::string& what, const MeasuredWrench& a, const MeasuredWrench& b) {
+  void compare(const std::string& what, const LongWrench& a, const LongWrench& b) {
     judge(what + ", force", (a.force - b.force).norm(), a.force_error + b.force_error);
     judge(what + ", moment", (a.torque - b.torque).norm(), a.torque_error + b.torque_error);
   }

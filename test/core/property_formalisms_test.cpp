@@ -59,8 +59,8 @@ class Witness {
     lagrange_.compute(made.motion);
   }
 
-  MeasuredWrench child(std::size_t i) const { return measured(lagrange_.childAxes()[i]); }
-  MeasuredWrench root(std::size_t i) const { return measured(lagrange_.rootAxes()[i]); }
+  LongWrench child(std::size_t i) const { return measured(lagrange_.childAxes()[i]); }
+  LongWrench root(std::size_t i) const { return measured(lagrange_.rootAxes()[i]); }
   /// Effort of a coordinate that moves these joints.
   Measured effort(std::size_t i, const Mechanism& mechanism) const {
     Measured effort{lagrange_.effort()[static_cast<Eigen::Index>(i)], 0};
@@ -77,7 +77,7 @@ class Witness {
   static long double noise(long double products) {
     return kWitnessRoundings * std::numeric_limits<long double>::epsilon() * products;
   }
-  MeasuredWrench measured(const Wrench& wrench) const {
+  LongWrench measured(const Wrench& wrench) const {
     return {wrench.force.cast<long double>(), wrench.torque.cast<long double>(),
             noise(products_.force()), noise(products_.moment())};
   }

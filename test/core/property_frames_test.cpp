@@ -22,9 +22,8 @@ Case withActive(Case made) {
 
 // The rest of a reaction with include_active: false; `axis` is that of the joint in the wrench's
 // axes.
-MeasuredWrench withoutActive(const MeasuredWrench& wrench, const Joint& joint,
-                             const Vector3l& axis) {
-  MeasuredWrench rest = wrench;
+LongWrench withoutActive(const LongWrench& wrench, const Joint& joint, const Vector3l& axis) {
+  LongWrench rest = wrench;
   Vector3l& part = joint.type == JointType::kPrismatic ? rest.force : rest.torque;
   part -= axis.dot(part) * axis;
   return rest;
@@ -91,7 +90,7 @@ TEST(PropertyOfFrames, ANewRootPassesTheOldGroundWrenchOn) {
     b.scene.reaction_names = {kGround};
     agreement.begin({a, b});
     const Outcome in_a(a), in_b(b);
-    MeasuredWrench expected = in_a.root(kGround).turned(R).about(-p);
+    LongWrench expected = in_a.root(kGround).turned(R).about(-p);
     expected.force -= b.mechanism.links()[0].mass * b.scene.gravity.cast<long double>();
     agreement.compare("ground", expected, in_b.root(kGround));
     agreement.compare("ground", in_b.child(kGround), in_b.root(kGround));
@@ -187,8 +186,8 @@ TEST(PropertyOfFrames, OtherLinkFramesOfTheSameBodiesChangeNoVector) {
       const int k = a.mechanism.jointIndex(name);
       const FrameMove move = k < 0 ? FrameMove() : moves[k];
       const Matrix3l& R_0K = poses_a.orientation(k + 1);
-      MeasuredWrench child = in_a.child(name).about(move.p).turned(move.R.transpose());
-      MeasuredWrench root = in_a.root(name).about(R_0K * move.p);
+      LongWrench child = in_a.child(name).about(move.p).turned(move.R.transpose());
+      LongWrench root = in_a.root(name).about(R_0K * move.p);
       if (k >= 0 && !b.scene.include_active) {
         const Joint& joint = a.mechanism.joints()[k];
         child = withoutActive(child, joint, b.mechanism.joints()[k].axis_K);

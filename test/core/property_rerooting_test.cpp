@@ -33,7 +33,7 @@ Scene withEveryReaction(Scene scene, const Mechanism& mechanism) {
   return scene;
 }
 
-AppliedWrench groundAsApplied(const Mechanism& mechanism, const MeasuredWrench& ground) {
+AppliedWrench groundAsApplied(const Mechanism& mechanism, const LongWrench& ground) {
   AppliedWrench applied;
   applied.link = mechanism.links()[0].name;
   applied.force = ground.force.cast<double>();
@@ -43,7 +43,7 @@ AppliedWrench groundAsApplied(const Mechanism& mechanism, const MeasuredWrench& 
 
 // Turns the joints of the path over. On the path, the frame of a link moves to where the next joint
 // is at q = 0; the new root keeps its own, whose orientation in the old root axes is R_0N.
-Case rerooted(const Case& made, int new_root, const MeasuredWrench& ground, const Matrix3l& R_0N) {
+Case rerooted(const Case& made, int new_root, const LongWrench& ground, const Matrix3l& R_0N) {
   Description tree(made.mechanism);
   Scene scene = made.scene;
   scene.applied_wrenches.push_back(groundAsApplied(made.mechanism, ground));
@@ -76,7 +76,7 @@ void holdStill(const Mechanism& mechanism, const std::vector<int>& path, Motion&
 // replaces the old ground's: it reaches everything that now carries the old root.
 class RerootedOutcome {
  public:
-  RerootedOutcome(const Case& b, const MeasuredWrench& ground, const NewtonEulerOracle& poses_a,
+  RerootedOutcome(const Case& b, const LongWrench& ground, const NewtonEulerOracle& poses_a,
                   const Mechanism& a, const std::vector<int>& path)
       : outcome_(b), ground_(ground), poses_(poses_a), a_(a), path_(path) {}
 
@@ -84,10 +84,10 @@ class RerootedOutcome {
     return std::find(path_.begin(), path_.end(), joint) != path_.end();
   }
 
-  MeasuredWrench child(const std::string& name) const { return loaded(outcome_.child(name), name); }
-  MeasuredWrench root(const std::string& name) const { return loaded(outcome_.root(name), name); }
+  LongWrench child(const std::string& name) const { return loaded(outcome_.child(name), name); }
+  LongWrench root(const std::string& name) const { return loaded(outcome_.root(name), name); }
 
-  MeasuredWrench ground(int new_root) const {
+  LongWrench ground(int new_root) const {
     return loaded(outcome_.root(kGround), poses_.origin(new_root).norm());
   }
 
@@ -96,7 +96,7 @@ class RerootedOutcome {
     for (const int k : path_) {
       const Joint& joint = a_.joints()[k];
       if (joint.coordinate != a_.joints()[a_.jointIndex(name)].coordinate) continue;
-      const MeasuredWrench part = loaded(MeasuredWrench(), joint.name);
+      const LongWrench part = loaded(LongWrench(), joint.name);
       effort.error += std::abs(joint.multiplier) *
                       (joint.type == JointType::kPrismatic ? part.force_error : part.torque_error);
     }
@@ -104,18 +104,18 @@ class RerootedOutcome {
   }
 
  private:
-  MeasuredWrench loaded(const MeasuredWrench& wrench, const std::string& name) const {
+  LongWrench loaded(const LongWrench& wrench, const std::string& name) const {
     const int k = a_.jointIndex(name);
     return turnedOver(k) ? loaded(wrench, poses_.origin(k + 1).norm()) : wrench;
   }
-  MeasuredWrench loaded(MeasuredWrench wrench, long double distance) const {
+  LongWrench loaded(LongWrench wrench, long double distance) const {
     wrench.force_error += ground_.force_error;
     wrench.torque_error += ground_.torque_error + distance * ground_.force_error;
     return wrench;
   }
 
   Outcome outcome_;
-  MeasuredWrench ground_;
+  LongWrench ground_;
   const NewtonEulerOracle& poses_;
   const Mechanism& a_;
   const std::vector<int>& path_;
@@ -126,7 +126,7 @@ void compareRerooted(const Case& a, int new_root, Agreement& agreement) {
   const Outcome in_a(a);
   const NewtonEulerOracle poses(a.mechanism, a.scene, a.motion);
   const Matrix3l& R_0N = poses.orientation(new_root);
-  const MeasuredWrench ground = in_a.root(kGround);
+  const LongWrench ground = in_a.root(kGround);
   const Case b = rerooted(a, new_root, ground, R_0N);
   agreement.begin({a, b});
   const std::vector<int> path = pathTo(a.mechanism, new_root);
@@ -134,7 +134,7 @@ void compareRerooted(const Case& a, int new_root, Agreement& agreement) {
 
   for (const Joint& joint : a.mechanism.joints()) {
     const std::string& name = joint.name;
-    MeasuredWrench root = in_a.root(name), child = in_a.child(name);
+    LongWrench root = in_a.root(name), child = in_a.child(name);
     if (in_b.turnedOver(joint.child_link - 1)) {
       // The other side's frame is the one that the joint has in its old parent at q = 0.
       const Matrix3l& R_0P = poses.orientation(joint.parent_link);
@@ -145,7 +145,7 @@ void compareRerooted(const Case& a, int new_root, Agreement& agreement) {
     agreement.compare("child axes of " + name, child, in_b.child(name));
     agreement.compare("root axes of " + name, root.turned(R_0N.transpose()), in_b.root(name));
   }
-  agreement.compare("new ground", MeasuredWrench(), in_b.ground(new_root));
+  agreement.compare("new ground", LongWrench(), in_b.ground(new_root));
   for (const std::string& name : in_a.coordinates()) {
     agreement.compare("effort of " + name, in_a.effort(name), in_b.effort(name));
   }
