@@ -1,6 +1,7 @@
 #include "loops/zero_rows.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -11,20 +12,62 @@ namespace {
 // A row is an analytic function of the position: when it is zero in a few that have nothing in
 // common with each other, it is zero in all.
 constexpr int kPositions = 6;
-constexpr double kLargestTurn = 3;  // rad; slides go as far, in lengths of the mechanism
-// Roundings of the products that a row is made of, in units of the numbers that cancel.
-constexpr double kRowRounding = 256 * std::numeric_limits<double>::epsilon();
+constexpr double kLargestTurn = 3;  // rad; slides go as far, in lengths of the loops
+// Entries that count as roundings of the products that they are made of, over their size without
+// cancellation. To leave out a row changes results by so much, and that must be rounding, too.
+constexpr double kRowRounding = 16 * std::numeric_limits<double>::epsilon();
+// Extent of a loop, over its distance from the root or the largest extent, below which it is
+// rounding itself.
+constexpr double kLeastExtent = 1e-4;
 
-// The largest distance of a frame on the paths of closures from the root.
-double reachOf(const LoopKinematics& kinematics) {
-  double reach = 0;
-  for (std::size_t c = 0; c < kinematics.closures(); ++c) {
-    reach = std::max({reach, kinematics.parentOrigin(c).norm(), kinematics.childOrigin(c).norm()});
-    for (const PathStep& step : kinematics.path(c)) {
-      reach = std::max(reach, kinematics.originOf(step.joint + 1).norm());
+/// Distances between origins on the path of a closure, and from the root.
+struct Extent {
+  double largest = 0, reach = 0;
+};
+
+Extent extentOf(const LoopKinematics& kinematics, std::size_t closure) {
+  std::vector<Eigen::Vector3d> origins{kinematics.parentOrigin(closure),
+                                       kinematics.childOrigin(closure)};
+  for (const PathStep& step : kinematics.path(closure)) {
+    origins.push_back(kinematics.originOf(step.joint + 1));
+  }
+  Extent extent;
+  for (const Eigen::Vector3d& a : origins) {
+    extent.reach = std::max(extent.reach, a.norm());
+    for (const Eigen::Vector3d& b : origins) {
+      extent.largest = std::max(extent.largest, (a - b).norm());
     }
   }
-  return reach;
+  return extent;
+}
+
+// By closure: the length that levers of its rows are compared with; never zero.
+std::vector<double> lengthsOf(const LoopKinematics& kinematics) {
+  std::vector<Extent> extents;
+  double largest = 0, reach = 0;
+  for (std::size_t c = 0; c < kinematics.closures(); ++c) {
+    extents.push_back(extentOf(kinematics, c));
+    largest = std::max(largest, extents.back().largest);
+    reach = std::max(reach, extents.back().reach);
+  }
+  if (!(largest > kLeastExtent * reach)) largest = reach > 0 ? reach : 1;
+  std::vector<double> lengths;
+  for (const Extent& extent : extents) {
+    const double least = kLeastExtent * std::max(extent.reach, largest);
+    lengths.push_back(extent.largest > least ? extent.largest : std::max(extent.reach, largest));
+  }
+  return lengths;
+}
+
+// The largest change of a condition when a coordinate turns by one radian or slides by `length`.
+double largestEntry(const Mechanism& mechanism, const LoopKinematics& kinematics,
+                    Eigen::Index condition, double length) {
+  double largest = 0;
+  for (Eigen::Index k = 0; k < kinematics.jacobian().cols(); ++k) {
+    const double scale = scaleOf(mechanism.unitOf(static_cast<int>(k)), length);
+    largest = std::max(largest, scale * std::abs(kinematics.jacobian()(condition, k)));
+  }
+  return largest;
 }
 
 }  // namespace
@@ -37,7 +80,8 @@ std::vector<bool> zeroRows(const Mechanism& mechanism, const LoopKinematics& giv
   for (Eigen::Index i = 0; i < kinematics.firstOf(kinematics.closures()); ++i) {
     zero[static_cast<std::size_t>(i)] = !kinematics.condition(i).adopts_constant;
   }
-  const double length = std::max(reachOf(kinematics), std::numeric_limits<double>::min());
+  const std::vector<double> lengths = lengthsOf(kinematics);
+  const double length = lengths.empty() ? 1 : *std::max_element(lengths.begin(), lengths.end());
   std::mt19937 random(1);
   std::uniform_real_distribution<double> turn(-kLargestTurn, kLargestTurn);
   Eigen::VectorXd q(kinematics.jacobian().cols());
@@ -46,12 +90,13 @@ std::vector<bool> zeroRows(const Mechanism& mechanism, const LoopKinematics& giv
       q[i] = turn(random) * scaleOf(mechanism.unitOf(static_cast<int>(i)), length);
     }
     kinematics.setPosition(q);
-    const double reach = std::max(reachOf(kinematics), length);
-    for (Eigen::Index i = 0; i < kinematics.conditions(); ++i) {
-      if (!zero[static_cast<std::size_t>(i)]) continue;
-      const double size = scaleOf(kinematics.condition(i).unit, reach);
-      const double largest = kinematics.jacobian().row(i).cwiseAbs().maxCoeff();
-      zero[static_cast<std::size_t>(i)] = largest <= kRowRounding * size;
+    for (std::size_t c = 0; c < lengths.size(); ++c) {
+      for (Eigen::Index i = kinematics.firstOf(c); i < kinematics.firstOf(c + 1); ++i) {
+        if (!zero[static_cast<std::size_t>(i)]) continue;
+        const double size = scaleOf(kinematics.condition(i).unit, lengths[c]);
+        zero[static_cast<std::size_t>(i)] =
+            largestEntry(mechanism, kinematics, i, lengths[c]) <= kRowRounding * size;
+      }
     }
   }
   return zero;

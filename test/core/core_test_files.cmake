@@ -150,6 +150,7 @@ set(core_test_files
   test/core/urdf_writer_test.cpp
   test/core/velocity_judge_test.cpp
   test/core/wrench_history_test.cpp
+  test/core/zero_rows_test.cpp
   src/offline/effort_comparison.cpp
   src/npz/crc32.cpp
   src/npz/npy_header.cpp
