@@ -2,7 +2,7 @@
 # Builds and runs the fuzz targets of test/fuzz.
 set -euo pipefail
 
-targets=(description scene motion bag messages tool)
+targets=(description scene motion bag npz messages tool)
 seconds=20
 jobs=1
 seed=0

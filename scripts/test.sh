@@ -69,7 +69,7 @@ run_tests() {
   cmake --build "$workspace/build" --target run_tests -- -j2
 }
 
-sanitized_targets=(sanitized_core_tests {description,scene,motion,bag,messages,tool}_fuzz)
+sanitized_targets=(sanitized_core_tests {description,scene,motion,bag,npz,messages,tool}_fuzz)
 shards=8
 
 # sanitized_shards: runs those shards of the sanitized tests that nobody has taken. Without the tests that

@@ -36,6 +36,7 @@ struct CompletionReport {
   bool even_clock = false;               ///< times were taken as those of an even clock
   std::size_t gaps = 0;                  ///< longer than max_gap
   std::size_t one_sided = 0;             ///< rows near a gap or an end, with rows on one side only
+  std::vector<bool> one_sided_rows{};    ///< which rows these are; empty: nothing was missing
   std::vector<StreamQuality> qualities;  ///< of each joint of the table
   std::vector<bool> still;               ///< whether the joint does not move at all
   /// Rows of each joint at which its position jumps, as no motion does: nothing is assumed across.

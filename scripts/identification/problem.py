@@ -81,7 +81,7 @@ def filtered_pieces(regressor, measured, keep, efforts, parameters, cutoff, load
         piece.columns = np.zeros((len(parameters), len(piece.times), len(efforts)))
     for k, parameter in enumerate(parameters):
         if progress:
-            progress('filtering', k, len(parameters))
+            progress.update(k + 1, len(parameters))
         if not loaded and parameter.kind.startswith('payload_'):
             continue
         column = _column(parameter, regressor, efforts)

@@ -4,6 +4,8 @@ import tempfile
 
 import numpy as np
 
+from vwd_loads.progress import Progress
+
 from . import bodies
 from .base import BaseParameters
 from .files import Description, check_link, found_scene, payload_entry, read_scene, scene_to_fit
@@ -12,7 +14,6 @@ from .files import write_scene
 from .filtering import chosen_cutoff
 from .outcome import Outcome
 from .problem import Parameter, check_length, filtered_pieces
-from .progress import Progress
 from .recording import Regressor, Tool, find_tool
 from .refusal import Refusal
 from .report import write_report
@@ -38,7 +39,7 @@ class Study:
     def __init__(self, arguments, options, program):
         self.arguments = arguments
         self.wanted = Wanted(arguments.fit)
-        self.progress = Progress()
+        self.progress = Progress(quiet=True)
         self.tool = Tool(find_tool(arguments.tool, program), options, print if arguments.verbose else None)
         self.description = Description(arguments.urdf)
         self.scene = read_scene(arguments.scene)
@@ -235,7 +236,7 @@ class Study:
         pieces = []
         for each in recordings:
             pieces += filtered_pieces(each.regressor, each.measured, each.keep, efforts, parameters, cutoff,
-                                      each.loaded, self.progress)
+                                      each.loaded, self.progress.named('filtering'))
         check_length(pieces, parameters, efforts, cutoff)
         outcome = Outcome(self.arguments, regressor, parameters, efforts, cutoff)
         outcome.recording = recordings[0]

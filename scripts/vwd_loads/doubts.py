@@ -26,7 +26,7 @@ class Doubt:
 def doubts_of(table, parts):
     """The doubts that hold for any row."""
     doubts = _missing(table, parts) + _singular(table) + _chosen(table, parts)
-    doubts += _uncertified(table) + _uncertain(table, parts)
+    doubts += _uncertified(table) + _uncertain(table, parts) + _one_sided(table)
     return [doubt for doubt in doubts if np.any(doubt.rows)]
 
 
@@ -51,6 +51,14 @@ def _singular(table):
         return []
     return [Doubt('close to a singular position (condition above %s): small errors of the motion make '
                   'large errors of the loads' % number_text(CLOSE), ~(condition <= CLOSE))]
+
+
+def _one_sided(table):
+    rows = table.get('one_sided')
+    if rows is None:
+        return []
+    return [Doubt('near an end of the recording or a gap, where what the motion lacked was estimated from rows of '
+                  'one side', rows == 1)]
 
 
 def _chosen(table, parts):

@@ -109,7 +109,45 @@ def _read(folder):
         raise ReportError('its %s is broken' % SUMS)
     if not isinstance(sums, dict) or sums.get('format') != SUMS_FORMAT:
         raise ReportError('its %s has another format' % SUMS)
+    missing = _missing(sums)
+    if missing:
+        raise ReportError('its %s is incomplete: %s' % (SUMS, missing))
     return sums
+
+
+def _is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
+def _is_number_or_none(value):
+    return value is None or _is_number(value)
+
+
+def _is_text(value):
+    return isinstance(value, str)
+
+
+# What is read of the sums of a motion, and of each of its loads.
+OF_MOTION = {'robot': _is_text, 'rows': _is_number, 'doubtful_rows': _is_number, 'seconds': _is_number,
+             'woehler': _is_number, 'loads': lambda value: isinstance(value, list)}
+OF_LOAD = {'name': _is_text, 'quantity': _is_text, 'unit': _is_text, 'words': _is_text, 'mean': _is_number,
+           'rms': _is_number, 'peak': _is_number, 'peak_time': _is_number_or_none,
+           'seconds': _is_number_or_none, 'cycles': _is_number_or_none, 'range_once': _is_number_or_none,
+           'ball': _is_number_or_none, 'roller': _is_number_or_none, 'travel': _is_number_or_none}
+
+
+def _missing(sums):
+    """What the sums lack, or have of another kind; empty: nothing."""
+    for key, fits in OF_MOTION.items():
+        if not fits(sums.get(key)):
+            return key
+    for i, load in enumerate(sums['loads']):
+        if not isinstance(load, dict):
+            return 'load %d' % (i + 1)
+        for key, fits in OF_LOAD.items():
+            if key not in load or not fits(load[key]):
+                return '%s of load %d' % (key, i + 1)
+    return ''
 
 
 class Fleet:

@@ -221,9 +221,7 @@ class Report:
         blocks = [Heading(2, 'Rows to distrust')]
         if not self.doubts:
             return blocks + [Text('None is marked: every value exists, and no column says that it is uncertain. '
-                                  'Results are as good as motion and description are. Rows near the ends whose '
-                                  'derivatives were estimated from one side are in no column: a note of '
-                                  'inverse_dynamics_offline counts them.', 'good')]
+                                  'Results are as good as motion and description are.', 'good')]
         items = ['%s: %d of %d rows, %s.' % (doubt.words, np.sum(doubt.rows), len(self.table),
                                              doubting.spans(doubt.rows, self.table.times))
                  for doubt in self.doubts]

@@ -111,13 +111,17 @@ void countOneSided(const Recording& recording, CompletionReport& report) {
   for (std::size_t i = 0; i < report.qualities.size(); ++i)
     if (!report.still[i]) reach = std::max(reach, kReach / report.qualities[i].bandwidth);
   const std::vector<double>& times = recording.times();
+  report.one_sided_rows.assign(times.size(), false);
   std::size_t first = 0;
   for (std::size_t row = 1; row <= times.size(); ++row) {
     const bool gap = row < times.size() && times[row] - times[row - 1] > recording.longestGap();
     if (row < times.size() && !gap && !jumps(report, row)) continue;
     report.gaps += gap ? 1 : 0;
-    for (std::size_t i = first; i < row; ++i)
-      if (times[i] < times[first] + reach || times[i] > times[row - 1] - reach) ++report.one_sided;
+    for (std::size_t i = first; i < row; ++i) {
+      if (times[i] >= times[first] + reach && times[i] <= times[row - 1] - reach) continue;
+      ++report.one_sided;
+      report.one_sided_rows[i] = true;
+    }
     first = row;
   }
 }

@@ -27,6 +27,17 @@ void checkForBag(const Arguments& arguments) {
   }
 }
 
+// What only a bag that is written needs.
+void checkWithoutBag(const Arguments& arguments) {
+  const std::pair<bool, const char*> kRefused[] = {
+      {arguments.copy_input, "--copy-input"},
+      {!arguments.root_source.empty(), "--root-source"},
+      {!arguments.remap.empty(), "--remap"}};
+  for (const auto& [given, option] : kRefused) {
+    if (given) throw UsageError(std::string(option) + " is of use with --output BAG only");
+  }
+}
+
 // What has no place beside a folder that is written instead of a result.
 void checkForRegressor(const Arguments& arguments) {
   const std::pair<bool, const char*> kRefused[] = {
@@ -51,7 +62,9 @@ void checkForRegressor(const Arguments& arguments) {
 }  // namespace
 
 void requireAgreement(const Arguments& arguments) {
-  if (arguments.urdf.empty()) throw UsageError("--urdf FILE is missing");
+  if (arguments.urdf.empty() && arguments.rosparam.empty() && arguments.motion.empty()) {
+    throw UsageError("--urdf FILE is missing");
+  }
   if (arguments.motion.empty() && !arguments.check && !arguments.explain &&
       arguments.generate.empty()) {
     throw UsageError("--motion FILE is missing (only --check, --explain and --generate need none)");
@@ -66,8 +79,8 @@ void requireAgreement(const Arguments& arguments) {
   }
   if (arguments.toBag()) {
     checkForBag(arguments);
-  } else if (arguments.copy_input) {
-    throw UsageError("--copy-input is of use with --output BAG only");
+  } else {
+    checkWithoutBag(arguments);
   }
   if (arguments.residuals && arguments.no_efforts) {
     throw UsageError("--residuals: need the efforts that --no-efforts leaves out");

@@ -118,6 +118,16 @@ std::string parseNode(const std::string& text) {
   return "/" + name;
 }
 
+// A topic that is read in place of another one, as rosrun takes it.
+std::pair<std::string, std::string> parseRemap(const std::string& text) {
+  const std::size_t sign = text.find(":=");
+  if (sign == std::string::npos || sign == 0 || sign + 2 == text.size()) {
+    throw UsageError("--remap: " + inQuotes(text) + " is not NAME:=TOPIC");
+  }
+  const std::string topic = text.substr(sign + 2);
+  return {text.substr(0, sign), topic[0] == '/' ? topic : "/" + topic};
+}
+
 double parsePositive(const std::string& option, const std::string& text) {
   double value = 0;
   if (!parseNumber(text, value) || value <= 0) {
@@ -170,6 +180,10 @@ const std::map<std::string, Setter>& optionsWithValue() {
          arguments.observer_gain = parsePositive("--observer-gain", value);
          arguments.residuals = true;
        }},
+      {"--rosparam", [](const auto& value, auto& arguments) { arguments.rosparam = value; }},
+      {"--root-source", [](const auto& value, auto& arguments) { arguments.root_source = value; }},
+      {"--remap",
+       [](const auto& value, auto& arguments) { arguments.remap.push_back(parseRemap(value)); }},
       {"--scene", [](const auto& value, auto& arguments) { arguments.scene = value; }},
       {"--output", [](const auto& value, auto& arguments) { arguments.output = value; }},
       {"--report", [](const auto& value, auto& arguments) { arguments.report = value; }},
@@ -277,7 +291,7 @@ class Parser {
       throw UsageError("unknown option " + inQuotes(option) + optionHelp(option));
     }
     latest_ = option;
-    if (!seen_.insert(option).second && option != "--rename")
+    if (!seen_.insert(option).second && option != "--rename" && option != "--remap")
       throw UsageError(option + " is given twice");
     if (without_value != switches().end()) {
       if (has_value) throw UsageError(option + " takes no value");
@@ -293,9 +307,9 @@ class Parser {
     if (arguments_.inertial_axes) {
       throw UsageError("--axes inertial cannot be used with --generate");
     }
-    static const std::set<std::string> kTaken{"--axes",  "--generate",   "--gravity",
-                                              "--help",  "--no-efforts", "--reactions",
-                                              "--scene", "--urdf",       "--version"};
+    static const std::set<std::string> kTaken{
+        "--axes",      "--generate", "--gravity", "--help", "--no-efforts", "--node",
+        "--reactions", "--rosparam", "--scene",   "--urdf", "--version"};
     for (const std::string& option : seen_) {
       if (kTaken.count(option) == 0) throw UsageError(option + " cannot be used with --generate");
     }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "offline/motion_file.h"
@@ -16,6 +18,8 @@ class UsageError : public Error {
  public:
   using Error::Error;
 };
+
+struct TaskInputs;
 
 /// How efforts and reactions are computed.
 enum class Method {
@@ -31,6 +35,7 @@ constexpr double kLoopTolerance = 1e-6;
 /// empty.
 struct Arguments {
   std::string urdf;
+  std::string rosparam;  ///< dump of parameters, of which description and scene may be
   MotionSource motion;
   std::string scene;
   std::string output;                      ///< empty: standard output
@@ -43,7 +48,10 @@ struct Arguments {
   bool no_efforts = false;
   std::string generate;                    ///< source file to write; empty: none
   bool copy_input = false;                 ///< to a bag that is written
-  std::string node = "/inverse_dynamics";  ///< whose topics a bag that is written has
+  std::string node = "/inverse_dynamics";  ///< whose topics and parameters are read and written
+  std::string root_source;                 ///< as ~root/source; empty: as the parameters say
+  /// Topics that are read from a bag in place of the node's.
+  std::vector<std::pair<std::string, std::string>> remap;
   Method method = Method::kVirtualWork;
   bool certificates = false;
   std::string regressor;                ///< folder to write the regressor to; empty: none
@@ -62,6 +70,7 @@ struct Arguments {
   bool explain = false;
   bool help = false;  ///< words after --help or --version are ignored
   bool version = false;
+  std::shared_ptr<const TaskInputs> inputs{};  ///< once they are read; see readTaskInputs()
 
   /// Where measured efforts are read from.
   MotionSource measuredSource() const;

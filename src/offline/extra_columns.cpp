@@ -35,6 +35,7 @@ ExtraColumns::ExtraColumns(const Arguments& arguments, const Mechanism& mechanis
     report_.emplace(mechanism, scene);
     append(report_->names());
   }
+  if (!arguments.report.empty() && !file.one_sided.empty()) append({"one_sided"});
   if (arguments.positions) append(motionColumns(mechanism));
   if (arguments.effort_limits) {
     limits_.emplace(mechanism.coordinateNames(), effortLimits(mechanism));
@@ -50,6 +51,9 @@ void ExtraColumns::add(std::size_t row, const Motion& motion, const Load& load,
     residuals_->add(row, motion, load, effort, deviations_ ? &*deviations_ : nullptr, cells);
   }
   if (report_) report_->add(motion, results, cells);
+  if (!arguments_.report.empty() && !file_.one_sided.empty()) {
+    cells.push_back(file_.one_sided[row] ? 1 : 0);
+  }
   if (arguments_.positions) appendMotion(mechanism_, motion, cells);
   if (limits_) limits_->add(file_.table.times[row], results);
 }

@@ -8,6 +8,7 @@
 #include "base/output_file.h"
 #include "base/printable.h"
 #include "base/text_file.h"
+#include "offline/task_inputs.h"
 #include "virtual_work_dynamics/generated_code.h"
 
 #ifndef VWD_VERSION
@@ -76,8 +77,9 @@ void writeGeneratedFiles(const Arguments& arguments, const Mechanism& mechanism,
   options.origin = {
       std::string("Made by inverse_dynamics_offline --generate of virtual_work_dynamics ") +
           VWD_VERSION + "; not to be edited.",
-      originOf("Description: ", arguments.urdf)};
-  if (!arguments.scene.empty()) options.origin.push_back(originOf("Scene: ", arguments.scene));
+      originOf("Description: ", arguments.inputs->description_file)};
+  const std::string& scene_file = arguments.inputs->scene_file;
+  if (!scene_file.empty()) options.origin.push_back(originOf("Scene: ", scene_file));
   const GeneratedCode code = generateCode(mechanism, scene, request, options);
   const std::string source = file.string(), header = file.replace_extension(".h").string();
   write(header, code.header);

@@ -12,7 +12,12 @@ constexpr char kHelp[] =
   inverse_dynamics_offline --urdf ROBOT.urdf --generate FILE.c [options]
 
 Input
-  --urdf FILE           robot description
+  --urdf FILE           robot description. Without it: that of --rosparam, or that which the bag of the
+                        motion has as a std_msgs/String on /robot_description (with the scene, as YAML
+                        text on /inverse_dynamics/scene, if there is one)
+  --rosparam FILE       what 'rosparam dump FILE' wrote: the description from robot_description, the scene
+                        from ~scene of the node of --node, as the node finds them; --urdf and --scene
+                        replace them. For an --output BAG, all parameters of the node count
   --motion FILE         motion as CSV: a header with the columns time, position.<joint>,
                         velocity.<joint>, acceleration.<joint> in any order (s, rad or m); lines
                         that start with # are comments. The CSV of 'rostopic echo -p' of joint
@@ -97,9 +102,15 @@ Output
   --output BAG          a name that ends in .bag: of a motion from a bag, the topics that
                         inverse_dynamics_node would publish, with its results: estimated as it does
                         it, --lag S (default: 0.05) behind; those of deviations with --deviations.
-                        Memory does not grow with the bag.
+                        Memory does not grow with the bag. Trajectories, live wrenches, payloads,
+                        gravity and the motion of the root are read from the topics that the node
+                        subscribes to.
   --copy-input          all messages of the bag that is read go to the one that is written, too
-  --node NAME           node whose topics are written (default: /inverse_dynamics)
+  --node NAME           node whose topics are written, and whose topics and parameters are read (default:
+                        /inverse_dynamics)
+  --remap NAME:=TOPIC   reads a topic of the bag in place of one of the node's, like odom:=/robot/odom or
+                        wrench/hand:=/sensor; several times for several
+  --root-source WORD    as the parameter ~root/source: odometry, trajectory, states, tf or imu
   --regressor DIR       instead of a result, a folder of NumPy arrays for identification: effort.npy as
                         described (rows x efforts), regressor.npy, what efforts are per unit of each
                         parameter (parameters x rows x efforts), time.npy, position.npy, velocity.npy,

@@ -14,7 +14,6 @@
 #include "base/printable.h"
 #include "base/text_file.h"
 #include "motion/csv_lines.h"
-#include "npz/npz_reader.h"
 #include "offline/bag_topic.h"
 #include "offline/npz_motion.h"
 #include "offline/progress.h"
@@ -142,6 +141,7 @@ class EffortCsv {
     for (const std::string& cell : cells_) {
       for (const std::string& column : spelledOut(cell)) {
         int target = kNothing;
+        bool bare = false;
         if (column == "time") {
           target = kTime;
           has_time = true;
@@ -149,8 +149,11 @@ class EffortCsv {
           target = seriesOf(column.substr(kEffort.size()), efforts);
         } else if (isBare(column)) {
           target = seriesOf(column, efforts);
+          bare = true;
         }
         targets_.push_back(target);
+        may_be_text_.push_back(bare);
+        names_.push_back(column);
       }
     }
     if (!has_time) throw FileError(at() + ": column 'time' is missing");
@@ -183,8 +186,22 @@ class EffortCsv {
     }
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       if (targets_[i] < 0 || cells_[i].empty() || isNotANumber(cells_[i])) continue;
+      if (leaveText(i)) continue;
       efforts.add(static_cast<std::size_t>(targets_[i]), stamp_ns, number(i));
     }
+  }
+
+  // A column without a kind that begins with a text is no joint, such as the mode of a controller.
+  bool leaveText(std::size_t column) {
+    if (!may_be_text_[column]) return false;
+    may_be_text_[column] = false;
+    double value = 0;
+    if (parseNumber(cells_[column], value)) return false;
+    targets_[column] = kNothing;
+    std::cerr << "note: " << printable(at()) << ": column " << inQuotes(names_[column])
+              << " is not taken for efforts, as it begins with " << inQuotes(cells_[column])
+              << "\n";
+    return true;
   }
 
   double number(std::size_t column) const {
@@ -198,12 +215,14 @@ class EffortCsv {
   const std::string& name_;
   const bool bare_;
   Names cells_;
-  std::vector<int> targets_;  // by column
+  std::vector<int> targets_;       // by column
+  std::vector<bool> may_be_text_;  // by column, until its first value has come
+  Names names_;                    // by column
 };
 
 void readText(const MotionSource& source, bool bare, Collector& efforts) {
   const std::string& path = source.files.front();
-  if (looksLikeNpz(path)) {
+  if (isNpz(path)) {
     NpzMotion arrays(path);
     return EffortCsv(arrays, path, bare).read(efforts);
   }

@@ -7,6 +7,7 @@
 #include "base/number_text.h"
 #include "base/printable.h"
 #include "offline/report_columns.h"
+#include "offline/task_inputs.h"
 #include "scene/closure_types.h"
 #include "virtual_work_dynamics/joint_types.h"
 
@@ -165,8 +166,8 @@ std::string mechanismJson(const Arguments& arguments, const Mechanism& mechanism
     text += ",\n  " + jsonText(name) + ": " + json;
   };
   add("robot", jsonText(printable(mechanism.name())));
-  add("description", jsonText(printable(arguments.urdf)));
-  add("scene", jsonText(printable(arguments.scene)));
+  add("description", jsonText(printable(arguments.inputs->description_name)));
+  add("scene", jsonText(printable(arguments.inputs->scene_name)));
   add("motion", jsonText(printable(arguments.motion.name())));
   add("axes", jsonText(arguments.child_axes      ? "child"
                        : arguments.inertial_axes ? "inertial"

@@ -216,7 +216,7 @@ MotionFile readMotion(const MotionSource& source, const Mechanism& mechanism,
   if (!source.topic.empty()) {
     throw FileError(motion.path + ": is not a bag, and --topic is the topic of one");
   }
-  if (looksLikeNpz(motion.path)) {
+  if (isNpz(motion.path)) {
     readNpz(source, choose, unused, motion);
   } else {
     WatchedFile file(motion.path);
@@ -264,6 +264,7 @@ void completeDerivatives(const Mechanism& mechanism, const Scene& scene,
             << (report.even_clock ? "; the rows are those of an even clock, its times jitter" : "")
             << "\n";
   describeEstimate(mechanism, motion, table.joints, report);
+  motion.one_sided = std::move(report.one_sided_rows);
 }
 
 }  // namespace virtual_work_dynamics

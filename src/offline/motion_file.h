@@ -23,6 +23,8 @@ struct MotionFile {
   std::vector<std::size_t> lines;       ///< by row
   std::vector<std::int64_t> stamps_ns;  ///< by row, as recorded; empty: the file has none
 
+  std::vector<bool> one_sided;  ///< by row: estimated near an end or a gap; empty: not estimated
+
   /// Names the place of a row: "line n".
   std::string place(std::size_t row) const {
     return std::string(row_name) + " " + std::to_string(lines[row]);

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <limits>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "base/number_text.h"
@@ -31,6 +34,17 @@ bool isOfMotion(const std::string& name) {
 constexpr std::int64_t kNotATime = std::numeric_limits<std::int64_t>::min();  // numpy's NaT
 
 }  // namespace
+
+bool isNpz(const std::string& path) {
+  if (looksLikeNpz(path)) return true;
+  const std::string_view end = ".npz";
+  const bool named = path.size() > end.size() && path.substr(path.size() - end.size()) == end;
+  std::error_code unknown;  // a file that cannot be opened is told so by its reader
+  if (named && std::filesystem::is_regular_file(path, unknown)) {
+    throw FileError(path + ": is not an .npz as numpy.savez writes it: it is no zip file");
+  }
+  return false;
+}
 
 NpzMotion::NpzMotion(const std::string& path)
     : path_(path),

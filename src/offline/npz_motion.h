@@ -11,6 +11,9 @@
 
 namespace virtual_work_dynamics {
 
+/// Whether a file is an .npz. @throws FileError when its name says so, but not its content.
+bool isNpz(const std::string& path);
+
 /// The arrays of an .npz as the CSV that has them as columns, so that the rules of CSV hold for
 /// both: numbers with the digits that read back equal, and empty cells where arrays have no number.
 class NpzMotion : public TextSource {

@@ -30,9 +30,9 @@
 #include "offline/root_rows.h"
 #include "offline/row_loads.h"
 #include "offline/rows.h"
+#include "offline/task_inputs.h"
 #include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/joint_types.h"
-#include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -49,10 +49,6 @@ auto naming(const std::string& where, Make make) {
   }
 }
 
-std::string prefixOf(const Arguments& arguments) {
-  return arguments.scene.empty() ? "" : arguments.scene + ": ";
-}
-
 ReactionAxes axesOf(const Arguments& arguments) {
   if (arguments.inertial_axes) return ReactionAxes::kInertial;
   return arguments.child_axes ? ReactionAxes::kChild : ReactionAxes::kRoot;
@@ -63,14 +59,14 @@ Request requestOf(const Mechanism& mechanism, const Scene& scene, const Argument
   Request request;
   request.efforts = !arguments.no_efforts;
   (arguments.child_axes ? request.child_axes : request.root_axes) =
-      naming(arguments.reactions ? "--" : prefixOf(arguments),
+      naming(arguments.reactions ? "--" : scenePrefix(arguments),
              [&] { return requestedReactions(mechanism, scene); });
   return request;
 }
 
 Dynamics dynamicsOf(const Mechanism& mechanism, const Scene& scene, const Request& request,
                     const Arguments& arguments) {
-  return naming(prefixOf(arguments), [&] { return Dynamics(mechanism, scene, request); });
+  return naming(scenePrefix(arguments), [&] { return Dynamics(mechanism, scene, request); });
 }
 
 // The request of what is computed: certificates need results of their own, after the others.
@@ -146,11 +142,11 @@ RecordedMotion readStart(const Arguments& arguments, const Mechanism& mechanism,
     throw FileError(arguments.motion.name() + ": " + error.problem());
   } catch (const AssemblyError& error) {
     if (!GivenJoints::givesAll(recorded.given)) {
-      throw AssemblyError(prefixOf(arguments) + error.what());
+      throw AssemblyError(scenePrefix(arguments) + error.what());
     }
     throw FileError(recorded.file.at(0) + ": " + error.what());
   } catch (const SceneError& error) {
-    throw SceneError(prefixOf(arguments) + error.what());
+    throw SceneError(scenePrefix(arguments) + error.what());
   }
   return recorded;
 }
@@ -194,7 +190,7 @@ void checkMotion(const Arguments& arguments, RecordedMotion recorded, const Mech
 
 // The robot with the joint types of the scene.
 Mechanism robotOf(const Mechanism& described, const Scene& scene, const Arguments& arguments) {
-  return naming(prefixOf(arguments), [&] { return withJointTypes(described, scene); });
+  return naming(scenePrefix(arguments), [&] { return withJointTypes(described, scene); });
 }
 
 void check(const Arguments& arguments, const Mechanism& mechanism, Scene scene) {
@@ -275,7 +271,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   CompletedMotion motion(std::move(recorded), mechanism, scene, dynamics, toleranceOf(arguments),
                          recording);
   const RowLoads loads(scene, motion.file());
-  ExtraColumns extra = naming(prefixOf(arguments), [&] {
+  ExtraColumns extra = naming(scenePrefix(arguments), [&] {
     return ExtraColumns(arguments, mechanism, scene, dynamics, written, motion.file(),
                         std::move(measured), columns);
   });
@@ -307,14 +303,15 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
 
 }  // namespace
 
-void runOffline(const Arguments& arguments) {
+void runOffline(Arguments arguments) {
   if (arguments.toBag()) {
     throw UsageError(
         "--output: bags are written by a build with ROS only, and this is one without");
   }
   refuseToOverwriteInput(arguments);
   if (!arguments.generate.empty()) requireSourceName(arguments);
-  const Mechanism described = readUrdfFile(arguments.urdf);
+  arguments.inputs = std::make_shared<const TaskInputs>(readTaskInputs(arguments));
+  const Mechanism described = askedRobot(arguments);
   const Scene scene = askedScene(arguments);
   const Mechanism mechanism = robotOf(described, scene, arguments);
   if (arguments.check) check(arguments, mechanism, scene);
@@ -323,7 +320,7 @@ void runOffline(const Arguments& arguments) {
   printDoubts(std::cerr, mechanism);
   if (!arguments.generate.empty()) {
     const Request request = requestOf(mechanism, scene, arguments);
-    return naming(prefixOf(arguments),
+    return naming(scenePrefix(arguments),
                   [&] { writeGeneratedFiles(arguments, mechanism, scene, request); });
   }
   refuseByLoops(arguments, needsClosedLoops(scene));

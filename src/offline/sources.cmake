@@ -2,6 +2,7 @@ set(offline_files)
 foreach(file
     argument_checks.cpp
     arguments.cpp
+    bag_texts.cpp
     bag_topic.cpp
     certified_rows.cpp
     check_report.cpp
@@ -27,6 +28,7 @@ foreach(file
     npz_motion.cpp
     npz_result_writer.cpp
     offline.cpp
+    parameter_dump.cpp
     recorded_motion.cpp
     residual_rows.cpp
     regressor_files.cpp
@@ -37,6 +39,7 @@ foreach(file
     rows.cpp
     state_csv.cpp
     state_motion.cpp
+    task_inputs.cpp
     watched_file.cpp)
   list(APPEND offline_files ${CMAKE_CURRENT_LIST_DIR}/${file})
 endforeach()

@@ -81,8 +81,9 @@ void BagTopics::start(std::int64_t time_ns) {
   }
 }
 
-void BagTopics::write(const ActivePlan& plan, std::int64_t time_ns) {
+void BagTopics::write(const ActivePlan& plan, bool of_trajectories, std::int64_t time_ns) {
   for (const ActiveOutput& output : plan.outputs) {
+    if (output.of_trajectories != of_trajectories) continue;
     Topic& topic = *topics_[output.index];
     topic.setTime(time_ns);
     output.message->record(topic);

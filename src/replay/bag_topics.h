@@ -24,8 +24,8 @@ class BagTopics {
 
   /// Writes what latched topics say before the first sample.
   void start(std::int64_t time_ns);
-  /// Writes the messages of a sample.
-  void write(const ActivePlan& plan, std::int64_t time_ns);
+  /// Writes the messages of a sample, or those of a trajectory.
+  void write(const ActivePlan& plan, bool of_trajectories, std::int64_t time_ns);
 
   /// The topics.
   std::vector<std::string> names() const;

@@ -1,52 +1,200 @@
 #include "replay/replayed_states.h"
 
+#include <ros/message_traits.h>
+
+#include <exception>
+#include <optional>
 #include <utility>
 
 #include "base/number_text.h"
 #include "base/printable.h"
+#include "replay/input_bytes.h"
+#include "ros/free_joint_conversion.h"
 #include "ros/message_copies.h"
 #include "ros/message_text.h"
+#include "ros/wrench_inputs.h"
 
 namespace virtual_work_dynamics {
 
-using Outcome = SampleComputation::Outcome;
-
-namespace {
-
-constexpr double kWrenchTimeout = 0.1;  // s; of a scene without live wrenches nothing depends on it
-
-std::string counted(std::size_t count, const char* what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
-}  // namespace
-
-ReplayedStates::ReplayedStates(const RobotTask& task, const MotionSource& source,
-                               const LoopLimits& limits, const Audience& audience,
-                               std::function<void(const ActivePlan&)> publish)
+ReplayedStates::ReplayedStates(const RobotTask& task, const InverseDynamicsParameters& parameters,
+                               const MotionSource& source, Publish publish)
     : task_(task),
       source_(source),
       publish_(std::move(publish)),
-      loops_(task.everything, task.reactions.size(), limits),
+      wrench_timeout_(parameters.wrench_timeout),
+      loops_(task.everything, task.reactions.size(), parameters.loop_limits),
       estimator_(task.mechanism, task.estimator),
-      completer_(task.mechanism, task.scene, task.everything, limits.tolerance),
-      wrenches_(task.mechanism, task.scene, kWrenchTimeout),
+      completer_(task.mechanism, task.scene, task.everything, parameters.loop_limits.tolerance),
+      wrenches_(task.mechanism, task.scene, parameters.wrench_timeout),
+      roots_(parameters.root, task.mechanism, parameters.frame_prefix, task.scene.gravity,
+             task.estimator, counters_),
       samples_(task.everything, task.scene, completer_, wrenches_,
-               {counters_, certificates_, loops_}),
-      plan_(task.mechanism, task.scene, task.outputs, task.reactions, audience, PlanChecks()),
+               {counters_, certificates_, loops_}, roots_.course()),
       computation_(task.mechanism, task.estimator, estimator_, completer_, samples_, counters_,
-                   *this) {
+                   *this),
+      trajectories_(task.mechanism, task.scene.static_motion, task.following(),
+                    parameters.trajectory_sampling, true, estimator_, completer_, samples_, *this),
+      wrench_conversion_(task.mechanism, parameters.frame_prefix, wrenches_),
+      scene_inputs_(task.mechanism, task.scene, parameters.frame_prefix, parameters.root,
+                    counters_) {
   if (task.everything.closed()) estimator_.waitFor(completer_.needed());
   for (const auto& [coordinate, position] : task.rest) estimator_.setRest(coordinate, position);
   loops_.setPassiveGiven(completer_.allGiven());
   computation_.measureEfforts(*task.efforts);
 }
 
-void ReplayedStates::take(const JointStateContent& content, std::size_t number) {
-  number_ = number;
-  message_.header.stamp = timeOf(content.stamp_ns);
-  translate(content);
+// Has messages of a topic handed to a function, with the time of their receipt. Returns the topic.
+template <typename Message, typename Function>
+std::string ReplayedStates::add(InputTopics& topics, const std::string& name,
+                                const std::string& purpose, Function function) {
+  const std::string topic = topics.find(name, ros::message_traits::datatype<Message>(),
+                                        ros::message_traits::md5sum<Message>(), purpose);
+  if (topic.empty()) return topic;
+  inputs_.emplace(topic, [this, function, message = Message()](const BagMessage& taken) mutable {
+    if (readBytes(taken.bytes, message)) {
+      function(message, timeOf(taken.time_ns));
+    } else {
+      here().drop(DropReason::kInternal, std::string("its bytes are not those of a ") +
+                                             ros::message_traits::datatype<Message>());
+    }
+  });
+  return topic;
+}
+
+template <typename Message>
+void ReplayedStates::addRoot(InputTopics& topics, const std::string& name) {
+  using News = RootMessages::News;
+  const auto take = [this](const Message& message, ros::Time receipt) {
+    if (const auto rejection = roots_.take(message, receipt)) {
+      here().drop(rejection->reason, rejection->text);
+    }
+    const std::string doubt = roots_.takeDoubt();
+    if (!doubt.empty()) here().warn(doubt);
+    const News news = roots_.takeNews();
+    if (news == News::kGap) here().gap(roots_.gapText());
+    if (news == News::kRestart) here().restart(roots_.restartText());
+  };
+  root_topic_ = add<Message>(topics, name, "tells how the root link moves", take);
+}
+
+void ReplayedStates::listenToRoot(InputTopics& topics) {
+  switch (roots_.settings().source) {
+    case RootSource::kNone:
+      return;
+    case RootSource::kOdometry:
+      return addRoot<nav_msgs::Odometry>(topics, "odom");
+    case RootSource::kTrajectory:
+      return addRoot<trajectory_msgs::MultiDOFJointTrajectory>(topics,
+                                                               "multi_dof_joint_trajectory");
+    case RootSource::kStates:
+      return addRoot<sensor_msgs::MultiDOFJointState>(topics, "multi_dof_joint_states");
+    case RootSource::kImu:
+      return addRoot<sensor_msgs::Imu>(topics, "imu");
+    case RootSource::kTf:
+      add<tf2_msgs::TFMessage>(topics, "/tf_static", "",
+                               [this](const tf2_msgs::TFMessage& message, ros::Time) {
+                                 roots_.takeStatic(message, [this](const Rejection& rejection) {
+                                   here().drop(rejection.reason, rejection.text);
+                                 });
+                               });
+      return addRoot<tf2_msgs::TFMessage>(topics, "/tf");
+  }
+}
+
+void ReplayedStates::listen(InputTopics& topics) {
+  trajectory_topic_ = add<trajectory_msgs::JointTrajectory>(
+      topics, "joint_trajectory", "",
+      [this](trajectory_msgs::JointTrajectory& message, ros::Time receipt) {
+        translate(message);
+        trajectories_.take(message, receipt);
+      });
+  if (task_.mechanism.orientations() > 0) {
+    free_joint_topic_ = add<sensor_msgs::MultiDOFJointState>(
+        topics, "multi_dof_joint_states", "tells the orientations of joints that turn freely",
+        [this](const sensor_msgs::MultiDOFJointState& message, ros::Time) {
+          takeFreeJoints(message);
+        });
+  }
+  listenToRoot(topics);
+  for (std::size_t i = 0; i < task_.wrench_topics.size(); ++i) {
+    wrench_topics_.push_back(add<geometry_msgs::WrenchStamped>(
+        topics, "~wrench/" + task_.wrench_topics[i],
+        "has the applied wrench " + inQuotes(wrenches_.name(i)) + " that the scene says is live",
+        [this, i](const geometry_msgs::WrenchStamped& message, ros::Time) {
+          if (const auto rejection = wrench_conversion_.take(i, message)) {
+            here().drop(rejection->reason, rejection->text);
+          }
+        }));
+  }
+  const auto change = [this](const std::optional<Rejection>& rejection) {
+    if (rejection) here().drop(rejection->reason, rejection->text);
+    adaptPlan();
+  };
+  for (const auto& entry : scene_inputs_.payloadTopics()) {
+    const int link = entry.second;
+    add<geometry_msgs::InertiaStamped>(
+        topics, "~" + entry.first, "",
+        [this, link, change](const geometry_msgs::InertiaStamped& message, ros::Time) {
+          change(scene_inputs_.takePayload(link, message));
+        });
+  }
+  add<geometry_msgs::Vector3Stamped>(
+      topics, "~gravity", "",
+      [this, change](const geometry_msgs::Vector3Stamped& message, ros::Time) {
+        change(scene_inputs_.takeGravity(0, message));
+      });
+}
+
+void ReplayedStates::setJointStates(const std::string& topic) {
+  joint_state_topic_ = topic;
+  of_joint_states_ = &happenings_[topic];
+}
+
+void ReplayedStates::setAudience(const Audience& audience) {
+  audience_ = audience;
+  plan_ = std::make_unique<ActivePlan>(task_.mechanism, scene_inputs_.scene(), task_.outputs,
+                                       task_.reactions, audience, PlanChecks());
+}
+
+void ReplayedStates::adaptPlan() {
+  if (!scene_inputs_.changed()) return;
+  try {
+    setAudience(audience_);
+    here().change(scene_inputs_.changes());
+    scene_inputs_.keepQuietly();
+  } catch (const std::exception& error) {
+    scene_inputs_.takeBackQuietly();
+    here().drop(DropReason::kNoBody,
+                std::string("what is computed stays as it is: ") + error.what());
+  }
+}
+
+void ReplayedStates::take(const BagMessage& message) {
+  const std::string& topic = message.connection->topic;
+  if (topic == joint_state_topic_) return takeJointState(message);
+  const auto [begin, end] = inputs_.equal_range(topic);
+  if (begin == end) return;
+  here_ = &happenings_[topic];
+  here().next();
+  for (auto input = begin; input != end; ++input) input->second(message);
+}
+
+void ReplayedStates::takeJointState(const BagMessage& message) {
+  here_ = of_joint_states_;
+  here().next();
+  if (!readJointState(message.bytes, content_)) {
+    dropJointState(DropReason::kInternal, "its bytes are not those of a joint state");
+    return;
+  }
+  message_.header.stamp = timeOf(content_.stamp_ns);
+  translate(content_);
   computation_.take(message_);
+}
+
+// Poses of the root may come by the same topic.
+void ReplayedStates::takeFreeJoints(const sensor_msgs::MultiDOFJointState& message) {
+  if (roots_.isOfRoot(message) && !namesFreeJoint(task_.mechanism, message.joint_names)) return;
+  computation_.take(message);
 }
 
 void ReplayedStates::translate(const JointStateContent& content) {
@@ -74,73 +222,95 @@ void ReplayedStates::translate(const JointStateContent& content) {
   }
 }
 
-void ReplayedStates::refuse(std::size_t number, const std::string& why) {
-  number_ = number;
-  happen(dropped_[DropReason::kInternal], why);
+// Trajectories are planned: their angles are in radians, whatever a driver measures in.
+void ReplayedStates::translate(trajectory_msgs::JointTrajectory& message) const {
+  if (source_.rename.empty()) return;
+  for (std::string& name : message.joint_names) name = source_.rename(name);
 }
 
-void ReplayedStates::happen(Happening& happening, const std::string& text) {
-  if (++happening.count == 1) happening.first = "message " + std::to_string(number_) + ": " + text;
-}
-
-void ReplayedStates::publish(const ActivePlan& plan) {
+void ReplayedStates::publishPoint(const ActivePlan& plan) {
   ++results_;
-  publish_(plan);
+  publish_(plan, false);
+}
+
+void ReplayedStates::publishTrajectory(const ActivePlan& plan) {
+  publish_(plan, true);
 }
 
 void ReplayedStates::dropJointState(DropReason reason, const std::string& text) {
-  happen(dropped_[reason], text);
+  here().drop(reason, text);
+}
+
+void ReplayedStates::dropFreeJoints(DropReason reason, const std::string& text) {
+  here().drop(reason, text);
+}
+
+void ReplayedStates::dropTrajectory(DropReason reason, const std::string& text) {
+  here().drop(reason, text);
 }
 
 void ReplayedStates::leaveForeign(const std::string& text) {
-  happen(foreign_, text);
+  here().leaveForeign(text);
 }
 
 void ReplayedStates::dropSample(Outcome outcome, ActivePlan& plan, std::int64_t stamp_ns) {
-  const std::string stamp = "stamp " + stampText(stamp_ns);
-  if (outcome == Outcome::kOpenLoop) {
-    happen(dropped_[DropReason::kOpenLoop],
-           completer_.problem(plan.dynamics, plan.workspace) + ", at " + stamp);
-  } else {
-    happen(dropped_[DropReason::kOverflow], "not finite at " + stamp);
+  const bool open = outcome == Outcome::kOpenLoop;
+  dropPoint(outcome, open ? completer_.problem(plan.dynamics, plan.workspace) : "",
+            "stamp " + stampText(stamp_ns));
+}
+
+void ReplayedStates::dropPoint(Outcome outcome, const std::string& open_loop,
+                               const std::string& where) {
+  const std::string at = ", at " + where;
+  switch (outcome) {
+    case Outcome::kOpenLoop:
+      return here().drop(DropReason::kOpenLoop, open_loop + at);
+    case Outcome::kNoWrench: {
+      const std::size_t i = samples_.unknownWrench();
+      return here().drop(
+          DropReason::kNoWrench,
+          WrenchInputs::problem(wrenches_.history(i), wrench_topics_[i], wrench_timeout_) + at);
+    }
+    case Outcome::kNoTurn:
+      return here().drop(DropReason::kNoTurn,
+                         free_joint_topic_ + " does not tell the orientation of " +
+                             inQuotes(task_.mechanism.freeJoint(computation_.unknownTurn()).name) +
+                             at);
+    case Outcome::kNoRoot:
+      return here().drop(DropReason::kNoRoot, roots_.problem(root_topic_) + at);
+    default:
+      return here().drop(DropReason::kOverflow, "not finite at " + where);
   }
 }
 
 void ReplayedStates::warn(const std::string& text) {
-  happen(doubts_[text], text);
+  here().warn(text);
 }
 
 void ReplayedStates::noteGap() {
   const auto joint = static_cast<std::size_t>(estimator_.latestGapCoordinate());
-  happen(gaps_, inQuotes(task_.mechanism.coordinateNames()[joint]) + " had a gap of " +
-                    numberText(static_cast<double>(estimator_.latestGap()) / 1e9) + " s");
+  here().gap(inQuotes(task_.mechanism.coordinateNames()[joint]) + " had a gap of " +
+             numberText(static_cast<double>(estimator_.latestGap()) / 1e9) + " s");
 }
 
 void ReplayedStates::noteRestart(std::int64_t stamp_ns) {
-  happen(restarts_, "time went back to stamp " + stampText(stamp_ns));
+  here().restart("time went back to stamp " + stampText(stamp_ns));
 }
 
 std::string ReplayedStates::report(const std::string& where) const {
   std::string text;
-  const auto add = [&](const char* kind, const std::string& line) {
-    text += kind + printable(where) + ": " + printable(line) + "\n";
-  };
-  for (const auto& [reason, happening] : dropped_) {
-    const char* what = concernsResult(reason) ? "result" : "message";
-    add("warning: ", counted(happening.count, what) + " dropped (" +
-                         kDropReasonNames[index(reason)] + "), first " + happening.first);
+  for (const auto& [topic, happenings] : happenings_) {
+    text += happenings.report(where + ": " + topic);
   }
-  for (const auto& doubt : doubts_) add("warning: ", doubt.second.first);
-  if (restarts_.count > 0) {
-    add("warning: ",
-        counted(restarts_.count, "restart") + " of the estimator, first " + restarts_.first);
-  }
-  if (gaps_.count > 0) {
-    add("note: ",
-        counted(gaps_.count, "gap") + " that nothing is assumed across, first " + gaps_.first);
-  }
-  if (foreign_.count > 0) {
-    add("note: ", counted(foreign_.count, "message") + " not used, first " + foreign_.first);
+  return text;
+}
+
+std::string ReplayedStates::otherMessages() const {
+  std::string text;
+  for (const auto& [topic, happenings] : happenings_) {
+    if (topic == joint_state_topic_) continue;
+    text += (text.empty() ? "" : ", ") + std::to_string(happenings.messages()) + " of " +
+            inQuotes(topic);
   }
   return text;
 }

@@ -1,93 +1,138 @@
 #pragma once
 
+#include <geometry_msgs/WrenchStamped.h>
 #include <sensor_msgs/JointState.h>
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "bag/bag_reader.h"
 #include "bag/joint_state_bytes.h"
 #include "dynamics/live_wrenches.h"
 #include "offline/motion_source.h"
+#include "replay/happenings.h"
+#include "replay/input_topics.h"
 #include "ros/active_plan.h"
 #include "ros/certificate_record.h"
 #include "ros/counters.h"
+#include "ros/inverse_dynamics_parameters.h"
 #include "ros/joint_state_computation.h"
 #include "ros/loop_record.h"
 #include "ros/motion_completer.h"
 #include "ros/robot_task.h"
+#include "ros/root_messages.h"
 #include "ros/sample_computation.h"
+#include "ros/scene_inputs.h"
+#include "ros/trajectory_computation.h"
+#include "ros/wrench_conversion.h"
 #include "virtual_work_dynamics/motion_estimator.h"
 
 namespace virtual_work_dynamics {
 
-/// Computes recorded joint states as the node does, and counts what is amiss with them.
-class ReplayedStates : private JointStateUser {
+/// Computes recorded messages as the node does, each before the next one, and counts what is amiss
+/// with them.
+class ReplayedStates : private JointStateUser, private TrajectoryUser {
  public:
-  /// @param task must outlive it
+  /// Is handed the plan whose messages hold new results, of trajectories or of samples.
+  using Publish = std::function<void(const ActivePlan& plan, bool of_trajectories)>;
+
+  /// @param task must outlive it   @param parameters that the task was made of
   /// @param source says what joints and angles are renamed and turned into; must outlive it
-  /// @param audience of the outputs that are computed
-  /// @param publish is handed the plan whose messages hold a new result
-  ReplayedStates(const RobotTask& task, const MotionSource& source, const LoopLimits& limits,
-                 const Audience& audience, std::function<void(const ActivePlan&)> publish);
+  ReplayedStates(const RobotTask& task, const InverseDynamicsParameters& parameters,
+                 const MotionSource& source, Publish publish);
 
-  /// Takes a joint state. @param number of the message, from 1
-  void take(const JointStateContent& content, std::size_t number);
-  /// Takes note of a message that is not one.
-  void refuse(std::size_t number, const std::string& why);
+  /// Finds the topics of a recording that are read, besides the joint states.
+  /// @throws FileError as InputTopics
+  void listen(InputTopics& topics);
+  /// The topic of trajectories; empty: there is none.
+  const std::string& trajectoryTopic() const { return trajectory_topic_; }
+  /// Which topic has the joint states; empty: none.
+  void setJointStates(const std::string& topic);
+  /// Says which outputs are computed. To be called before take().
+  void setAudience(const Audience& audience);
 
+  /// Takes a message; of a topic that is not read, nothing happens.
+  void take(const BagMessage& message);
+
+  /// Results of samples and points.
   std::size_t results() const { return results_; }
-  /// What was amiss, a line each with its number of times and the first one: warnings, then notes.
-  /// @param where to stand before each
+  std::size_t jointStates() const { return of_joint_states_ ? of_joint_states_->messages() : 0; }
+  /// What was amiss, a line each. @param where to stand before each
   std::string report(const std::string& where) const;
+  /// How many messages were taken besides joint states, in words; empty: none.
+  std::string otherMessages() const;
 
  private:
-  /// Something that happens several times.
-  struct Happening {
-    std::size_t count = 0;
-    std::string first;
-  };
+  using Take = std::function<void(const BagMessage&)>;
+  using Outcome = SampleComputation::Outcome;
 
-  ActivePlan& plan() override { return plan_; }
-  void publish(const ActivePlan& plan) override;
+  ActivePlan& plan() override { return *plan_; }
+  void publish(const ActivePlan& plan) override { publishPoint(plan); }
   void dropJointState(DropReason reason, const std::string& text) override;
-  void dropFreeJoints(DropReason reason, const std::string& text) override {
-    dropJointState(reason, text);
-  }
+  void dropFreeJoints(DropReason reason, const std::string& text) override;
   void leaveForeign(const std::string& text) override;
-  void dropSample(SampleComputation::Outcome outcome, ActivePlan& plan,
-                  std::int64_t stamp_ns) override;
+  void dropSample(Outcome outcome, ActivePlan& plan, std::int64_t stamp_ns) override;
   void warn(const std::string& text) override;
   void noteGap() override;
   void noteRestart(std::int64_t stamp_ns) override;
   void noteSeen(const int*, int) override {}
   void noteAllGiven() override { loops_.setPassiveGiven(true); }
+  void noteTrajectory(const trajectory_msgs::JointTrajectory&, const TrajectoryMotion&) override {}
+  void playLater(TrajectoryMotion&&) override {}
+  void publishPoint(const ActivePlan& plan) override;
+  void publishTrajectory(const ActivePlan& plan) override;
+  void dropTrajectory(DropReason reason, const std::string& text) override;
+  void dropPoint(Outcome outcome, const std::string& open_loop, const std::string& where) override;
+
+  template <typename Message, typename Function>
+  std::string add(InputTopics& topics, const std::string& name, const std::string& purpose,
+                  Function function);
+  template <typename Message>
+  void addRoot(InputTopics& topics, const std::string& name);
+  void listenToRoot(InputTopics& topics);
+  void takeJointState(const BagMessage& message);
   void translate(const JointStateContent& content);
-  void happen(Happening& happening, const std::string& text);
+  void translate(trajectory_msgs::JointTrajectory& message) const;
+  void takeFreeJoints(const sensor_msgs::MultiDOFJointState& message);
+  void adaptPlan();
+
+  /// Of the topic of the message that is taken.
+  Happenings& here() { return *here_; }
 
   const RobotTask& task_;
   const MotionSource& source_;
-  const std::function<void(const ActivePlan&)> publish_;
+  const Publish publish_;
+  const double wrench_timeout_;  // s
   Counters counters_;
   CertificateRecord certificates_;
   LoopRecord loops_;
   MotionEstimator estimator_;
   MotionCompleter completer_;
   LiveWrenches wrenches_;
+  RootMessages roots_;
   SampleComputation samples_;
-  ActivePlan plan_;
   JointStateComputation computation_;
+  TrajectoryComputation trajectories_;
+  WrenchConversion wrench_conversion_;
+  SceneInputs scene_inputs_;
+  Audience audience_;
+  std::unique_ptr<ActivePlan> plan_;
+  std::multimap<std::string, Take> inputs_;  // by topic
+  std::string joint_state_topic_, trajectory_topic_, free_joint_topic_, root_topic_;
+  std::vector<std::string> wrench_topics_;
+  JointStateContent content_;
   sensor_msgs::JointState message_;
   std::vector<std::string> given_;  // names of the latest message, before they became message_'s
   std::vector<double> factors_;     // of its values
-  std::size_t number_ = 0;          // of the message
   std::size_t results_ = 0;
-  std::map<DropReason, Happening> dropped_;
-  std::map<std::string, Happening> doubts_;  // by text
-  Happening foreign_, gaps_, restarts_;
+  std::map<std::string, Happenings> happenings_;  // by topic
+  Happenings* here_ = nullptr;
+  Happenings* of_joint_states_ = nullptr;
 };
 
 }  // namespace virtual_work_dynamics

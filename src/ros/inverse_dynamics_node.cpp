@@ -33,17 +33,19 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       at_once_(parameters.trajectory_rate == 0),
       late_threshold_(parameters.late_threshold),
       checks_{parameters.self_check.cross_check_rate > 0, parameters.self_check.certificates},
-      trajectories_(task_.mechanism, task_.scene.static_motion, task_.following(),
-                    parameters.trajectory_sampling),
       estimator_(task_.mechanism, task_.estimator),
       loops_(task_.everything, task_.reactions.size(), parameters.loop_limits),
       completer_(task_.mechanism, task_.scene, task_.everything, parameters.loop_limits.tolerance),
       wrenches_(task_.mechanism, task_.scene, parameters.wrench_timeout),
-      root_inputs_(parameters.root, task_.mechanism, parameters.frame_prefix, task_.scene.gravity,
-                   task_.estimator, counters_, [this](const auto&... what) { drop(what...); }),
+      root_messages_(parameters.root, task_.mechanism, parameters.frame_prefix, task_.scene.gravity,
+                     task_.estimator, counters_),
+      root_inputs_(root_messages_, counters_, [this](const auto&... what) { drop(what...); }),
       samples_(task_.everything, task_.scene, completer_, wrenches_,
-               {counters_, certificates_, loops_}, root_inputs_.course()),
+               {counters_, certificates_, loops_}, root_messages_.course()),
       joint_states_(task_.mechanism, task_.estimator, estimator_, completer_, samples_, counters_,
+                    *this),
+      trajectories_(task_.mechanism, task_.scene.static_motion, task_.following(),
+                    parameters.trajectory_sampling, at_once_, estimator_, completer_, samples_,
                     *this),
       played_(parameters.trajectory_rate),
       streams_(task_.mechanism.coordinates().size()),
@@ -128,7 +130,7 @@ void InverseDynamicsNode::receiveFreeJoints(
     const ros::MessageEvent<const sensor_msgs::MultiDOFJointState>& event) {
   // Poses of the root may come by the same topic.
   const sensor_msgs::MultiDOFJointState& message = *event.getConstMessage();
-  if (root_inputs_.isOfRoot(message) && !namesFreeJoint(task_.mechanism, message.joint_names))
+  if (root_messages_.isOfRoot(message) && !namesFreeJoint(task_.mechanism, message.joint_names))
     return;
   counters_.free_joints.add();
   receipt_ = event.getReceiptTime();
@@ -138,11 +140,11 @@ void InverseDynamicsNode::receiveFreeJoints(
 }
 
 void InverseDynamicsNode::updateStreams() {
-  streams_.update(estimator_, root_inputs_.course(), joint_states_.freeJoints());
+  streams_.update(estimator_, root_messages_.course(), joint_states_.freeJoints());
 }
 
 void InverseDynamicsNode::publish(const ActivePlan& plan) {
-  publishSample(plan);
+  publishPoint(plan);
   if (!sim_time_ && ros::Time::now() - receipt_ > late_threshold_) counters_.late.add();
 }
 
@@ -196,7 +198,7 @@ void InverseDynamicsNode::noteAllGiven() {
   loops_.setPassiveGiven(true);
 }
 
-void InverseDynamicsNode::publishSample(const ActivePlan& plan) {
+void InverseDynamicsNode::publishPoint(const ActivePlan& plan) {
   outputs_.publishSample(plan);
   counters_.outputs.add();
 }
@@ -204,110 +206,59 @@ void InverseDynamicsNode::publishSample(const ActivePlan& plan) {
 void InverseDynamicsNode::receiveTrajectory(
     const ros::MessageEvent<const trajectory_msgs::JointTrajectory>& event) {
   counters_.trajectories.add();
-  guard(trajectory_subscriber_, [&] { take(*event.getConstMessage(), event.getReceiptTime()); });
+  guard(trajectory_subscriber_,
+        [&] { trajectories_.take(*event.getConstMessage(), event.getReceiptTime()); });
 }
 
-void InverseDynamicsNode::take(const trajectory_msgs::JointTrajectory& message, ros::Time receipt) {
+std::optional<Rejection> InverseDynamicsNode::whyNotNow() {
+  if (played_.waiting() <= static_cast<std::size_t>(output_queue_)) return std::nullopt;
+  return Rejection{DropReason::kBacklog, std::to_string(played_.waiting()) +
+                                             " points still wait to be played, " + "more than " +
+                                             privateName("queue_size/output") + " = " +
+                                             std::to_string(output_queue_)};
+}
+
+void InverseDynamicsNode::noteTrajectory(const trajectory_msgs::JointTrajectory& message,
+                                         const TrajectoryMotion& trajectory) {
   const std::string topic = trajectory_subscriber_.getTopic();
-  const ros::Time start = message.header.stamp.isZero() ? receipt : message.header.stamp;
-  if (start.isZero()) {
-    drop(topic, DropReason::kNoTime, "its stamp is zero, and /clock has not been received yet");
-    return;
-  }
-  if (task_.mechanism.orientations() > 0) {
-    drop(topic, DropReason::kOrientation,
-         "joint " + inQuotes(task_.mechanism.freeJoint(0).name) +
-             " turns freely, and a trajectory of joints does not tell its orientation");
-    return;
-  }
-  auto rejection = trajectories_.convert(message, static_cast<std::int64_t>(start.toNSec()),
-                                         estimator_, trajectory_);
-  if (!rejection) rejection = completer_.check(trajectory_);
-  // One plan for the whole trajectory, so that ~joint_trajectory is complete.
-  ActivePlan& plan = plans_.current();
-  if (!rejection && !plan.wantsPoints()) return;
-  if (!rejection && played_.waiting() > static_cast<std::size_t>(output_queue_)) {
-    rejection = Rejection{DropReason::kBacklog,
-                          std::to_string(played_.waiting()) + " points still wait to be played, " +
-                              "more than " + privateName("queue_size/output") + " = " +
-                              std::to_string(output_queue_)};
-  }
-  if (!rejection) rejection = trajectories_.complete(message, trajectory_);
-  if (rejection) {
-    drop(topic, rejection->reason, rejection->text);
-    return;
-  }
-  const bool of_points = !trajectory_.samples || plan.wantsTrajectories();
-  if (of_points) samples_.setRoots(trajectory_);
-  if (of_points) completer_.complete(trajectory_, plan.dynamics, plan.workspace);
-  const std::size_t results = trajectory_.results();
-  const char* what = trajectory_.samples ? "samples" : "points";
-  if (!trajectory_.completion.empty() && completion_throttle_.open()) {
+  const std::size_t results = trajectory.results();
+  const char* what = trajectory.samples ? "samples" : "points";
+  if (!trajectory.completion.empty() && completion_throttle_.open()) {
     ROS_INFO("%s: %zu points, %s", topic.c_str(), message.points.size(),
-             trajectory_.completion.c_str());
+             trajectory.completion.c_str());
   }
   if (at_once_ && results > static_cast<std::size_t>(output_queue_) && queue_throttle_.open()) {
     ROS_WARN("%s: %zu %s are more than %s = %d; subscribers may lose some", topic.c_str(), results,
              what, privateName("queue_size/output").c_str(), output_queue_);
   }
-  respond(plan, message);
 }
 
-void InverseDynamicsNode::respond(ActivePlan& plan,
-                                  const trajectory_msgs::JointTrajectory& message) {
-  const bool points_at_once = at_once_ && !trajectory_.samples;
-  if (points_at_once || plan.wantsTrajectories()) {
-    for (ActiveOutput& output : plan.outputs) output.message->begin(message, trajectory_);
-    for (std::size_t i = 0; i < trajectory_.stamps_ns.size(); ++i) {
-      const Outcome outcome = samples_.computeNext(plan, trajectory_, i, points_at_once);
-      if (outcome != Outcome::kDone) {
-        dropPoint(outcome, trajectory_, i);
-      } else if (points_at_once) {
-        publishSample(plan);
-      }
-    }
-    outputs_.publishTrajectory(plan);
-  }
-  if (!plan.wantsSamples()) return;
-  if (at_once_ && trajectory_.samples) {
-    for (std::size_t i = 0; i < trajectory_.results(); ++i) play(plan, trajectory_, i);
-  }
-  if (at_once_) return;
-  played_.add(std::move(trajectory_), Clock::now());
+void InverseDynamicsNode::playLater(TrajectoryMotion&& trajectory) {
+  played_.add(std::move(trajectory), Clock::now());
   player_.start();
+}
+
+void InverseDynamicsNode::publishTrajectory(const ActivePlan& plan) {
+  outputs_.publishTrajectory(plan);
 }
 
 void InverseDynamicsNode::playDue() {
   guard(trajectory_subscriber_, [this] {
     ActivePlan& plan = plans_.current();
     played_.playDue(Clock::now(), [&](const TrajectoryMotion& trajectory, std::size_t place) {
-      play(plan, trajectory, place);
+      trajectories_.play(plan, trajectory, place);
     });
   });
   if (played_.empty()) player_.stop();
 }
 
-// Publishes one point of a trajectory, or one sample if it has samples.
-void InverseDynamicsNode::play(ActivePlan& plan, const TrajectoryMotion& trajectory,
-                               std::size_t place) {
-  if (trajectory.samples && place == 0) completer_.startSamples(trajectory);
-  if (!plan.wantsSamples()) return;
-  const Outcome outcome = trajectory.samples ? samples_.computeSample(plan, trajectory, place)
-                                             : samples_.compute(plan, trajectory, place);
-  if (outcome == Outcome::kDone) {
-    publishSample(plan);
-  } else if (!trajectory.samples) {
-    dropPoint(outcome, trajectory, place);
-  } else {
-    dropResult(trajectory_subscriber_, outcome, openLoop(outcome, plan),
-               "stamp " + stampText(trajectory.samples->stampNs(place)));
-  }
+void InverseDynamicsNode::dropTrajectory(DropReason reason, const std::string& text) {
+  drop(trajectory_subscriber_.getTopic(), reason, text);
 }
 
-void InverseDynamicsNode::dropPoint(Outcome outcome, const TrajectoryMotion& trajectory,
-                                    std::size_t point) {
-  dropResult(trajectory_subscriber_, outcome, trajectory.problem,
-             "point " + std::to_string(point + 1));
+void InverseDynamicsNode::dropPoint(Outcome outcome, const std::string& open_loop,
+                                    const std::string& where) {
+  dropResult(trajectory_subscriber_, outcome, open_loop, where);
 }
 
 // Why the loops of the latest motion stay open, if that is the outcome.

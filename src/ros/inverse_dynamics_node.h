@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -36,7 +37,7 @@
 #include "ros/scene_inputs.h"
 #include "ros/stream_record.h"
 #include "ros/throttle.h"
-#include "ros/trajectory_conversion.h"
+#include "ros/trajectory_computation.h"
 #include "ros/trajectory_queue.h"
 #include "ros/wrench_inputs.h"
 #include "virtual_work_dynamics/mechanism.h"
@@ -50,7 +51,7 @@ namespace virtual_work_dynamics {
 /// thread that spins the global callback queue receives messages, computes and publishes. The other
 /// one is the node's own: it watches who subscribes and what changes of the scene, compiles the
 /// plan for them, hands it over by PlanSwitch, and reports diagnostics.
-class InverseDynamicsNode : private JointStateUser {
+class InverseDynamicsNode : private JointStateUser, private TrajectoryUser {
  public:
   /// Checks everything, then advertises and subscribes; if it throws, it has done neither.
   /// @throws Error, one line naming what is wrong with the robot, the scene or a parameter.
@@ -78,14 +79,17 @@ class InverseDynamicsNode : private JointStateUser {
   void noteRestart(std::int64_t stamp_ns) override;
   void noteSeen(const int* coordinates, int count) override;
   void noteAllGiven() override;
-  void take(const trajectory_msgs::JointTrajectory& message, ros::Time receipt);
-  void respond(ActivePlan& plan, const trajectory_msgs::JointTrajectory& message);
+  std::optional<Rejection> whyNotNow() override;
+  void noteTrajectory(const trajectory_msgs::JointTrajectory& message,
+                      const TrajectoryMotion& trajectory) override;
+  void playLater(TrajectoryMotion&& trajectory) override;
+  void publishPoint(const ActivePlan& plan) override;
+  void publishTrajectory(const ActivePlan& plan) override;
+  void dropTrajectory(DropReason reason, const std::string& text) override;
+  void dropPoint(SampleComputation::Outcome outcome, const std::string& open_loop,
+                 const std::string& where) override;
   void playDue();
-  void play(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t place);
-  void publishSample(const ActivePlan& plan);
   void updateStreams();
-  void dropPoint(SampleComputation::Outcome outcome, const TrajectoryMotion& trajectory,
-                 std::size_t point);
   void dropResult(const ros::Subscriber& source, SampleComputation::Outcome outcome,
                   const std::string& open_loop, const std::string& where);
   std::string openLoop(SampleComputation::Outcome outcome, ActivePlan& plan) const;
@@ -103,18 +107,18 @@ class InverseDynamicsNode : private JointStateUser {
   const ros::Duration late_threshold_;
   const PlanChecks checks_;
 
-  TrajectoryConversion trajectories_;
   MotionEstimator estimator_;
   Counters counters_;
   CertificateRecord certificates_;
   LoopRecord loops_;
   MotionCompleter completer_;
   LiveWrenches wrenches_;
+  RootMessages root_messages_;
   RootInputs root_inputs_;
   SampleComputation samples_;
   JointStateComputation joint_states_;
+  TrajectoryComputation trajectories_;
   ros::Time receipt_;  // of the latest joint state
-  TrajectoryMotion trajectory_;
   TrajectoryQueue played_;
   StreamRecord streams_;
   bool foreign_reported_ = false;

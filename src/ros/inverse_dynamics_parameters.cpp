@@ -264,9 +264,18 @@ void checkRoot(const RootSettings& root, const Scene& scene) {
 }  // namespace
 
 InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& private_node) {
-  InverseDynamicsParameters result;
   PrivateParameters parameters(private_node);
+  const YAML::Node scene = sceneDocument(parameters.raw("scene"));
+  InverseDynamicsParameters result = readInverseDynamicsParameters(std::move(parameters), scene);
+  readRobotDescription(private_node, result);
+  return result;
+}
+
+InverseDynamicsParameters readInverseDynamicsParameters(PrivateParameters parameters,
+                                                        const YAML::Node& scene) {
+  InverseDynamicsParameters result;
   parameters.expect(kRobotDescription);
+  parameters.expect("scene");
   result.estimator = readEstimator(parameters);
   result.rest = readRest(parameters);
   result.frame_prefix = parameters.text("frame_prefix", result.frame_prefix);
@@ -288,12 +297,10 @@ InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& p
   result.deviation_warn = readDeviationWarn(parameters, result.deviation_warn);
   result.marker_rate = readMarkerRate(parameters, result.marker_rate);
   result.scene_given = parameters.has("scene");
-  const YAML::Node scene = sceneDocument(parameters.raw("scene"));
   parameters.refuseUnknown();
   result.scene = readScene(scene);
   checkRoot(result.root, result.scene);
   checkImu(result, scene);
-  readRobotDescription(private_node, result);
   return result;
 }
 

@@ -14,6 +14,10 @@ namespace ros {
 class NodeHandle;
 }
 
+namespace YAML {
+class Node;
+}
+
 namespace virtual_work_dynamics {
 
 /// How the node checks what it computes.
@@ -72,5 +76,11 @@ struct InverseDynamicsParameters {
 /// @throws ParameterError or SceneError, one line naming the parameter that is missing, unknown, of
 ///   a wrong type or out of range.
 InverseDynamicsParameters readInverseDynamicsParameters(const ros::NodeHandle& private_node);
+
+/// Reads and checks private parameters from wherever they were kept, without the description.
+/// @param scene in place of ~scene
+/// @throws ParameterError or SceneError, the latter about `scene`.
+InverseDynamicsParameters readInverseDynamicsParameters(PrivateParameters parameters,
+                                                        const YAML::Node& scene);
 
 }  // namespace virtual_work_dynamics

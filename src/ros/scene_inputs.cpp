@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <set>
 #include <utility>
 
 #include "base/number_text.h"
@@ -62,19 +61,37 @@ ros::Subscriber SceneInputs::listen(
 
 void SceneInputs::subscribe(ros::NodeHandle private_node, ros::CallbackQueueInterface& queue) {
   subscribers_.push_back(listen(private_node, queue, "gravity", &SceneInputs::takeGravity, 0));
-  std::set<std::string> topics;
+  const std::map<std::string, int> topics = payloadTopics();
   for (std::size_t i = 0; i < mechanism_.links().size(); ++i) {
-    const int joint = mechanism_.links()[i].parent_joint;
-    if (joint >= 0 && mechanism_.isInnerPart(joint)) continue;  // no link of the description
-    const std::string topic = "payload/" + legalTopicName(mechanism_.links()[i].name);
-    if (!topics.insert(topic).second) {
+    const auto link = static_cast<int>(i);
+    if (!isDescribed(link)) continue;
+    const std::string topic = payloadTopic(link);
+    if (topics.at(topic) != link) {
       ROS_INFO("Link %s has no payload topic, as another one's has the same name",
-               inQuotes(mechanism_.links()[i].name).c_str());
+               inQuotes(mechanism_.link(link).name).c_str());
       continue;
     }
-    subscribers_.push_back(
-        listen(private_node, queue, topic, &SceneInputs::takePayload, static_cast<int>(i)));
+    subscribers_.push_back(listen(private_node, queue, topic, &SceneInputs::takePayload, link));
   }
+}
+
+// Whether it is a link of the description, rather than one inside of a joint.
+bool SceneInputs::isDescribed(int link) const {
+  const int joint = mechanism_.link(link).parent_joint;
+  return joint < 0 || !mechanism_.isInnerPart(joint);
+}
+
+std::string SceneInputs::payloadTopic(int link) const {
+  return "payload/" + legalTopicName(mechanism_.link(link).name);
+}
+
+std::map<std::string, int> SceneInputs::payloadTopics() const {
+  std::map<std::string, int> topics;
+  for (std::size_t i = 0; i < mechanism_.links().size(); ++i) {
+    const auto link = static_cast<int>(i);
+    if (isDescribed(link)) topics.emplace(payloadTopic(link), link);
+  }
+  return topics;
 }
 
 std::optional<Rejection> SceneInputs::takePayload(int link,
@@ -151,20 +168,32 @@ std::optional<Rejection> SceneInputs::takeGravity(int,
   return std::nullopt;
 }
 
+std::string SceneInputs::changes() const {
+  std::string text;
+  for (const std::string& change : changes_) text += (text.empty() ? "" : "; ") + change;
+  return text;
+}
+
 void SceneInputs::keep() {
-  kept_ = scene_;
   // What comes at a rate, as gravity from a sensor, is said now and then.
   if (!changes_.empty() && change_throttle_.open()) {
-    std::string text;
-    for (const std::string& change : changes_) text += (text.empty() ? "" : "; ") + change;
-    ROS_INFO("The scene has changed: %s", text.c_str());
+    ROS_INFO("The scene has changed: %s", changes().c_str());
   }
+  keepQuietly();
+}
+
+void SceneInputs::keepQuietly() {
+  kept_ = scene_;
+  changes_.clear();
+}
+
+void SceneInputs::takeBackQuietly() {
+  scene_ = kept_;
   changes_.clear();
 }
 
 void SceneInputs::takeBack(const std::string& why) {
-  scene_ = kept_;
-  changes_.clear();
+  takeBackQuietly();
   ROS_ERROR("the change of payload or gravity failed, and what is computed stays as it is: %s",
             printable(why).c_str());
 }

@@ -6,6 +6,7 @@
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,10 +36,24 @@ class SceneInputs {
   const Scene& scene() const { return scene_; }
   /// Whether the scene is another one than that of the last keep() or takeBack().
   bool changed() const { return !changes_.empty(); }
+  /// What has changed since then, as sentences say it.
+  std::string changes() const;
   /// The scene was compiled: says what has changed.
   void keep();
   /// The scene was refused: goes back to that of the last keep(), and says why.
   void takeBack(const std::string& why);
+  /// As keep() and takeBack(), without a word.
+  void keepQuietly();
+  void takeBackQuietly();
+
+  // Each take() takes a message, and returns why it is to be dropped, or nothing.
+
+  /// @param link index of the link whose topic it came by
+  std::optional<Rejection> takePayload(int link, const geometry_msgs::InertiaStamped& message);
+  std::optional<Rejection> takeGravity(int, const geometry_msgs::Vector3Stamped& message);
+
+  /// The links that have a topic of payloads, by topic below the node's own.
+  std::map<std::string, int> payloadTopics() const;
 
  private:
   template <typename Message>
@@ -46,8 +61,8 @@ class SceneInputs {
                          const std::string& topic,
                          std::optional<Rejection> (SceneInputs::*take)(int, const Message&),
                          int link);
-  std::optional<Rejection> takePayload(int link, const geometry_msgs::InertiaStamped& message);
-  std::optional<Rejection> takeGravity(int, const geometry_msgs::Vector3Stamped& message);
+  bool isDescribed(int link) const;
+  std::string payloadTopic(int link) const;
   void drop(const std::string& topic, const Rejection& rejection);
 
   const Mechanism& mechanism_;

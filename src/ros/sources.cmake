@@ -35,6 +35,7 @@ foreach(file
     root_conversion.cpp
     root_frames.cpp
     root_inputs.cpp
+    root_messages.cpp
     root_publisher.cpp
     root_settings.cpp
     rviz_configuration.cpp
@@ -50,6 +51,7 @@ foreach(file
     threshold_record.cpp
     threshold_report.cpp
     topic_names.cpp
+    trajectory_computation.cpp
     trajectory_conversion.cpp
     trajectory_output.cpp
     trajectory_publisher.cpp

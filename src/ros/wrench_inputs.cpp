@@ -46,12 +46,15 @@ void WrenchInputs::receive(std::size_t i, const geometry_msgs::WrenchStamped& me
 }
 
 std::string WrenchInputs::problem(std::size_t i) const {
-  const WrenchHistory& history = wrenches_.history(i);
-  const std::string topic = subscribers_[i].getTopic();
+  return problem(wrenches_.history(i), subscribers_[i].getTopic(), timeout_);
+}
+
+std::string WrenchInputs::problem(const WrenchHistory& history, const std::string& topic,
+                                  double timeout) {
   if (history.size() == 0) return topic + " has not been received";
   return topic + " is known from stamp " + stampText(history.at(0).stamp_ns) + " to " +
          stampText(history.at(history.size() - 1).stamp_ns) + ", and " +
-         privateName("wrench_timeout") + " is " + numberText(timeout_) + " s";
+         privateName("wrench_timeout") + " is " + numberText(timeout) + " s";
 }
 
 }  // namespace virtual_work_dynamics

@@ -31,6 +31,9 @@ class WrenchInputs {
   /// Subscribes to `~wrench/<topic>` of each live wrench.
   void subscribe(ros::NodeHandle private_node, const std::vector<std::string>& topics,
                  std::uint32_t queue);
+  /// Why a live wrench is not known at an instant, by a topic, in one line.
+  static std::string problem(const WrenchHistory& history, const std::string& topic,
+                             double timeout);
   /// Why live wrench `i` is not known at an instant, in one line.
   std::string problem(std::size_t i) const;
 

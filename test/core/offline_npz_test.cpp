@@ -200,6 +200,10 @@ TEST_F(OfflineNpz, WithSomethingWrongIsRefusedInOneLine) {
   expectRefused("m.npz", "m.npz: index 1 of 'time' is nan, no number");
   ASSERT_EQ(python("np.savez('m.npz', time=np.zeros((3, 2)))\n"), "");
   expectRefused("m.npz", "has no one-dimensional arrays of numbers");
+  write("text.npz", "time,position.hinge\n0,1\n1,2\n");
+  expectRefused("text.npz", "text.npz: is not an .npz as numpy.savez writes it: it is no zip file");
+  write("text.npz", "");
+  expectRefused("text.npz", "text.npz: is not an .npz as numpy.savez writes it");
   ASSERT_EQ(python(begin + "np.savez('whole.npz', **m)\n"), "");
   const std::string whole = readFile(path("whole.npz"));
   write("m.npz", whole.substr(0, whole.size() - 30));

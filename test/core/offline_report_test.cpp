@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <string>
 
@@ -54,6 +56,43 @@ TEST_F(OfflineReport, OfACsvHasTheMechanismBesideIt) {
   EXPECT_TRUE(exists("r.csv"));
   EXPECT_TRUE(exists("loads/mechanism.json"));
   EXPECT_EQ(readFile(path("loads/loads.csv")), loads);
+}
+
+TEST_F(OfflineReport, NamesRowsThatWereEstimatedFromOneSide) {
+  if (!possible()) GTEST_SKIP() << "without scipy or matplotlib, or with sanitizers";
+  std::string motion = "time,position.hinge\n";
+  for (int i = 0; i < 400; ++i) {
+    const double time = 0.01 * i + (i < 250 ? 0 : 1);  // with a gap
+    motion += std::to_string(time) + "," + std::to_string(0.5 * std::sin(3 * time)) + "\n";
+  }
+  write("swing.csv", motion);
+  const Run result = report("--output r.csv");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const NumberTable table = parseTable(readFile(path("r.csv")));
+  const int column = table.column("one_sided");
+  ASSERT_GE(column, 0);
+  std::string marks;
+  for (const auto& cells : table.rows)
+    marks += cells[static_cast<std::size_t>(column)] == 1 ? '1' : '0';
+  // At both ends and on both sides of the gap, and nowhere else: as many as the note counts.
+  const std::size_t first = marks.find('0'), gap = marks.find('1', first);
+  const std::size_t after = marks.find('0', gap), last = marks.find('1', after);
+  EXPECT_GT(first, 0U);
+  EXPECT_LT(gap, 250U);
+  EXPECT_GT(after, 250U);
+  ASSERT_NE(last, std::string::npos);
+  EXPECT_EQ(marks.find('0', last), std::string::npos);
+  const auto count = std::count(marks.begin(), marks.end(), '1');
+  EXPECT_NE(result.err.find(std::to_string(count) + " of 400 rows are estimated from rows of one"),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(readFile(path("loads/report.md"))
+                .find("estimated from rows of one side: " + std::to_string(count) + " of 400 rows"),
+            std::string::npos);
+  // A motion that lacks nothing has no such column, nor has a result without a report.
+  write("swing.csv", "time,position.hinge,velocity.hinge,acceleration.hinge\n0,0,1,0\n1,1,1,0\n");
+  ASSERT_EQ(report("--output r.csv").exit_code, 0);
+  EXPECT_EQ(parseTable(readFile(path("r.csv"))).column("one_sided"), -1);
 }
 
 TEST_F(OfflineReport, OfLoopsKnowsConditionAndHowClosuresTurn) {

@@ -162,6 +162,35 @@ TEST_F(OfflineResiduals, TakeANameOrARangeOfNamesThatRulesTurnIntoJoints) {
   EXPECT_EQ(column(parseTable(result.out), "measured_effort.hinge")[17], 2.5);
 }
 
+TEST_F(OfflineResiduals, LeaveColumnsOfTextAndSaySo) {
+  std::string text = "time,mode,hinge,note,effort.hinge_2\n";
+  for (int i = 0; i < kRows; ++i) {
+    text += row({i * kStep}).substr(0, row({i * kStep}).size() - 1) + ",auto,2.5," +
+            (i < 7 ? "" : "\"slow, then fast\"") + ",1\n";
+  }
+  write("efforts.csv", text);
+  const Run result = computed("--motion m.csv --measured efforts.csv");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(column(parseTable(result.out), "measured_effort.hinge")[17], 2.5);
+  EXPECT_NE(result.err.find("efforts.csv: line 2: column 'mode' is not taken for efforts, as it "
+                            "begins with 'auto'"),
+            std::string::npos)
+      << result.err;
+  EXPECT_NE(result.err.find("efforts.csv: line 9: column 'note' is not taken"), std::string::npos)
+      << result.err;
+  // A text behind numbers, or in a column that says it has efforts, is a fault.
+  write("efforts.csv", "time,hinge\n0,1\n0.1,high\n");
+  const Run bare = computed("--motion m.csv --measured efforts.csv");
+  EXPECT_EQ(bare.exit_code, 1);
+  EXPECT_NE(bare.err.find("line 3, column 2: 'high' is not a finite number"), std::string::npos)
+      << bare.err;
+  write("efforts.csv", "time,effort.hinge\n0,high\n0.1,1\n");
+  const Run named = computed("--motion m.csv --measured efforts.csv");
+  EXPECT_EQ(named.exit_code, 1);
+  EXPECT_NE(named.err.find("line 2, column 2: 'high' is not a finite number"), std::string::npos)
+      << named.err;
+}
+
 TEST_F(OfflineResiduals, OfABagAreThoseOfItsOwnMessages) {
   const std::string bag = std::string(kSourceFolder) + "/test/core/bags/none.bag";
   const Run result = computed("--motion " + bag + " --residuals");

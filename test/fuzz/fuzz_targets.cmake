@@ -16,6 +16,7 @@ vwd_add_fuzz_target(scene)
 vwd_add_fuzz_target(motion)
 vwd_add_fuzz_target(bag ${bag_files} src/offline/joint_renaming.cpp src/offline/joint_state_rows.cpp)
 target_link_libraries(bag_fuzz PRIVATE ${PROJECT_NAME}_compression)
+vwd_add_fuzz_target(npz ${npz_files} src/offline/npz_motion.cpp)
 vwd_add_fuzz_target(tool ${offline_files})
 vwd_link_core(${sanitized_core} tool_fuzz)
 

@@ -16,6 +16,8 @@ import zipfile
 
 import numpy as np
 
+from forked_program import run_forked
+
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = ROOT / "scripts/load_report.py"
 MECHANISM = {
@@ -32,6 +34,11 @@ MECHANISM = {
 RATE = 200.0
 
 
+def load_report(words):
+    from vwd_loads.command import main
+    return main(words)
+
+
 def results(seconds=10.0, start=0.0, phase=0.0):
     """Results whose figures are known by hand."""
     times = start + np.arange(int(seconds * RATE)) / RATE
@@ -43,6 +50,17 @@ def results(seconds=10.0, start=0.0, phase=0.0):
         for component, size in zip(("fx", "fy", "fz", "tx", "ty", "tz"), wrench):
             columns["reaction.%s.%s" % (name, component)] = size * (np.ones_like(wave) if component != "tz" else wave)
     return columns
+
+
+def only(joint, columns):
+    """Results of one joint, whose report has few pictures to draw."""
+    return {name: column for name, column in columns.items()
+            if name.split(".")[0] in ("time", "position", "velocity", "certificate") or name.split(".")[1] == joint}
+
+
+def mechanism_of(joint):
+    return dict(MECHANISM, **{key: [entry for entry in MECHANISM[key] if entry["name"] == joint]
+                              for key in ("reactions", "efforts")})
 
 
 class Folder(unittest.TestCase):
@@ -59,6 +77,14 @@ class Folder(unittest.TestCase):
         return path
 
     def run_program(self, *words, **environment):
+        """The program; by itself where the environment matters, else in a fork of this test, which has read
+        what it needs."""
+        if not environment:
+            return run_forked(load_report, [str(word) for word in words], str(self.folder), str(ROOT / "scripts"),
+                              ("scipy.signal", "vwd_loads.command", "vwd_loads.plots"))
+        return self.run_alone(*words, **environment)
+
+    def run_alone(self, *words, **environment):
         return subprocess.run([str(PROGRAM)] + [str(word) for word in words], stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, encoding="utf-8", cwd=str(self.folder),
                               env=dict(os.environ, PYTHONDONTWRITEBYTECODE="1", LC_ALL="C.UTF-8", **environment))
@@ -157,7 +183,7 @@ class Report(Shared):
         self.assertEqual((self.folder / "csv/loads.csv").read_text(), (self.made / "loads.csv").read_text())
 
     def test_without_the_mechanism_it_says_what_is_missing(self):
-        folder = self.report("bare", results(), mechanism=None)
+        folder = self.report("bare", only("turn", results()), mechanism=None)
         text = (folder / "report.md").read_text(encoding="utf-8")
         self.assertIn("Nothing is known of the joints", text)
         self.assertNotIn(("turn", "radial_force"), self.loads(folder))
@@ -200,11 +226,13 @@ class Report(Shared):
         columns["determined.pin.fy"] = (rows >= 20).astype(float)
         columns["determined.lift.ty"] = np.zeros(2000)
         columns["deviation.effort.turn"] = np.where(rows == 1500, 5.0, 0.01)
+        columns["one_sided"] = (rows >= 1990).astype(float)
         folder = self.report("doubt", columns)
         text = (folder / "report.md").read_text(encoding="utf-8")
-        # Rows 0 to 19 and 1500; that ty of the lift is never determined says nothing of a row.
-        self.assertEqual(json.loads((folder / "sums.json").read_text())["doubtful_rows"], 21)
+        # Rows 0 to 19, 1500, and 1990 on; that ty of the lift is never determined says nothing of a row.
+        self.assertEqual(json.loads((folder / "sums.json").read_text())["doubtful_rows"], 31)
         self.assertRegex(text, r"close to a singular position.*10 of 2000 rows")
+        self.assertRegex(text, r"estimated from rows of one side: 10 of 2000 rows, 9\.95 s to 9\.995 s")
         self.assertRegex(text, r"pin: rigid-body mechanics does not determine fy; .*20 of 2000 rows")
         # Across the axis of the lift, what has ty in it; along it, nothing.
         self.assertRegex(text, r"tilting moment \| N m \| 3† ")
@@ -219,20 +247,21 @@ class Report(Shared):
             columns["certificate." + name] = np.full(2000, 1e-14)
         columns["certificate.power"][100:110] = np.nan
         columns["certificate.ground_force"][105:130] = 1e-3
-        folder = self.report("certified", columns)
+        folder = self.report("certified", only("pin", columns), mechanism=mechanism_of("pin"))
         self.assertRegex((folder / "report.md").read_text(encoding="utf-8"),
                          r"a certificate of the arithmetic is above .*30 of 2000 rows, 0\.5 s to 0\.645 s")
 
     def test_axes_and_points_of_moments_are_those_of_the_mechanism(self):
-        elsewhere = json.loads(json.dumps(MECHANISM))
+        one = mechanism_of("lift")
+        elsewhere = json.loads(json.dumps(one))
         elsewhere["reactions"][0]["moment_elsewhere"] = True
         for name, mechanism, words, moved in (
                 ("child", elsewhere, "in axes of the child link, moments", True),
-                ("root", dict(MECHANISM, axes="root"), "in axes of the root link, moments", False),
-                ("inertial", dict(MECHANISM, axes="inertial"), "in axes of the inertial frame", False),
+                ("root", dict(one, axes="root"), "in axes of the root link, moments", False),
+                ("inertial", dict(one, axes="inertial"), "in axes of the inertial frame", False),
                 ("unknown", None, "in the axes of the results, moments", False)):
             with self.subTest(axes=name):
-                text = (self.report(name, results(2), mechanism=mechanism) / "report.md").read_text(encoding="utf-8")
+                text = (self.report(name, only("lift", results(2)), mechanism=mechanism) / "report.md").read_text(encoding="utf-8")
                 last = text[text.index("How the figures are found"):]
                 self.assertIn(words, last)
                 self.assertEqual("or about the point of the scene" in last, moved)
@@ -240,8 +269,8 @@ class Report(Shared):
                 self.assertEqual("root link, in which axes" in text, name == "root")
 
     def test_names_with_any_letters(self):
-        columns = {name.replace("turn", "a/b |<c>"): value for name, value in results().items()}
-        mechanism = json.loads(json.dumps(MECHANISM).replace("turn\"", "a/b |<c>\"").replace(
+        columns = {name.replace("turn", "a/b |<c>"): value for name, value in only("turn", results()).items()}
+        mechanism = json.loads(json.dumps(mechanism_of("turn")).replace("turn\"", "a/b |<c>\"").replace(
             "\"a/b |<c>\": {", "\"turn\": {"))
         folder = self.folder / "odd"
         with open(self.folder / "odd.csv", "w", encoding="utf-8") as file:  # a zip has folders instead
@@ -298,7 +327,7 @@ class BadInput(Folder):
         (self.folder / "taken").write_text("")
         for status, words in ((0, (good, "--output", "x")), (1, ("h.csv", "--output", "x")),
                               (2, (good, "--output", "taken")), (2, ("not_there.npz", "--output", "x"))):
-            self.assertEqual(self.run_program(*words, "--figures-only").returncode, status, words)
+            self.assertEqual(self.run_alone(*words, "--figures-only").returncode, status, words)
 
     def test_a_missing_package_is_named(self):
         (self.folder / "fake").mkdir()
@@ -350,6 +379,23 @@ class Merged(Folder):
         self.assertEqual(ran.returncode, 0, ran.stderr)
         self.assertIn("`odd`: its sums.json has another format",
                       (self.folder / "merged/report.md").read_text(encoding="utf-8"))
+
+    def test_sums_without_their_keys_are_listed(self):
+        a = self.report("a", results(2), "--figures-only")
+        whole = json.loads((a / "sums.json").read_text())
+        broken = {"none": {"format": 1}, "no_seconds": dict(whole), "text": dict(whole, woehler="five"),
+                  "word": dict(whole, loads=["turn"]), "no_peak": json.loads(json.dumps(whole))}
+        del broken["no_seconds"]["seconds"]
+        del broken["no_peak"]["loads"][1]["peak"]
+        for name, sums in broken.items():
+            (self.folder / name).mkdir()
+            (self.folder / name / "sums.json").write_text(json.dumps(sums))
+        ran = self.run_program("--merge", a, *broken, "--output", "merged")
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        text = (self.folder / "merged/report.md").read_text(encoding="utf-8")
+        for name, lacks in (("none", "robot"), ("no_seconds", "seconds"), ("text", "woehler"), ("word", "load 1"),
+                            ("no_peak", "peak of load 2")):
+            self.assertIn("`%s`: its sums.json is incomplete: %s" % (name, lacks), text)
 
     def test_options_of_one_motion_are_refused_by_name(self):
         for words in (("--woehler", "3"), ("--max-gap", "1"), ("--mechanism", "m.json"), ("--figures-only",)):
