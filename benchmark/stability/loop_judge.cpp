@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "loops/cut_tree.h"
+#include "newton_euler_oracle.h"
 #include "virtual_work_dynamics/error_bound.h"
 
 namespace virtual_work_dynamics {
@@ -184,6 +185,28 @@ long double LoopJudge::loadOf(const Motion& motion) const {
   return load;
 }
 
+// A spring pulls by a difference of lengths, which are differences of positions: what it would do
+// over each of them. A damper does so by velocities.
+long double LoopJudge::springLoadOf(const Motion& motion) const {
+  if (scene_.springs.empty()) return 0;
+  const NewtonEulerOracle bodies(mechanism_, withoutLoops(scene_), motion);
+  long double load = 0;
+  for (const PointSpring& spring : scene_.springs) {
+    long double lengths = spring.rest_length, speeds = 0;
+    const auto addEnd = [&](const std::string& name, const Eigen::Vector3d& at) {
+      const int link = mechanism_.linkIndex(name);
+      const Vector3l r = bodies.orientation(link) * at.cast<long double>();
+      lengths += (bodies.origin(link) + r).norm();
+      speeds += (bodies.originVelocity(link) + bodies.angularVelocity(link).cross(r)).norm();
+    };
+    addEnd(spring.link_a, spring.at_a);
+    addEnd(spring.link_b, spring.at_b);
+    if (scene_.static_motion) speeds = 0;
+    load = std::max(load, spring.stiffness * lengths + spring.damping * speeds);
+  }
+  return load;
+}
+
 // Of a component that is not determined any value is exact: the one that was chosen counts.
 long double LoopJudge::largestOf(const Exact& exact, const LoopComponents& computed) const {
   long double largest = 0;
@@ -209,8 +232,8 @@ LoopVerdict LoopJudge::compare(const Motion& motion, const LoopComponents& compu
   verdict.states = 1;
   verdict.unborne = exact.free_motions > 0 && exact.unborne > kBorne;
   compareCountsAndFlags(exact, computed, found, verdict);
-  const long double scale =
-      4 * (depth_ + found.rank + found.redundancy) * (loadOf(motion) + largestOf(exact, computed));
+  const long double scale = 4 * (depth_ + found.rank + found.redundancy) *
+                            (loadOf(motion) + springLoadOf(motion) + largestOf(exact, computed));
   compareValues(exact, computed, scale, lossOf(exact, found), verdict);
   return verdict;
 }

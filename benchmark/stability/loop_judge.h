@@ -40,19 +40,21 @@ using ExactComponents = std::vector<ExactComponent>;
 ///
 /// An error is compared with 4 (L + n) eps condition S. Here n is the number of unknowns of the
 /// loops and L the depth of the tree; S is the largest sum of the norms of loads (ErrorBound of the
-/// tree) plus the largest force, of the exact solution where it is determined, else of the one that
-/// was chosen, as errors of the equations grow with the solution that they are put in; moments over
-/// the size of the mechanism. The condition that the package reports counts up to ten times the
-/// exact system's. Entries that do not count for the rank are left out of the system: the largest
-/// such pivot is added to eps, and so is the share of the load's work along a free motion that
-/// nothing bears, while it is small enough to be rounding. The package may choose another of many
-/// solutions than the exact equations do. Null vectors of these are unit vectors of forces and of
-/// moments over a length of their own, which counts centres of mass; so a force that they change by
-/// f may also be off by f S, and a moment by f S times that length. Where a singular position does
-/// not bear its load there are no exact values, and only counts and flags are judged. Everything
-/// exists where nothing moves freely, and in singular positions what is determined of a load that
-/// is borne; where a load is clearly not borne, something does not exist. Within a factor of 100 of
-/// the tolerances of rank and flags either answer is right.
+/// tree), plus what the strongest spring would exert over its rest length and the distances of its
+/// ends from the root, which it compares, plus the largest force, of the exact solution where it is
+/// determined, else of the one that was chosen, as errors of the equations grow with the solution
+/// that they are put in; moments over the size of the mechanism. The condition that the package
+/// reports counts up to ten times the exact system's. Entries that do not count for the rank are
+/// left out of the system: the largest such pivot is added to eps, and so is the share of the
+/// load's work along a free motion that nothing bears, while it is small enough to be rounding. The
+/// package may choose another of many solutions than the exact equations do. Null vectors of these
+/// are unit vectors of forces and of moments over a length of their own, which counts centres of
+/// mass; so a force that they change by f may also be off by f S, and a moment by f S times that
+/// length. Where a singular position does not bear its load there are no exact values, and only
+/// counts and flags are judged. Everything exists where nothing moves freely, and in singular
+/// positions what is determined of a load that is borne; where a load is clearly not borne,
+/// something does not exist. Within a factor of 100 of the tolerances of rank and flags either
+/// answer is right.
 class LoopJudge {
  public:
   LoopJudge(const Mechanism& mechanism, const Scene& scene);
@@ -84,6 +86,7 @@ class LoopJudge {
   bool slides(const std::string& closure) const;
   std::string nameOf(std::size_t component) const;
   long double loadOf(const Motion& motion) const;
+  long double springLoadOf(const Motion& motion) const;
   long double largestOf(const Exact& exact, const LoopComponents& computed) const;
   long double lossOf(const Exact& exact, const Determinacy& found) const;
   void compareCountsAndFlags(const Exact& exact, const LoopComponents& computed,

@@ -45,8 +45,9 @@ bounds are made of; its limit is 4 L eps, L of the reaction of ground.
 
 Closed loops (loop_...) are computed on double, one sample at a time, path closed_loops, and
 compared with the equations of all joints in 64 bits. Their error_over_bound is over
-4 (L + n) eps condition S: n unknowns of the loops; S the largest of the sums above plus the largest
-force that is exact, moments over the size of the mechanism. In the details, loop_apart is the
+4 (L + n) eps condition S: n unknowns of the loops; S the largest of the sums above, plus what a spring
+would exert over the lengths that it compares, plus the largest force that is exact, moments over the
+size of the mechanism. In the details, loop_apart is the
 number of counts and flags that differ from the exact ones where the rank is clear;
 loop_residual_over_limit is how far completed motions leave loops open, over 4 (L + n) eps.
 

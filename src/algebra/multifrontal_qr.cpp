@@ -22,7 +22,7 @@ MultifrontalQr::MultifrontalQr(const std::vector<RowBlock>& blocks, int columns)
   for (const RowBlock& block : blocks) {
     entries_.emplace_back(block.rows, static_cast<Eigen::Index>(block.columns.size()));
   }
-  entries_data_.resize(entries_.size());
+  for (const Eigen::MatrixXd& entries : entries_) entries_data_.push_back(entries.data());
   null_rows_.reserve(layout_.rows());
   touched_.reserve(entries_.size());
   open_.reserve(states_.size());
@@ -31,7 +31,6 @@ MultifrontalQr::MultifrontalQr(const std::vector<RowBlock>& blocks, int columns)
 bool MultifrontalQr::factorize(double worst_condition, double size) {
   condition_ = std::numeric_limits<double>::infinity();
   null_rows_listed_ = false;
-  for (std::size_t b = 0; b < entries_.size(); ++b) entries_data_[b] = entries_[b].data();
   const Factorized done =
       kernel_->one.factorize(layout_.view(), entries_data_.data(), size, memory(), &condition_);
   return done == Factorized::kWhole && condition_ <= worst_condition;

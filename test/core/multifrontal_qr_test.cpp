@@ -49,6 +49,16 @@ class RandomBlocks {
     return blocks;
   }
 
+  // One block of all columns, and rows of one, that together are a front of one chunk.
+  std::vector<RowBlock> smallBlocks(int columns) {
+    RowBlock block{number(columns, kRowChunk + 1), {}, {}};
+    for (int column = 0; column < columns; ++column) block.columns.push_back(column);
+    if (block.rows > kRowChunk) block.zeros.push_back(number(0, kRowChunk));
+    std::vector<RowBlock> blocks{block};
+    if (block.rows < kRowChunk) blocks.push_back({1, {number(0, columns - 1)}, {}});
+    return blocks;
+  }
+
   // Fills entries with a rank that can be less than the number of rows.
   void fill(Eigen::MatrixXd& entries, const std::vector<int>& zeros) {
     const auto any = [&]() { return real(); };
@@ -197,19 +207,25 @@ TEST(MultifrontalQr, NullVectorsOfABlockStayInIt) {
   }
 }
 
-// Matrices side by side: what is found of each is, to the last bit, what is found of it alone.
+// Matrices side by side: what is found of each is, to the last bit, what is found of it alone. Of
+// those of one small front, too, which single matrices have loops of constant length for.
 TEST(MultifrontalQr, PacksAgreeWithSingleMatrices) {
   const FrontKernel& kernel = frontKernelFor(chosenInstructionSet());
   const std::size_t width = static_cast<std::size_t>(kernel.width);
   RandomBlocks random(5);
-  int compared = 0;
-  for (int round = 0; round < 100; ++round) {
-    const int columns = random.number(1, 12);
-    const std::vector<RowBlock> blocks = random.blocks(columns);
+  int compared = 0, compared_small = 0;
+  for (int round = 0; round < 200; ++round) {
+    const bool small = round >= 100;
+    const int columns = random.number(1, small ? 4 : 12);
+    const std::vector<RowBlock> blocks =
+        small && columns > 1 ? random.smallBlocks(columns) : random.blocks(columns);
     MultifrontalQr qr(blocks, columns);
     const FrontLayout& layout = qr.layout();
     std::vector<std::vector<double>> packed(blocks.size());
     Eigen::MatrixXd right(columns, kernel.width), expected(qr.rows(), kernel.width);
+    Eigen::MatrixXd left =
+        Eigen::MatrixXd::NullaryExpr(qr.rows(), kernel.width, [&] { return random.real(); });
+    Eigen::MatrixXd squares(columns, kernel.width);
     std::vector<double> conditions;
     bool all = true;
     for (std::size_t i = 0; i < width; ++i) {
@@ -227,7 +243,9 @@ TEST(MultifrontalQr, PacksAgreeWithSingleMatrices) {
       for (int j = 0; j < columns; ++j) right(j, at) = random.real();
       all = qr.factorize(kAnyCondition) && all;
       conditions.push_back(qr.condition());
-      if (all) qr.leastNorm(right.col(at).data(), expected.col(at).data());
+      if (!all) continue;
+      qr.leastNorm(right.col(at).data(), expected.col(at).data());
+      qr.leastSquares(left.col(at).data(), squares.col(at).data());
     }
     if (!all) continue;
     std::vector<const double*> entries;
@@ -248,9 +266,14 @@ TEST(MultifrontalQr, PacksAgreeWithSingleMatrices) {
                   expected(row, static_cast<Eigen::Index>(i)));
       }
     }
-    ++compared;
+    const Eigen::MatrixXd r = left.transpose();
+    Eigen::MatrixXd u(kernel.width, columns);
+    kernel.pack.leastSquares(layout.view(), memory, r.data(), u.data());
+    EXPECT_EQ(u.transpose(), squares);
+    ++(small ? compared_small : compared);
   }
   EXPECT_GT(compared, 20);
+  EXPECT_GT(compared_small, 60);
 }
 
 TEST(MultifrontalQr, DependentColumnsAreNoFactorization) {

@@ -34,6 +34,14 @@ TEST(StructuredLoops, MomentsOfForcesThatAreChosenDifferentlyAreJudgedByTheirLev
   for (const std::string& line : judgeScene(kSeed, 56680).wrong) ADD_FAILURE() << line;
 }
 
+// Springs that pull with a hundredth of what they would over their rest length, in mechanisms
+// without other loads of that size: the digits that those lengths share are lost.
+TEST(StructuredLoops, ForcesOfSpringsAreJudgedByTheLengthsThatTheyCompare) {
+  for (const std::size_t scene : {13576, 4447}) {
+    for (const std::string& line : judgeScene(11, scene).wrong) ADD_FAILURE() << line;
+  }
+}
+
 // Mechanisms of 3e5 m with slides that are off an axis by 1e-12: what that does to forces of 1e20 N
 // is there, as it is in one of a metre.
 TEST(StructuredLoops, RowsThatSlidesHardlyMoveAlongAreNotLeftOut) {

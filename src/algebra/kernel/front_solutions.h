@@ -35,6 +35,11 @@ struct FrontSolutions : Fronts<T, C, kSums> {
 
   static void leastNorm(const FrontsView& view, const FrontsMemory& memory, const double* b,
                         double* x) {
+    const auto small = [&](auto of, const Front& front) VWD_LAMBDA {
+      of.leastNorm(front, view.columns + front.shape.columns, b);
+      scatter(view, memory, front, x);
+    };
+    if (Base::asSmall(view, memory, small)) return;
     T* const sums = reinterpret_cast<T*>(memory.numbers) + view.sums;
     for (int j = 0; j < view.column_count; ++j) sums[j] = load<T>(b + j * kLanes);
     for (int f = 0; f < view.front_count; ++f) {
@@ -79,24 +84,35 @@ struct FrontSolutions : Fronts<T, C, kSums> {
     }
   }
 
+  /// Takes the rows of a front from its blocks' entries of r and from its children.
+  VWD_INLINE static void gather(const FrontsView& view, const FrontsMemory& memory,
+                                const Front& front, const double* r) {
+    int row = 0;
+    for (int b = front.shape.blocks_begin; b < front.shape.blocks_end; ++b) {
+      const BlockRows& block = view.blocks[b];
+      const double* const from = r + block.first * kLanes;
+      const int* const order = view.row_order + block.order;
+      for (int i = 0; i < block.rows; ++i) front.z[row++] = load<T>(from + order[i] * kLanes);
+    }
+    for (int c = front.shape.children_begin; c < front.shape.children_end; ++c) {
+      const Front child(view, memory, view.children[c].front);
+      for (int i = 0; i < child.remaining(); ++i) {
+        front.z[row++] = child.z[child.shape.pivots + i];
+      }
+    }
+    for (; row < front.rows(); ++row) front.z[row] = T(0.0);
+  }
+
   static void leastSquares(const FrontsView& view, const FrontsMemory& memory, const double* r,
                            double* u) {
+    const auto small = [&](auto of, const Front& front) VWD_LAMBDA {
+      gather(view, memory, front, r);
+      of.leastSquares(front, view.columns + front.shape.columns, u);
+    };
+    if (Base::asSmall(view, memory, small)) return;
     for (int f = 0; f < view.front_count; ++f) {
       const Front front(view, memory, f);
-      int row = 0;
-      for (int b = front.shape.blocks_begin; b < front.shape.blocks_end; ++b) {
-        const BlockRows& block = view.blocks[b];
-        const double* const from = r + block.first * kLanes;
-        const int* const order = view.row_order + block.order;
-        for (int i = 0; i < block.rows; ++i) front.z[row++] = load<T>(from + order[i] * kLanes);
-      }
-      for (int c = front.shape.children_begin; c < front.shape.children_end; ++c) {
-        const Front child(view, memory, view.children[c].front);
-        for (int i = 0; i < child.remaining(); ++i) {
-          front.z[row++] = child.z[child.shape.pivots + i];
-        }
-      }
-      for (; row < front.rows(); ++row) front.z[row] = T(0.0);
+      gather(view, memory, front, r);
       applyQTransposed(front);
     }
     T* const solution = reinterpret_cast<T*>(memory.numbers) + view.solution;

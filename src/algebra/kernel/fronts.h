@@ -1,7 +1,6 @@
 #pragma once
 
-#include "algebra/kernel/front_kernel.h"
-#include "base/number_choices.h"
+#include "algebra/kernel/small_front.h"
 
 namespace virtual_work_dynamics {
 namespace {  // see front_kernel.h
@@ -9,15 +8,6 @@ namespace {  // see front_kernel.h
 // Remainders of columns after the reflections of a front count as rounding up to this fraction of
 // the longest column.
 constexpr double kRoundingFraction = 16 * 2.220446049250313e-16;
-// Squares of lengths below this are too close to underflow for a reflection.
-constexpr double kLeastSquare = 1e-280;
-
-// Chunks that begin at entry kRowChunk - i have zeros in their first i rows, or a one in row i
-// only.
-static_assert(kRowChunk == 4, "as these tables");
-constexpr double kStep[] = {0, 0, 0, 0, 1, 1, 1, 1};
-constexpr double kUnit[] = {0, 0, 0, 0, 1, 0, 0, 0};
-
 /// The numbers of one factorization: T is a number of the matrix, C a chunk of a column, which is
 /// several rows of one matrix, or one row of several.
 /// @param kSums how many rows at a time one matrix has: with several, too, sums are made of as many
@@ -99,13 +89,18 @@ struct Fronts {
     }
   }
 
+  VWD_INLINE static void clear(const Front& front) {
+    if (asSmall(front, [&](auto of) VWD_LAMBDA { of.clear(front); })) return;
+    const int size = front.shape.most_rows * front.shape.width;
+    const C zero(0.0);
+    for (int i = 0; i < size; i += kChunk) put(front.entries + i, zero);
+  }
+
   /// Takes in the entries of blocks and of earlier fronts.
   static void assemble(const FrontsView& view, const FrontsMemory& memory,
                        const double* const* entries, const Front& front, T* lengths) {
     const FrontShape& shape = front.shape;
-    const int size = shape.most_rows * shape.width;
-    const C zero(0.0);
-    for (int i = 0; i < size; i += kChunk) put(front.entries + i, zero);
+    clear(front);
     int row = 0;
     for (int b = shape.blocks_begin; b < shape.blocks_end; ++b) {
       const BlockRows& block = view.blocks[b];
@@ -229,14 +224,49 @@ struct Fronts {
       const Factorized done = eliminateBySize(front);
       if (done != Factorized::kWhole) return done;
     }
-    T longest = T(size * size);
+    T longest = T(size * size), estimate;
     for (int j = 0; j < view.column_count; ++j) longest = largerOf(lengths[j], longest);
-    store(condition, estimateCondition(view, memory, longest));
+    const auto small = [&](auto of, const Front& front)
+                           VWD_LAMBDA { estimate = of.estimateCondition(front, longest); };
+    if (!asSmall(view, memory, small)) estimate = estimateCondition(view, memory, longest);
+    store(condition, estimate);
     return Factorized::kWhole;
+  }
+
+  template <int kWidth>
+  using Small = SmallFront<Front, T, C, kWidth>;
+
+  /// Calls use(SmallFront, front) where the only front is one.
+  template <typename Use>
+  VWD_INLINE static bool asSmall(const FrontsView& view, const FrontsMemory& memory,
+                                 const Use& use) {
+    if (kChunk != kRowChunk || view.front_count != 1) return false;
+    const Front front(view, memory, 0);
+    return asSmall(front, [&](auto of) VWD_LAMBDA { use(of, front); });
+  }
+  template <typename Use>
+  VWD_INLINE static bool asSmall(const Front& front, const Use& use) {
+    if constexpr (kChunk == kRowChunk) {
+      const FrontShape& shape = front.shape;
+      if (shape.most_rows != kRowChunk || shape.pivots != shape.width) return false;
+      if (shape.width == 1) {
+        use(Small<1>());
+      } else if (shape.width == 2) {
+        use(Small<2>());
+      } else if (shape.width == 3) {
+        use(Small<3>());
+      } else {
+        return false;
+      }
+      return true;
+    }
+    return false;
   }
 
   /// Small fronts have loops of constant length.
   VWD_INLINE static Factorized eliminateBySize(const Front& front) {
+    Factorized done;
+    if (asSmall(front, [&](auto of) VWD_LAMBDA { done = of.eliminate(front); })) return done;
     if (kChunk > 1) {
       if (front.rows() == kRowChunk) return eliminate(front, kRowChunk);
       if (front.rows() == 2 * kRowChunk) return eliminate(front, 2 * kRowChunk);

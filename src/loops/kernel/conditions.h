@@ -49,18 +49,42 @@ void addMotion(const RowsShape& shape, const double* A_numbers, const double* qd
   }
 }
 
+template <int kRows, typename T>
+VWD_INLINE void addProducts(const RowsShape& shape, int rows, const T* A, const T* u, T* sums) {
+  const int count = kRows > 0 ? kRows : rows;
+  for (int k = 0; k < shape.coordinate_count; ++k) {
+    const int coordinate = shape.coordinates[k];
+    const T* const column = A + static_cast<std::size_t>(coordinate) * shape.A_stride;
+    const T rate = u[coordinate];
+    for (int i = 0; i < count; ++i) sums[i] = mulAdd(column[i], rate, sums[i]);
+  }
+}
+
 template <typename T>
 void addColumns(const RowsShape& shape, const double* A_numbers, const double* u_numbers,
                 double* sum_numbers) {
   const T* const A = reinterpret_cast<const T*>(A_numbers);
   const T* const u = reinterpret_cast<const T*>(u_numbers);
   T* const sums = reinterpret_cast<T*>(sum_numbers);
-  for (int k = 0; k < shape.coordinate_count; ++k) {
-    const int coordinate = shape.coordinates[k];
-    const T* const column = A + static_cast<std::size_t>(coordinate) * shape.A_stride;
-    const T rate = u[coordinate];
-    for (int i = 0; i < shape.rows; ++i) sums[i] = mulAdd(column[i], rate, sums[i]);
+  if (shape.rows != kRowsOfPin) return addProducts<0>(shape, shape.rows, A, u, sums);
+  T own[kRowsOfPin];
+  for (int i = 0; i < kRowsOfPin; ++i) own[i] = sums[i];
+  addProducts<kRowsOfPin>(shape, kRowsOfPin, A, u, own);
+  for (int i = 0; i < kRowsOfPin; ++i) sums[i] = own[i];
+}
+
+/// Calls several(i) with the first of kSeveral rows, the last ones a second time where they do not
+/// come out even, or one(i) with every row where there are fewer.
+constexpr int kSeveral = 4;
+template <typename Several, typename One>
+VWD_INLINE void forRows(int rows, const Several& several, const One& one) {
+  int i = 0;
+  if (rows < kSeveral) {
+    for (; i < rows; ++i) one(i);
+    return;
   }
+  for (; i + kSeveral <= rows; i += kSeveral) several(i);
+  if (i < rows) several(rows - kSeveral);
 }
 
 template <typename T>
@@ -72,14 +96,18 @@ void scaleColumns(const RowsShape& shape, const ScaledColumns& scaled, const dou
     const ScaledColumn& column = scaled.columns[k];
     const T* const from = A + static_cast<std::size_t>(column.coordinate) * shape.A_stride;
     T* const entries = to + column.place * scaled.height;
-    int i = 0;
-    if constexpr (LanesOf<T>::value == 1) {  // several rows at a time
-      using Rows = Pack<double, 4>;
-      for (const Rows factor(column.factor); i + 4 <= shape.rows; i += 4) {
+    const auto one = [&](int i)
+                         VWD_LAMBDA { entries[i] = (row_factors[i] * column.factor) * from[i]; };
+    if constexpr (LanesOf<T>::value == 1) {
+      using Rows = Pack<double, kSeveral>;
+      const Rows factor(column.factor);
+      const auto several = [&](int i) VWD_LAMBDA {
         store(entries + i, (load<Rows>(row_factors + i) * factor) * load<Rows>(from + i));
-      }
+      };
+      forRows(shape.rows, several, one);
+    } else {
+      for (int i = 0; i < shape.rows; ++i) one(i);
     }
-    for (; i < shape.rows; ++i) entries[i] = (row_factors[i] * column.factor) * from[i];
   }
 }
 
