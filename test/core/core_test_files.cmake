@@ -42,6 +42,8 @@ set(core_test_files
   test/core/exact_products_test.cpp
   test/core/existence_test.cpp
   test/core/expression_graph_test.cpp
+  test/core/exudyn_robot_test.cpp
+  test/core/free_bodies_published_test.cpp
   test/core/free_motion_test.cpp
   test/core/generated_code_test.cpp
   test/core/given_motions_test.cpp
