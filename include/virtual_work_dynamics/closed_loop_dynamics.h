@@ -65,6 +65,11 @@ class ClosedLoopDynamics {
   /// Names of the actuated closures, whose efforts come after those of the coordinates.
   const std::vector<std::string>& actuatedClosures() const;
 
+  /// Names of the closures whose force can act one way only: what presses on a plane, and cables.
+  /// A result that asks for the opposite is reported as it is, and flagged: see LoopResults::holds.
+  /// Contacts that are open have no force and hold.
+  const std::vector<std::string>& oneSided() const;
+
   /// What is wrong with a choice of what motions give, found in a regular position.
   struct GivenFinding {
     Eigen::Index freedom = 0;               ///< how many more coordinates would have to be given

@@ -59,6 +59,8 @@ class Dynamics {
   bool closed() const;
   /// Names of the closures; none in an open chain.
   const std::vector<std::string>& closureNames() const;
+  /// See ClosedLoopDynamics::oneSided(); none in an open chain.
+  const std::vector<std::string>& oneSided() const;
   /// Whether each generalized coordinate is actuated; in an open chain all are.
   const std::vector<bool>& actuated() const;
   /// What motions give, as the scene says. Unless it says anything, these are the actuated
@@ -67,7 +69,8 @@ class Dynamics {
   /// See ClosedLoopDynamics::judge(); in an open chain nothing is wrong. Allocates.
   ClosedLoopDynamics::GivenFinding judge(const Given& given) const;
   /// Whether the closures determine the motion of passive joints from that of the actuated ones:
-  /// there are closures, and none of them is actuated.
+  /// there are closures, none of them is actuated, and all have positions, which wheels and blades
+  /// have not.
   bool closuresDetermine() const;
   /// The position in which the loops are assembled; zero in an open chain.
   const Eigen::VectorXd& assembly() const;

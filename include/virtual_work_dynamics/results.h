@@ -57,6 +57,14 @@ struct Determinacy {
 /// change a force by 100 %.
 constexpr double kCloseToSingular = 1e4;
 
+/// Whether a force acts as that can which makes it: see ClosedLoopDynamics::oneSided().
+enum class Hold {
+  kHolds,
+  kWrongWay,     ///< a contact would have to pull, or a cable to push
+  kOutsideCone,  ///< more would have to act along the plane than friction allows
+  kNotDecidable  ///< rigid-body mechanics does not determine the force
+};
+
 /// What closed loops add to the results of one sample; empty in an open chain.
 struct LoopResults {
   Determinacy determinacy;
@@ -73,6 +81,9 @@ struct LoopResults {
   /// By spring of the scene: whether its force has a direction. Not where its ends meet while it is
   /// longer at rest; what the force reaches then has no value.
   std::vector<bool> springs_directed;
+
+  /// By what ClosedLoopDynamics::oneSided() names.
+  std::vector<Hold> holds;
 
   /// By closure: Determinacy::condition of the loops that are solved together with its own.
   std::vector<double> closure_conditions;

@@ -22,6 +22,7 @@ struct Dynamics::Impl {
   Load own_load;  // values in the scene
   std::vector<std::string> effort_names, closure_names;
   std::vector<bool> residuals;  // by effort
+  bool have_positions = true;   // what closes loops, which wheels and blades have not
   std::vector<bool> actuated;
   Given given;
   Eigen::VectorXd assembly;

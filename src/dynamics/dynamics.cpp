@@ -9,6 +9,7 @@
 #include "loops/cut_tree.h"
 #include "loops/given_loops.h"
 #include "scene/input_checks.h"
+#include "scene/touch_rows.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -53,8 +54,12 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
     if (residuals[i]) effort_names[i] = kMotionResidual + effort_names[i];
   }
   given = loops->given();
-  // The axes of actuated closures would have to be given, too.
-  if (!scene.given && !loops->actuatedClosures().empty()) {
+  for (const Closure& closure : scene.closures) {
+    if (!hasPositions(closure)) have_positions = false;
+  }
+  // The axes of actuated closures would have to be given, too, and where there are no positions to
+  // be found all of them.
+  if (!scene.given && (!loops->actuatedClosures().empty() || !have_positions)) {
     given.coordinates.assign(actuated.size(), true);
   }
   assembly = loops->assembly();
@@ -107,6 +112,11 @@ const std::vector<std::string>& Dynamics::closureNames() const {
   return impl_->closure_names;
 }
 
+const std::vector<std::string>& Dynamics::oneSided() const {
+  static const std::vector<std::string> kNone;
+  return impl_->loops ? impl_->loops->oneSided() : kNone;
+}
+
 const std::vector<bool>& Dynamics::actuated() const {
   return impl_->actuated;
 }
@@ -124,7 +134,8 @@ std::unique_ptr<GivenLoops> Dynamics::givenLoops(const Given& given) const {
 }
 
 bool Dynamics::closuresDetermine() const {
-  return !impl_->closure_names.empty() && impl_->loops->actuatedClosures().empty();
+  return !impl_->closure_names.empty() && impl_->loops->actuatedClosures().empty() &&
+         impl_->have_positions;
 }
 
 const Eigen::VectorXd& Dynamics::assembly() const {

@@ -159,6 +159,10 @@ Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopComplet
                          LoopKinematics& kinematics) {
   const Eigen::VectorXd q = closedPosition(loops, completion, kinematics);
   for (std::size_t c = 0; c < scene.closures.size(); ++c) {
+    const double least = kCoincide * completion.length();
+    if (const char* fault = kinematics.closure(c).fault(kinematics.links(), least)) {
+      throw SceneError(kinematics.set(c).place() + ": " + fault);
+    }
     if (kinematics.reversed(c)) {
       throw SceneError("closures: " + inQuotes(scene.closures[c].name) +
                        " is assembled the wrong way round: its frames are half a turn apart");

@@ -61,7 +61,8 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& of, const Scene& scene, const Re
       reacts(!wanted.child_axes.empty() || !wanted.root_axes.empty()),
       closures(scene.closures.size()),
       kinematics(mechanism, scene),
-      groups(loopGroups(mechanism, kinematics)) {
+      groups(loopGroups(mechanism, kinematics)),
+      holds(scene, kinematics, groups) {
   for (const Closure& closure : scene.closures) closure_names.push_back(closure.name);
   for (const std::size_t c : loops.actuated_closures) {
     actuated_closures.push_back(scene.closures[c].name);
@@ -253,6 +254,10 @@ ClosedLoopDynamics::GivenFinding ClosedLoopDynamics::judge(const Given& given) c
 
 const std::vector<std::string>& ClosedLoopDynamics::actuatedClosures() const {
   return impl_->actuated_closures;
+}
+
+const std::vector<std::string>& ClosedLoopDynamics::oneSided() const {
+  return impl_->holds.names();
 }
 
 const Scene& ClosedLoopDynamics::tree() const {

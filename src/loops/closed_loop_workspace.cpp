@@ -43,6 +43,7 @@ ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compil
   loops.effort_exists = determined.effort;
   loops.child_axes_exist = determined.child_axes;
   loops.root_axes_exist = determined.root_axes;
+  loops.holds.assign(plan.holds.names().size(), Hold::kHolds);
   loops.springs_directed.assign(plan.springs.size(), true);
   loops.closure_conditions.assign(plan.closures, 1);
   loops.residuals.resize(plan.closures);
@@ -79,6 +80,7 @@ void ClosedLoopDynamics::Workspace::Impl::report() {
   collect();
   react();
   setDeterminacy();
+  plan.holds.judge(solvers.forces, results.loops.holds);
   if (plan.request.determinacy || results.singular()) setDetermined();
   setExistence();
   leaveOutSprings();
@@ -146,6 +148,11 @@ void ClosedLoopDynamics::Workspace::Impl::react() {
   if (!closures_.empty()) {
     kernel_->closureLoads(static_cast<int>(closures_.size()), kinematics.frameNumbers(),
                           closures_.front().force.data(), load[load_.wrenches.size()].force.data());
+  }
+  for (const std::size_t c : kinematics.touching()) {  // loads act at points of the links
+    Wrench& wrench = load[load_.wrenches.size() + 2 * c];
+    const Eigen::Vector3d centre = kinematics.links().originOf(kinematics.closure(c).child());
+    wrench.torque += (kinematics.childOrigin(c) - centre).cross(wrench.force);
   }
   if (!plan.reacts) return;
   addClosures(child_axes_, pushed_->childAxes(), results.child_axes);

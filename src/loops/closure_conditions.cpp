@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "base/printable.h"
+#include "loops/cylinder_conditions.h"
+#include "loops/touch_conditions.h"
 #include "scene/lookup.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -29,7 +31,7 @@ using Kind = ClosureDemand::Kind;
 using Frame = LinkKinematics::Frame;
 
 std::string placeOf(const Closure& closure) {
-  return "closures: " + inQuotes(closure.name);
+  return std::string(traitsOf(closure.type).list) + ": " + inQuotes(closure.name);
 }
 
 Eigen::Matrix3d rotationOf(const Eigen::Vector3d& rpy) {
@@ -84,7 +86,15 @@ std::shared_ptr<const ConditionSet> makeSet(const Mechanism& mechanism, const Cl
     throw SceneError(placeOf(closure) + ": no joint moves " + inQuotes(closure.child.link) +
                      " relative to " + inQuotes(closure.parent.link));
   }
-  return std::make_shared<ClosureConditions>(mechanism, closure, parent, child, path, coordinates);
+  if (traitsOf(closure.type).touches()) {
+    return std::make_shared<TouchConditions>(mechanism, closure, parent, child, path, coordinates);
+  }
+  if (closure.type == ClosureType::kCylinder) {
+    return std::make_shared<CylinderConditions>(mechanism, closure, parent, child, path,
+                                                coordinates);
+  }
+  return std::make_shared<ClosureConditions>(mechanism, closure, rowsOf(closure), parent, child,
+                                             path, coordinates);
 }
 
 FrameShape shapeOf(const Frame& frame) {
@@ -97,9 +107,9 @@ FrameShape shapeOf(const Frame& frame) {
 }
 
 DemandShape shapeOf(const ClosureDemand& demand) {
-  const DemandShape::Kind kind = demand.kind == Kind::kAlong    ? DemandShape::Kind::kAlong
+  const DemandShape::Kind kind = demand.kind == Kind::kDistance ? DemandShape::Kind::kDistance
                                  : demand.kind == Kind::kNormal ? DemandShape::Kind::kNormal
-                                                                : DemandShape::Kind::kDistance;
+                                                                : DemandShape::Kind::kAlong;
   return {kind, demand.a, demand.b};
 }
 
@@ -120,9 +130,10 @@ std::vector<StepShape> stepsOf(const Mechanism& mechanism, const std::vector<Pat
 }  // namespace
 
 ClosureConditions::ClosureConditions(const Mechanism& mechanism, const Closure& closure,
-                                     const Frame& parent, const Frame& child,
-                                     std::vector<PathStep> path, std::vector<int> coordinates)
-    : ConditionSet(placeOf(closure), rowsOf(closure), std::move(coordinates)),
+                                     std::vector<Condition> rows, const Frame& parent,
+                                     const Frame& child, std::vector<PathStep> path,
+                                     std::vector<int> coordinates)
+    : ConditionSet(placeOf(closure), std::move(rows), std::move(coordinates)),
       traits_(traitsOf(closure.type)),
       kernel_(&loopKernelFor(chosenInstructionSet()).one),
       parent_(parent),
@@ -134,7 +145,7 @@ ClosureConditions::ClosureConditions(const Mechanism& mechanism, const Closure& 
              shapeOf(child),
              steps_.data(),
              static_cast<int>(steps_.size()),
-             traits_.conditions,
+             static_cast<int>(conditions().size()),
              {},
              closure.length.value_or(0)} {
   std::transform(traits_.demands.begin(), traits_.demands.end(), shape_.demands,
@@ -161,6 +172,21 @@ double ClosureConditions::freeVelocity(const LinkKinematics& links, const FrameP
   const auto axis = frames.R_P.col(2);
   if (freeUnit() == Unit::kRadian) return axis.dot(C.w - P.w);
   return axis.dot(C.v - P.v - P.w.cross(frames.Co - frames.Po));
+}
+
+FramePair ClosureConditions::framesAt(const LinkKinematics& links) const {
+  return {links.axesOf(parent_), links.axesOf(child_), links.originOf(parent_),
+          links.originOf(child_)};
+}
+
+// What moves freely moves along or about the axis itself, so that a turn of the axis adds nothing.
+double ClosureConditions::freeAcceleration(const LinkKinematics& links,
+                                           const FramePair& frames) const {
+  const LinkKinematics::PointMotion P = links.motionAt(parent_.link, frames.Po);
+  const LinkKinematics::PointMotion C = links.motionAt(child_.link, frames.Co);
+  const auto axis = frames.R_P.col(2);
+  if (freeUnit() == Unit::kRadian) return axis.dot(C.alpha - P.alpha);
+  return axis.dot(C.a - P.a - P.alpha.cross(frames.Co - frames.Po) - P.w.cross(C.v - P.v));
 }
 
 LinkKinematics::Displacement ClosureConditions::displacedBy(const LinkKinematics& links,

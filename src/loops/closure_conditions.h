@@ -21,13 +21,15 @@ class ClosureConditions : public ConditionSet {
 
   /// @param path the joints from the parent's link to the child's
   /// @param coordinates those that move these joints, ascending
-  ClosureConditions(const Mechanism& mechanism, const Closure& closure, const Frame& parent,
-                    const Frame& child, std::vector<PathStep> path, std::vector<int> coordinates);
+  ClosureConditions(const Mechanism& mechanism, const Closure& closure, std::vector<Condition> rows,
+                    const Frame& parent, const Frame& child, std::vector<PathStep> path,
+                    std::vector<int> coordinates);
 
   void setPosition(const LoopState& state, ConditionRows rows) const override;
   void setMotion(const LoopState& state, ConditionRows rows) const override;
 
   ClosureType type() const { return traits_.type; }
+  const ClosureTypeTraits& traits() const { return traits_; }
   /// Length of a rod, m; empty where the assembly tells it, and for other types.
   const std::optional<double>& length() const { return given_length_; }
   const Frame& parent() const { return parent_; }
@@ -39,13 +41,23 @@ class ClosureConditions : public ConditionSet {
 
   /// Unit of the free motion; radian where there is none.
   Unit freeUnit() const { return traits_.free_axis.value_or(Unit::kRadian); }
+  /// The frames at a position of the links.
+  virtual FramePair framesAt(const LinkKinematics& links) const;
   /// Angle about the free axis, within half a turn, or distance along it; rad or m.
   double freePosition(const FramePair& frames) const;
   /// Rate of freePosition(), rad/s or m/s.
   double freeVelocity(const LinkKinematics& links, const FramePair& frames) const;
+  /// Rate of freeVelocity() for qdd = 0, rad/s^2 or m/s^2.
+  virtual double freeAcceleration(const LinkKinematics& links, const FramePair& frames) const;
   /// How a step of a joint on the path displaces the line of a wrench between the frames.
-  LinkKinematics::Displacement displacedBy(const LinkKinematics& links, const FramePair& frames,
-                                           const PathStep& step, double length) const;
+  virtual LinkKinematics::Displacement displacedBy(const LinkKinematics& links,
+                                                   const FramePair& frames, const PathStep& step,
+                                                   double length) const;
+  /// What is wrong with a position where conditions or forces have no direction; null: nothing.
+  /// @param least distance of points that do not coincide, m
+  virtual const char* fault(const LinkKinematics& /*links*/, double /*least*/) const {
+    return nullptr;
+  }
   /// Whether the closure lets nothing turn and its frames are more than a quarter turn apart, which
   /// the conditions do not detect.
   bool reversed(const FramePair& frames) const;

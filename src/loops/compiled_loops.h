@@ -11,6 +11,7 @@
 #include "loops/completion.h"
 #include "loops/forces.h"
 #include "loops/groups.h"
+#include "loops/holds.h"
 #include "loops/kinematics.h"
 #include "loops/point_springs.h"
 #include "loops/reactions.h"
@@ -56,6 +57,7 @@ struct ClosedLoopDynamics::Impl {
   std::vector<std::string> closure_names, actuated_closures;
   LoopKinematics kinematics;  // at the assembly
   std::vector<LoopGroup> groups;
+  LoopHolds holds;
   std::vector<SpringReach> reach;  // by spring
   double length = 1;
   Eigen::VectorXd assembly;

@@ -52,8 +52,7 @@ FreeAxisDrive::FreeAxisDrive(const std::string& name, const ClosureConditions& c
 void FreeAxisDrive::setPosition(const LoopState& state, ConditionRows rows) const {
   const LinkKinematics& links = state.links;
   FramePair& frames = rows.frames();
-  frames = {links.axesOf(closure_.parent()), links.axesOf(closure_.child()),
-            links.originOf(closure_.parent()), links.originOf(closure_.child())};
+  frames = closure_.framesAt(links);
   const double off = closure_.freePosition(frames) - state.driven.q[number_];
   // Whole turns make no difference to a pin.
   const bool slides = closure_.freeUnit() == Unit::kMetre;
@@ -67,16 +66,8 @@ void FreeAxisDrive::setPosition(const LoopState& state, ConditionRows rows) cons
   }
 }
 
-// What moves freely moves along or about the axis itself, so that a turn of the axis adds nothing.
 void FreeAxisDrive::setMotion(const LoopState& state, ConditionRows rows) const {
-  const FramePair& frames = rows.frames();
-  const LinkKinematics::PointMotion P = state.links.motionAt(closure_.parent().link, frames.Po);
-  const LinkKinematics::PointMotion C = state.links.motionAt(closure_.child().link, frames.Co);
-  Eigen::Vector3d second = C.alpha - P.alpha;
-  if (closure_.freeUnit() == Unit::kMetre) {
-    second = C.a - P.a - P.alpha.cross(frames.Co - frames.Po) - P.w.cross(C.v - P.v);
-  }
-  rows.turning(0) = frames.R_P.col(2).dot(second);
+  rows.turning(0) = closure_.freeAcceleration(state.links, rows.frames());
   rows.b(0) = -state.driven.qd[number_];  // (3.2)
   rows.bd(0) = -state.driven.qdd[number_];
 }

@@ -245,6 +245,15 @@ void LoopForces::choose(const std::vector<Wrench>& tree_reactions) {
   norms_.finish(solution_.x);
 }
 
+bool LoopForces::isDetermined(Eigen::Index unknown) {
+  if (!bears_) return false;
+  if (sound_) return qr_.nullity() == 0 || isUnique(qr_.nullSquare(unknown));
+  for (Eigen::Index j = 0; j < direction_count_; ++j) {
+    if (!(std::abs(directions_(unknown, j)) <= kNoEffort)) return false;
+  }
+  return true;
+}
+
 bool LoopForces::isUnique(double null_square) {
   return null_square <= kNoEffort * kNoEffort;
 }
@@ -364,8 +373,7 @@ void LoopForces::setClosures(State& state) const {
     const double* x = state.x.data() + own.first;
     ClosureWrench& sum = state.closures[local];
     kernel_->sumWrenches(kinematics_.closure(own.set).shape(), entries_[local].units.data(), x,
-                         kinematics_.unitWrench(kinematics_.firstOf(own.set)).force.data(),
-                         sum.force.data());
+                         kinematics_.unitWrenches(kinematics_.firstOf(own.set)), sum.force.data());
     if (own.effort < 0) continue;
     const double effort = x[own.multipliers()] * own.columns.back().unit;
     activePart(kinematics_.closure(own.set).freeUnit(), sum) +=

@@ -74,6 +74,8 @@ class LoopForces {
   /// One of these unit vectors; valid until the next call.
   const State& direction(Eigen::Index i);
   double length() const { return length_; }
+  /// Whether an unknown is the same in all solutions.
+  bool isDetermined(Eigen::Index unknown);
   /// A component is determined when no direction changes it by more than this. Near a singular
   /// position directions, like results, are known only to rounding errors times the condition.
   double leastChange() const;

@@ -28,6 +28,8 @@ class LoopKinematics {
   std::size_t closures() const { return closures_.size(); }
   const ConditionSet& set(std::size_t set) const { return *sets_[set]; }
   const ClosureConditions& closure(std::size_t closure) const { return *closures_[closure]; }
+  /// The closures that touch: their child origins are not fixed on the child's link.
+  const std::vector<std::size_t>& touching() const { return touching_; }
 
   /// Number of conditions in all sets.
   Eigen::Index conditions() const { return values_.phi.size(); }
@@ -89,6 +91,10 @@ class LoopKinematics {
   /// Wrench of a multiplier of one; zero where the condition is not a closure's.
   const ClosureWrench& unitWrench(Eigen::Index condition) const {
     return values_.unit_wrenches[static_cast<std::size_t>(condition)];
+  }
+  /// The numbers of these wrenches from one on; there need not be one.
+  const double* unitWrenches(Eigen::Index condition) const {
+    return reinterpret_cast<const double*>(values_.unit_wrenches.data() + condition);
   }
   /// Wrench of a unit effort about or along the free axis of a revolute or prismatic closure.
   ClosureWrench unitEffort(std::size_t closure) const;
@@ -159,6 +165,7 @@ class LoopKinematics {
   const LoopFunctions* kernel_;
   ConditionSets sets_;
   std::vector<const ClosureConditions*> closures_;  // the first of sets_
+  std::vector<std::size_t> touching_;
   std::vector<const Condition*> conditions_;
   std::vector<Eigen::Index> first_;
   std::vector<RowsShape> rows_;  // by set; they point to coordinates of sets_

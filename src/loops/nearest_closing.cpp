@@ -88,7 +88,8 @@ NearestClosing::NearestClosing(LoopKinematics& kinematics, std::vector<LoopGroup
 void NearestClosing::addClosure(std::size_t c, System& system) const {
   const LinkKinematics& links = kinematics_.links();
   const ClosureConditions& closure = kinematics_.closure(c);
-  const ClosureTypeTraits& traits = traitsOf(closure.type());
+  const ClosureTypeTraits& traits = closure.traits();
+  if (closure.type() == ClosureType::kCylinder) return;  // it demands nothing
   const Vector3 P = links.originOf(closure.parent()), C = links.originOf(closure.child());
   const Vector3 r = C - P;
   const Matrix3 A_P = links.axesOf(closure.parent()), A_C = links.axesOf(closure.child());
@@ -166,7 +167,7 @@ void NearestClosing::setSystem(const LoopGroup& group, const std::vector<int>& m
                                System& system) const {
   system.clear();
   for (const std::size_t s : group.sets) {
-    if (s < kinematics_.closures()) {
+    if (s < kinematics_.closures() && !kinematics_.closure(s).traits().touches()) {
       addClosure(s, system);
       continue;
     }

@@ -9,10 +9,12 @@ vwd_core(
   condition.cpp
   condition_sizes.cpp
   cut_tree.cpp
+  cylinder_conditions.cpp
   driven_conditions.cpp
   forces.cpp
   given_loops.cpp
   groups.cpp
+  holds.cpp
   kernel/baseline.cpp
   kernel/loop_kernel_choice.cpp
   kinematics.cpp
@@ -26,6 +28,7 @@ vwd_core(
   residuals.cpp
   sample_pack.cpp
   spring_reach.cpp
+  touch_conditions.cpp
   unborne_loads.cpp
   unknowns.cpp
   zero_rows.cpp)

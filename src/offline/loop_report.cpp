@@ -9,6 +9,7 @@
 #include "dynamics/effort_groups.h"
 #include "offline/check_report.h"
 #include "scene/closure_types.h"
+#include "scene/touch_rows.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -17,7 +18,7 @@ using Names = std::vector<std::string>;
 
 int conditionsOf(const Scene& scene) {
   int conditions = 0;
-  for (const Closure& closure : scene.closures) conditions += traitsOf(closure.type).conditions;
+  for (const Closure& closure : scene.closures) conditions += conditionCount(closure);
   return conditions;
 }
 

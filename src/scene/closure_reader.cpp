@@ -1,6 +1,7 @@
 #include "scene/closure_reader.h"
 
 #include "scene/closure_types.h"
+#include "scene/touch_reader.h"
 #include "scene/yaml_values.h"
 
 namespace virtual_work_dynamics {
@@ -23,7 +24,9 @@ void require(bool given, const std::string& where, const std::string& what) {
 
 ClosureType readClosureType(const YAML::Node& node, const std::string& where) {
   Names names;
-  for (const ClosureTypeTraits& traits : closureTypes()) names.push_back(traits.name);
+  for (const ClosureTypeTraits& traits : closureTypes()) {  // those first that `closures` may have
+    if (traits.list == std::string("closures")) names.push_back(traits.name);
+  }
   return closureTypes()[readWord(node, where, names)].type;
 }
 
@@ -159,7 +162,8 @@ Redundancy readRedundancy(const YAML::Node& node) {
 
 bool readLoopEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
   if (key == "closures") {
-    scene.closures = readList(value, key, readClosure);
+    const std::vector<Closure> closures = readList(value, key, readClosure);
+    scene.closures.insert(scene.closures.end(), closures.begin(), closures.end());
   } else if (key == "springs") {
     scene.springs = readList(value, key, readSpring);
   } else if (key == "actuated") {
@@ -173,7 +177,7 @@ bool readLoopEntry(const std::string& key, const YAML::Node& value, Scene& scene
   } else if (key == "redundancy") {
     scene.redundancy = readRedundancy(value);
   } else {
-    return false;
+    return readTouchEntry(key, value, scene);
   }
   return true;
 }

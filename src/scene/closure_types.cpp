@@ -16,6 +16,7 @@ constexpr ClosureDemand kXz{Kind::kNormal, 0, 2}, kYz{Kind::kNormal, 1, 2};
 constexpr ClosureDemand kXy{Kind::kNormal, 0, 1};
 constexpr ClosureDemand kZx{Kind::kNormal, 2, 0};
 constexpr ClosureDemand kRod{Kind::kDistance, 0, 0};
+constexpr ClosureDemand kForce{Kind::kTouch, 0, 0};
 
 constexpr auto kNone = std::nullopt;
 
@@ -30,14 +31,18 @@ int ClosureTypeTraits::count(ClosureDemand::Kind kind) const {
 // The order of conditions is that of their multipliers.
 const std::vector<ClosureTypeTraits>& closureTypes() {
   static const std::vector<ClosureTypeTraits> types = {
-      {Type::kFixed, "fixed", kNone, 6, {kX, kY, kZ, kXz, kYz, kXy}},
-      {Type::kRevolute, "revolute", Unit::kRadian, 5, {kX, kY, kZ, kXz, kYz}},
-      {Type::kPrismatic, "prismatic", Unit::kMetre, 5, {kX, kY, kXz, kYz, kXy}},
-      {Type::kCylindrical, "cylindrical", kNone, 4, {kX, kY, kXz, kYz}},
-      {Type::kUniversal, "universal", kNone, 4, {kX, kY, kZ, kZx}},
-      {Type::kSpherical, "spherical", kNone, 3, {kX, kY, kZ}},
-      {Type::kPlanar, "planar", kNone, 3, {kZ, kXz, kYz}},
-      {Type::kDistance, "distance", kNone, 1, {kRod}}};
+      {Type::kFixed, "closures", "fixed", kNone, 6, {kX, kY, kZ, kXz, kYz, kXy}},
+      {Type::kRevolute, "closures", "revolute", Unit::kRadian, 5, {kX, kY, kZ, kXz, kYz}},
+      {Type::kPrismatic, "closures", "prismatic", Unit::kMetre, 5, {kX, kY, kXz, kYz, kXy}},
+      {Type::kCylindrical, "closures", "cylindrical", kNone, 4, {kX, kY, kXz, kYz}},
+      {Type::kUniversal, "closures", "universal", kNone, 4, {kX, kY, kZ, kZx}},
+      {Type::kSpherical, "closures", "spherical", kNone, 3, {kX, kY, kZ}},
+      {Type::kPlanar, "closures", "planar", kNone, 3, {kZ, kXz, kYz}},
+      {Type::kDistance, "closures", "distance", kNone, 1, {kRod}},
+      {Type::kCylinder, "cylinders", "cylinder", Unit::kMetre, 0, {}},
+      {Type::kRolling, "rolling", "rolling", kNone, 3, {kForce, kForce, kForce}},
+      {Type::kKnifeEdge, "knife_edges", "knife_edge", kNone, 2, {kForce, kForce}},
+      {Type::kContact, "contacts", "contact", kNone, 3, {kForce, kForce, kForce}}};
   return types;
 }
 

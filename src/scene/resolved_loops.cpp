@@ -9,6 +9,7 @@
 #include "base/printable.h"
 #include "scene/closure_types.h"
 #include "scene/lookup.h"
+#include "scene/touch_checks.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -64,7 +65,8 @@ class Resolver {
   void checkClosures() const {
     std::set<std::string> seen;
     for (const Closure& closure : scene_.closures) {
-      const std::string what = "closures: " + inQuotes(closure.name);
+      const std::string what =
+          std::string(traitsOf(closure.type).list) + ": " + inQuotes(closure.name);
       if (closure.name.empty()) throw SceneError("closures: a closure has no name");
       if (closure.name == kGround) throw SceneError(what + ": that name is reserved");
       if (mechanism_.jointIndex(closure.name) >= 0 || mechanism_.reactionIndex(closure.name) >= 0) {
@@ -80,6 +82,10 @@ class Resolver {
         throw SceneError(what + ": only a closure of type distance has a length");
       }
       if (closure.length) requirePositive(what + ": length", *closure.length);
+      if (traitsOf(closure.type).touches()) requireSoundTouch(closure, what);
+      if (closure.pulls_only && closure.type != ClosureType::kCylinder) {
+        throw SceneError(what + ": only a cylinder is one that pulls only");
+      }
     }
   }
 
@@ -113,13 +119,19 @@ class Resolver {
     }
   }
 
+  // Cylinders are actuators whether they are named or not.
   void readActuated() {
+    for (std::size_t c = 0; c < scene_.closures.size(); ++c) {
+      if (scene_.closures[c].type == ClosureType::kCylinder) loops_.actuated_closures.push_back(c);
+    }
     if (!scene_.actuated && scene_.free_motion) {
       throw SceneError("free_motion: every joint is actuated unless 'actuated' says which are");
     }
     if (!scene_.actuated) return;
     std::set<std::string> seen;
     std::vector<bool> closures(scene_.closures.size(), false);
+    for (const std::size_t c : loops_.actuated_closures) closures[c] = true;
+    loops_.actuated_closures.clear();
     for (std::size_t i = 0; i < scene_.actuated->size(); ++i) {
       const std::string& name = (*scene_.actuated)[i];
       requireOnce("actuated", seen, name);

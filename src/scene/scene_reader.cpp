@@ -1,10 +1,14 @@
 #include "virtual_work_dynamics/scene_reader.h"
 
+#include <algorithm>
+
 #include "base/number_text.h"
 #include "base/printable.h"
 #include "base/text_file.h"
 #include "scene/closure_reader.h"
+#include "scene/closure_types.h"
 #include "scene/joint_type_checks.h"
+#include "scene/touch_reader.h"
 #include "scene/yaml_document.h"
 #include "scene/yaml_values.h"
 #include "virtual_work_dynamics/error.h"
@@ -179,6 +183,11 @@ Tolerances readTolerances(const YAML::Node& node, const std::string& where) {
   return tolerances;
 }
 
+// Where the list of the scene that a closure stands in comes among them.
+int listOf(const Closure& closure) {
+  return std::max(static_cast<int>(closure.type), static_cast<int>(ClosureType::kDistance));
+}
+
 void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
   if (readLoopEntry(key, value, scene)) return;
   if (!contains(kSceneKeys, key)) {
@@ -187,6 +196,7 @@ void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
          {"closures", "springs", "actuated", "free_motion", "given", "assembly", "redundancy"}) {
       known.emplace_back(other);
     }
+    known.insert(known.end(), touchKeys().begin(), touchKeys().end());
     failAtUnknownKey("", key, known);
   }
   if (key == "gravity") scene.gravity = readVector3(value, key);
@@ -213,6 +223,9 @@ Scene readScene(const YAML::Node& node) {
   forEachEntry(node, "", [&](const std::string& key, const YAML::Node& value) {
     readEntry(key, value, scene);
   });
+  // The order of a map's keys says nothing, and ROS parameters do not keep it.
+  std::stable_sort(scene.closures.begin(), scene.closures.end(),
+                   [](const Closure& a, const Closure& b) { return listOf(a) < listOf(b); });
   return scene;
 }
 

@@ -12,5 +12,8 @@ vwd_core(
   resolved_loops.cpp
   scene.cpp
   scene_reader.cpp
+  touch_checks.cpp
+  touch_reader.cpp
+  touch_rows.cpp
   yaml_document.cpp
   yaml_values.cpp)

@@ -96,5 +96,26 @@ TEST_F(RandomLoopsTest, AgreeWithMaximalCoordinates) {
   EXPECT_GE(compared_, 1000);
 }
 
+// Wheels, blades and points on planes, and cylinders, mixed with joints of all types.
+TEST_F(RandomLoopsTest, WithContactsAndCylindersAgreeWithMaximalCoordinates) {
+  RandomLoops random(17, true);
+  int solved = 0, too_few = 0;
+  for (int i = 0; i < 400; ++i) {
+    SCOPED_TRACE("case " + std::to_string(i));
+    const Case loops = random.next();
+    const MaximalCoordinatesOracle oracle(loops.mechanism, loops.scene, loops.motion);
+    if (oracle.freeMotions() > 0) {
+      ++too_few;
+      EXPECT_THROW(NamedLoopResults(loops.mechanism, loops.scene, loops.motion), SceneError);
+      continue;
+    }
+    ++solved;
+    check(loops, oracle);
+  }
+  EXPECT_GE(solved, 100);
+  EXPECT_GE(too_few, 20);
+  EXPECT_GE(compared_, 1000);
+}
+
 }  // namespace
 }  // namespace virtual_work_dynamics

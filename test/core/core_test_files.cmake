@@ -25,6 +25,8 @@ set(core_test_files
   test/core/compound_joints_refusals_test.cpp
   test/core/compound_joints_sdfast_test.cpp
   test/core/compound_joints_test.cpp
+  test/core/contacts_test.cpp
+  test/core/cylinder_test.cpp
   test/core/description_deviations_test.cpp
   test/core/description_messages_test.cpp
   test/core/deviation_rows_test.cpp
@@ -60,6 +62,7 @@ set(core_test_files
   test/core/loop_oracles_test.cpp
   test/core/loop_rank_test.cpp
   test/core/loop_residuals_test.cpp
+  test/core/mobile_base_test.cpp
   test/core/model_view_test.cpp
   test/core/moment_points_test.cpp
   test/core/momentum_observer_test.cpp
@@ -120,6 +123,7 @@ set(core_test_files
   test/core/reference_recursion_test.cpp
   test/core/reference_test.cpp
   test/core/regressor_test.cpp
+  test/core/rolling_test.cpp
   test/core/root_coordinates_test.cpp
   test/core/root_covariance_test.cpp
   test/core/root_estimator_test.cpp
@@ -146,12 +150,16 @@ set(core_test_files
   test/core/structured_loops_test.cpp
   test/core/summation_test.cpp
   test/core/table_law_test.cpp
+  test/core/touch_conditions_test.cpp
+  test/core/touch_invariance_test.cpp
+  test/core/touch_reader_test.cpp
   test/core/trajectory_curve_test.cpp
   test/core/turn_estimator_test.cpp
   test/core/unwrap_test.cpp
   test/core/urdf_reader_test.cpp
   test/core/urdf_writer_test.cpp
   test/core/velocity_judge_test.cpp
+  test/core/wheels_test.cpp
   test/core/wrench_history_test.cpp
   test/core/zero_rows_test.cpp
   src/offline/effort_comparison.cpp

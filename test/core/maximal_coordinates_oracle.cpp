@@ -4,7 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "touch_geometry.h"
+
 namespace virtual_work_dynamics {
+
+namespace {
+
+bool touchesInAPoint(const Closure& closure) {
+  return closure.type == ClosureType::kRolling || closure.type == ClosureType::kKnifeEdge ||
+         closure.type == ClosureType::kContact;
+}
+
+}  // namespace
 
 template <typename Real>
 MaximalCoordinates<Real>::MaximalCoordinates(const Mechanism& mechanism, const Scene& scene,
@@ -21,8 +32,14 @@ MaximalCoordinates<Real>::MaximalCoordinates(const Mechanism& mechanism, const S
   cuts_.push_back({kGround, -1, 0, bodies_.origin(0), bodies_.orientation(0)});
   for (const Closure& closure : scene.closures) {
     const PlacedFrame frame(mechanism, bodies_, closure.child);
-    cuts_.push_back({closure.name, mechanism.linkIndex(closure.parent.link),
-                     mechanism.linkIndex(closure.child.link), frame.o, frame.R});
+    Cut cut{closure.name, mechanism.linkIndex(closure.parent.link),
+            mechanism.linkIndex(closure.child.link), frame.o, frame.R};
+    if (touchesInAPoint(closure)) {
+      const PlacedTouch touch(mechanism, bodies_, closure);
+      cut.o = touch.o;
+      cut.R = touch.R;
+    }
+    cuts_.push_back(cut);
   }
   for (const Cut& cut : cuts_) length_ = std::max(length_, (cut.o - bodies_.origin(0)).norm());
   for (std::size_t i = 0; i < mechanism.links().size(); ++i) {
@@ -97,9 +114,13 @@ typename MaximalCoordinates<Real>::Effort MaximalCoordinates<Real>::closureEffor
   const std::size_t cut = indexOf(name);
   const Closure& closure = scene_.closures[cut - mechanism_.joints().size() - 1];
   Vector row = Vector::Zero(G_.cols());
-  const bool slides = closure.type == ClosureType::kPrismatic;
+  const bool cylinder = closure.type == ClosureType::kCylinder;
+  const bool slides = cylinder || closure.type == ClosureType::kPrismatic;
+  const PlacedFrame parent(mechanism_, bodies_, closure.parent);
+  const Vector3l axis =
+      cylinder ? Vector3l((cuts_[cut].o - parent.o).normalized()) : Vector3l(cuts_[cut].R.col(2));
   row.template segment<3>(at(cut) + (slides ? 0 : 3)) =
-      (cuts_[cut].R.col(2) * (slides ? 1 : length_)).template cast<Real>();
+      (axis * (slides ? 1 : length_)).template cast<Real>();
   return effort(row, 0);
 }
 
@@ -222,7 +243,8 @@ template <typename Real>
 void MaximalCoordinates<Real>::addFreeDirections(std::size_t c) {
   using Type = ClosureType;
   const Closure& closure = scene_.closures[c];
-  if (actuated(closure.name)) return;  // one free direction, which carries the effort
+  const bool cylinder = closure.type == Type::kCylinder;
+  if (actuated(closure.name) && !cylinder) return;  // one free direction carries the effort
   const std::size_t cut = mechanism_.joints().size() + 1 + c;
   const PlacedFrame parent(mechanism_, bodies_, closure.parent);
   const Matrix3l& R = cuts_[cut].R;
@@ -241,10 +263,14 @@ void MaximalCoordinates<Real>::addFreeDirections(std::size_t c) {
     turn(parent.R.col(2));
     turn(R.col(0));
   }
-  if (type == Type::kSpherical || type == Type::kDistance) {
+  const bool touch = touchesInAPoint(closure);
+  if (type == Type::kSpherical || type == Type::kDistance || cylinder || touch) {
     for (int i = 0; i < 3; ++i) turn(Vector3l::Unit(i));
   }
-  if (type == Type::kDistance) {
+  if (touch) {
+    for (const Vector3l& free : PlacedTouch(mechanism_, bodies_, closure).free) slide(free);
+  }
+  if (type == Type::kDistance || cylinder) {
     const Vector3l rod = (cuts_[cut].o - parent.o).normalized();
     const Vector3l across = rod.unitOrthogonal();
     slide(across);

@@ -21,7 +21,9 @@ class NamedLoopResults {
 
   static std::vector<std::string> namesOf(const Mechanism& mechanism, const Scene& scene) {
     std::vector<std::string> names{kGround};
-    for (const Joint& joint : mechanism.joints()) names.push_back(joint.name);
+    for (int k = 0; k < static_cast<int>(mechanism.joints().size()); ++k) {
+      if (!mechanism.isInnerPart(k)) names.push_back(mechanism.reactionName(k));
+    }
     for (const Closure& closure : scene.closures) names.push_back(closure.name);
     return names;
   }

@@ -9,6 +9,7 @@
 
 #include "newton_euler_oracle.h"
 #include "random_cases.h"
+#include "touch_geometry.h"
 
 namespace virtual_work_dynamics {
 
@@ -18,7 +19,8 @@ namespace virtual_work_dynamics {
 /// few.
 class RandomLoops {
  public:
-  explicit RandomLoops(unsigned seed) : cases_(seed) {}
+  /// @param touching whether there are wheels, blades and points on planes, and cylinders, too
+  explicit RandomLoops(unsigned seed, bool touching = false) : touching_(touching), cases_(seed) {}
 
   Case next() {
     Case random = cases_.next(3 + cases_.pick(7));
@@ -71,10 +73,12 @@ class RandomLoops {
     if (type == Type::kUniversal) {
       R = turn(2, cases_.uniform(-3, 3)) * turn(0, cases_.uniform(-3, 3));
     }
-    if (type == Type::kSpherical || type == Type::kDistance) R = cases_.rotation();
+    if (type == Type::kSpherical || type == Type::kDistance || type == Type::kCylinder) {
+      R = cases_.rotation();
+    }
     if (type == Type::kPrismatic || type == Type::kCylindrical) p.z() = cases_.uniform(-0.5, 0.5);
     if (type == Type::kPlanar) p = {cases_.uniform(-0.5, 0.5), cases_.uniform(-0.5, 0.5), 0};
-    if (type == Type::kDistance) p = cases_.vector(0.5);
+    if (type == Type::kDistance || type == Type::kCylinder) p = cases_.vector(0.5);
   }
 
   // The joints between a link and the root that move the link.
@@ -98,10 +102,14 @@ class RandomLoops {
     }
     Closure closure;
     closure.name = "closure_" + std::to_string(index);
-    closure.type = static_cast<ClosureType>(cases_.pick(8));
+    const bool higher = touching_ && cases_.chance(0.6);
+    closure.type = static_cast<ClosureType>(higher ? 8 + cases_.pick(4) : cases_.pick(8));
     closure.parent.link = mechanism.links()[static_cast<std::size_t>(parent)].name;
     closure.parent.xyz = cases_.doubles(0.5);
     closure.parent.rpy = rpyOf(cases_.rotation());
+    if (higher && closure.type != ClosureType::kCylinder) {
+      return touch(mechanism, bodies, parent, child, closure);
+    }
     Vector3l p;
     Matrix3l R;
     freeMotion(closure.type, p, R);
@@ -116,6 +124,34 @@ class RandomLoops {
     if (closure.type == ClosureType::kDistance && cases_.chance(0.5)) {
       closure.length = static_cast<double>(p.norm());
     }
+    return closure;
+  }
+
+  // What touches lies at random on its link; its plane, of random directions, where it touches.
+  Closure touch(const Mechanism& mechanism, const NewtonEulerOracle& bodies, int parent, int child,
+                Closure closure) {
+    Touch& touch = closure.touch;
+    closure.child.link = mechanism.links()[static_cast<std::size_t>(child)].name;
+    closure.child.xyz = cases_.doubles(0.5);
+    closure.child.rpy = rpyOf(cases_.rotation());
+    touch.normal = cases_.chance(0.7);
+    if (closure.type == ClosureType::kRolling) {
+      touch.radius = cases_.chance(0.1) ? 0 : cases_.uniform(0.05, 0.5);
+      touch.tube_radius = touch.radius == 0 || cases_.chance(0.3) ? cases_.uniform(0.01, 0.1) : 0;
+      touch.slip = static_cast<Slip>(cases_.pick(touch.normal ? 4 : 3));
+      if (cases_.chance(0.2)) touch.roller_angle = cases_.uniform(-1.5, 1.5);
+    }
+    if (closure.type == ClosureType::kContact) {
+      touch.normal = true;
+      touch.slip = cases_.chance(0.3) ? Slip::kAll : Slip::kNone;
+      touch.closed = cases_.chance(0.8);
+    }
+    const PlacedTouch placed(mechanism, bodies, closure);
+    const Matrix3l R_0L = bodies.orientation(parent).transpose();
+    const Vector3l shift{cases_.uniform(-0.5, 0.5), cases_.uniform(-0.5, 0.5), 0};
+    const Vector3l in_parent =
+        R_0L * (placed.o - bodies.origin(parent)) + rotationOf(closure.parent.rpy) * shift;
+    closure.parent.xyz = in_parent.cast<double>();
     return closure;
   }
 
@@ -170,6 +206,7 @@ class RandomLoops {
     return redundancy;
   }
 
+  bool touching_;
   RandomCases cases_;
 };
 

@@ -29,6 +29,11 @@ MAPS = {
     "kClosureKeys": ("closures",),
     "kFrameKeys": ("closures.parent", "closures.child"),
     "kSpringKeys": ("springs",),
+    "kRollingKeys": ("rolling",),
+    "kPlaneKeys": ("rolling.plane",),
+    "kKnifeEdgeKeys": ("knife_edges",),
+    "kContactKeys": ("contacts",),
+    "kCylinderKeys": ("cylinders",),
     "kRedundancyKeys": ("redundancy",),
 }
 # Lists of {name, <quantity>} that readNamedNumbers() reads.
@@ -38,6 +43,7 @@ STRUCTS = {"": "Scene", "moments_about": "MomentPoint", "applied_wrenches": "App
            "applied_wrenches.deviation": "WrenchDeviation",
            "payload": "Payload", "joints": "JointTerms",
            "tolerances": "Tolerances",
+           "rolling": "Touch", "contacts": "Touch",
            "closures.parent": "LinkFrame", "closures.child": "LinkFrame", "springs": "PointSpring",
            "redundancy": "Redundancy"}
 # Members that have other names, or other values, than their keys.
@@ -49,6 +55,8 @@ TABLES = {"Top level": [""], "moments_about": ["moments_about"],
           "joint_types": ["joint_types"],
           "tolerances": ["tolerances"],
           "closures": ["closures", ("closures.parent", "closures.child")], "springs": ["springs"],
+          "rolling": ["rolling", "rolling.plane"], "knife_edges": ["knife_edges"],
+          "contacts": ["contacts"], "cylinders": ["cylinders"],
           "assembly": ["assembly"],
           "redundancy": ["redundancy", "redundancy.stiffness", "redundancy.effort_weights"]}
 HEAD = "| key | value | default | meaning |"
@@ -72,7 +80,7 @@ def accepted_keys(root):
                 continue
             paths.update({(NAMED_NUMBERS[quantity], "name"), (NAMED_NUMBERS[quantity], quantity)})
         # Keys of the top level that are read one by one.
-        loop = re.search(r"bool readLoopEntry\(.*?\n}", text, re.DOTALL)
+        loop = re.search(r"bool read(?:Loop|Touch)Entry\(.*?\n}", text, re.DOTALL)
         if loop:
             keys = re.findall(r'key == "(\w+)"', loop.group())
             known.update(keys)
@@ -207,6 +215,10 @@ BROKEN = [
      "default of motion is static"),
     (PAGE, "| `rest_length` | number, m | `0` |", "| `rest_length` | number, m | |",
      "springs.rest_length has no default"),
+    (PAGE, "| `roller_angle` |", "| `roller` |", "lacks the key rolling.roller_angle"),
+    (PAGE, "`rolling`, `lateral` or `all` | `none` |", "`rolling`, `lateral` or `all` | `all` |",
+     "default of rolling.slip is all"),
+    (HEADER, "bool closed = true;", "bool closed = false;", "default of contacts.closed is true"),
     (HEADER, "double coulomb_velocity = 1e-3;", "double coulomb_velocity = 1e-2;",
      "default of joints.coulomb_velocity"),
     ("src/scene/closure_reader.cpp", '{"link", "xyz", "rpy"}', '{"link", "xyz", "rpy", "axis"}',

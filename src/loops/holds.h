@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "loops/forces.h"
+#include "loops/kinematics.h"
+#include "virtual_work_dynamics/results.h"
+#include "virtual_work_dynamics/scene.h"
+
+namespace virtual_work_dynamics {
+
+/// Whether forces act as what makes them can: contacts press and have friction cones, cables pull.
+/// Immutable.
+class LoopHolds {
+ public:
+  LoopHolds(const Scene& scene, const LoopKinematics& kinematics,
+            const std::vector<LoopGroup>& groups);
+
+  const std::vector<std::string>& names() const { return names_; }
+  /// Judges the solutions of all groups. Does not allocate.
+  void judge(std::vector<LoopForces>& forces, std::vector<Hold>& holds) const;
+
+ private:
+  struct Item {
+    std::size_t group, local;    // of its closure
+    int acting;                  // its unknown that acts one way
+    double sign;                 // of that unknown
+    int along_begin, along_end;  // its unknowns along the plane
+    std::optional<double> friction;
+  };
+  static Hold judge(LoopForces& forces, const Item& item);
+
+  std::vector<std::string> names_;
+  std::vector<Item> items_;
+};
+
+}  // namespace virtual_work_dynamics
