@@ -109,7 +109,34 @@ enum class ClosureType {
   kUniversal,    ///< turns about the parent's z and the child's x, which stay normal to each other
   kSpherical,    ///< all turns
   kPlanar,       ///< slides along x and y and a turn about z
-  kDistance      ///< everything except the distance of the origins: a massless rod
+  kDistance,     ///< everything except the distance of the origins: a massless rod
+  // Pairs that touch in a point, which bear a force and no moment; see Touch. The parent frame is
+  // the plane: z is its normal, its origin one of its points.
+  kRolling,    ///< a wheel on a plane: its centre is the child frame's origin, z its axle
+  kKnifeEdge,  ///< a blade on a plane: its point is the child frame's origin, x goes along it
+  kContact,    ///< a point of the child, its frame's origin, on a plane
+  kCylinder    ///< a massless actuator along the line between the origins
+};
+
+/// Which of its two motions in the plane a wheel or a point is free to make.
+enum class Slip {
+  kNone,     ///< neither
+  kRolling,  ///< along its rolling direction: it only does not slip sideways
+  kLateral,  ///< sideways
+  kAll       ///< both: there is no friction
+};
+
+/// What a wheel, a blade or a point on a plane has besides its frames.
+struct Touch {
+  double radius = 0;       ///< of a wheel, m; without a tube it touches with a sharp edge
+  double tube_radius = 0;  ///< of the tube around its edge, a torus, m; a ball is nothing else
+  bool normal = true;      ///< false: joints hold the height, nothing presses on the plane
+  Slip slip = Slip::kNone;
+  /// Of rollers around a wheel, which turn freely: the angle of the axis of the one that touches
+  /// from the axle, about the normal, rad. The wheel holds along that axis only.
+  std::optional<double> roller_angle;
+  std::optional<double> friction;  ///< coefficient; none: the cone is not checked
+  bool closed = true;              ///< false: what touches is lifted and bears nothing
 };
 
 /// A joint that closes a loop of the mechanism: two frames on two links.
@@ -120,6 +147,8 @@ struct Closure {
   LinkFrame child;
   /// Distance of the origins of kDistance, m; none: their distance in the assembly.
   std::optional<double> length;
+  Touch touch;              ///< of kRolling, kKnifeEdge and kContact
+  bool pulls_only = false;  ///< of kCylinder: a cable, which is flagged when it would push
 };
 
 /// A massless spring and damper between two points of the mechanism, which pulls them together by
