@@ -29,16 +29,18 @@ MAPS = {
     "kClosureKeys": ("closures",),
     "kFrameKeys": ("closures.parent", "closures.child"),
     "kSpringKeys": ("springs",),
+    "kCouplingKeys": ("couplings",),
     "kRedundancyKeys": ("redundancy",),
 }
 # Lists of {name, <quantity>} that readNamedNumbers() reads.
 NAMED_NUMBERS = {"position": "assembly", "stiffness": "redundancy.stiffness",
-                 "weight": "redundancy.effort_weights"}
+                 "weight": "redundancy.effort_weights", "factor": "couplings.terms"}
 STRUCTS = {"": "Scene", "moments_about": "MomentPoint", "applied_wrenches": "AppliedWrench",
            "applied_wrenches.deviation": "WrenchDeviation",
            "payload": "Payload", "joints": "JointTerms",
            "tolerances": "Tolerances",
            "closures.parent": "LinkFrame", "closures.child": "LinkFrame", "springs": "PointSpring",
+           "couplings": "Coupling",
            "redundancy": "Redundancy"}
 # Members that have other names, or other values, than their keys.
 MEMBERS = {"motion": "static_motion", "root": "root_moves", "payload": "payloads"}
@@ -49,7 +51,7 @@ TABLES = {"Top level": [""], "moments_about": ["moments_about"],
           "joint_types": ["joint_types"],
           "tolerances": ["tolerances"],
           "closures": ["closures", ("closures.parent", "closures.child")], "springs": ["springs"],
-          "assembly": ["assembly"],
+          "couplings": ["couplings", "couplings.terms"], "assembly": ["assembly"],
           "redundancy": ["redundancy", "redundancy.stiffness", "redundancy.effort_weights"]}
 HEAD = "| key | value | default | meaning |"
 
