@@ -62,7 +62,8 @@ class ClosedLoopDynamics {
   const std::vector<bool>& residual() const;
   /// What motions give, as the scene says: the actuated coordinates unless it says otherwise.
   const Given& given() const;
-  /// Names of the actuated closures, whose efforts come after those of the coordinates.
+  /// Names of the actuated closures, whose efforts come after those of the coordinates, and before
+  /// those of the couplings.
   const std::vector<std::string>& actuatedClosures() const;
 
   /// Names of the closures whose force can act one way only: what presses on a plane, and cables.
@@ -80,10 +81,10 @@ class ClosedLoopDynamics {
   /// @throws SceneError when no joint moves a link whose pose is given.
   GivenFinding judge(const Given& given) const;
 
-  /// The tree that is left when closures and springs are cut. What these exert becomes applied
-  /// wrenches after the scene's own, with the values of LoopResults::tree_wrenches, so that
-  /// Certifier, LagrangeDynamics and ErrorBound, which do not know loops, can be made from this
-  /// scene. Its efforts are those of the coordinates, without the actuated closures.
+  /// The tree that is left when closures, springs and couplings are cut. What closures and springs
+  /// exert becomes applied wrenches after the scene's own, with the values of
+  /// LoopResults::tree_wrenches, so that Certifier, LagrangeDynamics and ErrorBound, which do not
+  /// know loops, can be made from this scene. Its efforts are Results::treeEffort().
   const Scene& tree() const;
 
   /// What a sample of the tree without closures and springs costs. Allocates; runs the recursion

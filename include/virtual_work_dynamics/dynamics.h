@@ -49,18 +49,23 @@ class Dynamics {
   /// Number of orientations of a motion, see Mechanism::orientations().
   std::size_t orientations() const;
   const Request& request() const;
-  /// Names of what has an effort: the coordinates, then the actuated closures. An effort that
-  /// nothing delivers, see ClosedLoopDynamics::residual(), has kMotionResidual before the name.
+  /// Names of what has an effort: the coordinates, the actuated closures, the couplings. An effort
+  /// that nothing delivers, see ClosedLoopDynamics::residual(), has kMotionResidual before the
+  /// name.
   const std::vector<std::string>& effortNames() const;
   /// Whether each effort, in the order of effortNames(), is a residual that nothing delivers.
   const std::vector<bool>& residuals() const;
 
-  /// Whether the scene has closures, springs between points or passive joints.
+  /// Whether the scene has closures, springs between points, couplings or passive joints.
   bool closed() const;
-  /// Names of the closures; none in an open chain.
+  /// Names of the closures, then of the couplings, which have residuals; none in an open chain.
   const std::vector<std::string>& closureNames() const;
   /// See ClosedLoopDynamics::oneSided(); none in an open chain.
   const std::vector<std::string>& oneSided() const;
+  /// How messages name one of these: "closure 'pin'", "coupling 'wrist'". Allocates.
+  std::string closureLabel(std::size_t i) const;
+  /// Number of couplings, whose efforts are the last.
+  std::size_t couplings() const;
   /// Whether each generalized coordinate is actuated; in an open chain all are.
   const std::vector<bool>& actuated() const;
   /// What motions give, as the scene says. Unless it says anything, these are the actuated
@@ -69,8 +74,8 @@ class Dynamics {
   /// See ClosedLoopDynamics::judge(); in an open chain nothing is wrong. Allocates.
   ClosedLoopDynamics::GivenFinding judge(const Given& given) const;
   /// Whether the closures determine the motion of passive joints from that of the actuated ones:
-  /// there are closures, none of them is actuated, and all have positions, which wheels and blades
-  /// have not.
+  /// there are closures or couplings, no closure is actuated, and all have positions, which wheels
+  /// and blades have not.
   bool closuresDetermine() const;
   /// The position in which the loops are assembled; zero in an open chain.
   const Eigen::VectorXd& assembly() const;

@@ -85,9 +85,10 @@ struct LoopResults {
   /// By what ClosedLoopDynamics::oneSided() names.
   std::vector<Hold> holds;
 
-  /// By closure: Determinacy::condition of the loops that are solved together with its own.
+  /// By closure, then by coupling: Determinacy::condition of the loops that are solved together
+  /// with its own.
   std::vector<double> closure_conditions;
-  /// By closure: how far the motion violates it.
+  /// By closure, then by coupling: how far the motion violates it.
   std::vector<ClosureResidual> residuals;
   /// Residuals without units, to be compared with a tolerance: lengths over the size of the loops,
   /// velocities also over the largest rate of the motion, accelerations over its largest
@@ -95,8 +96,11 @@ struct LoopResults {
   /// acceleration below 1/s^2 as 1/s^2.
   std::vector<ClosureResidual> relative_residuals;
   /// How far each actuated closure has turned, within half a turn, or slid, in rad or m, and how
-  /// fast, in rad/s or m/s.
+  /// fast, in rad/s or m/s; then the sum of each coupling, and its rate.
   Eigen::VectorXd actuated_positions, actuated_velocities;
+  /// By coordinate: what actuators and couplings exert together, N m or N, which the tree that is
+  /// left when closures, springs and couplings are cut needs to move so. Empty without couplings.
+  Eigen::VectorXd tree_effort;
   /// Wrenches on the tree that is left when closures and springs are cut: the scene's own, then
   /// those of springs and closures, in root axes.
   std::vector<Wrench> tree_wrenches;
@@ -105,7 +109,8 @@ struct LoopResults {
 /// Results of one sample, in the order of the Request.
 struct Results {
   /// Efforts, N m or N: one for each generalized coordinate, zero where it is passive, then one for
-  /// each actuated closure. Empty when the request of an open chain leaves efforts out.
+  /// each actuated closure, then one for each coupling. Empty when the request of an open chain
+  /// leaves efforts out.
   Eigen::VectorXd effort;
   std::vector<Wrench> child_axes;  ///< of Request::child_axes
   std::vector<Wrench> root_axes;   ///< of Request::root_axes
@@ -115,6 +120,12 @@ struct Results {
 
   /// False when any result overflowed to infinity or NaN, as huge inputs can.
   bool finite() const;
+
+  /// The efforts of the coordinates of Dynamics::tree(), which are those of actuators and
+  /// couplings.
+  Eigen::VectorXd::ConstSegmentReturnType treeEffort(Eigen::Index coordinates) const {
+    return (loops.tree_effort.size() > 0 ? loops.tree_effort : effort).head(coordinates);
+  }
 
   /// Whether actuated joints and closures do not hold the mechanism in its position.
   bool singular() const { return loops.determinacy.free_motions > 0; }

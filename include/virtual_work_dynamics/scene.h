@@ -184,6 +184,19 @@ struct Redundancy {
   RedundancyPolicy policy = RedundancyPolicy::kMinimumNorm;
   std::vector<std::string> zero_at;         ///< names of closures, for kZeroAt
   std::vector<NamedNumber> stiffness;       ///< joints and closures, relative; others: 1
+/// A linear relation between coordinates, such as gears, belts and differentials make: the sum of
+/// factors times positions is the offset. Positions are those of whole turns, not within one. The
+/// sum has the unit of the first joint's position, factors of joints of the other kind carry a
+/// length. Its effort, N m or N to match, acts on each coordinate by the factor times the effort;
+/// it loads no bearing.
+struct Coupling {
+  std::string name;
+  /// Joints that move, each once, and their factors; of a joint with several freedoms its parts.
+  std::vector<NamedNumber> terms;
+  std::optional<double> offset;  ///< rad or m; none: what the sum is in the assembly
+  bool rate_only = false;  ///< ties velocities and accelerations alone, as a slipping belt does
+};
+
   std::vector<NamedNumber> effort_weights;  ///< actuated joints, in least squares; others: 1
   /// Tolerance of the rank of the length-scaled system, relative. Closures whose frames fit each
   /// other to within it count as closed.
@@ -247,8 +260,9 @@ struct Scene {
   Redundancy redundancy;
 };
 
-/// Whether a scene has closures, springs or passive joints, or says what motions give, which only
-/// ClosedLoopDynamics knows.
+  std::vector<Coupling> couplings;
+/// Whether a scene has closures, springs, couplings or passive joints, or says what motions give,
+/// which only ClosedLoopDynamics knows.
 bool needsClosedLoops(const Scene& scene);
 
 /// Names of the reactions that the scene asks for: "ground" first, then joints in depth-first

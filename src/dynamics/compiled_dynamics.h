@@ -21,9 +21,12 @@ struct Dynamics::Impl {
   Request tree_request;
   Load own_load;  // values in the scene
   std::vector<std::string> effort_names, closure_names;
-  std::vector<bool> residuals;  // by effort
-  bool have_positions = true;   // what closes loops, which wheels and blades have not
+  std::size_t first_coupling = 0;  // in closure_names
+  bool have_positions = true;      // all conditions, which wheels and blades have not
+  std::vector<bool> residuals;     // by effort
   std::vector<bool> actuated;
+  std::vector<bool> coupled;  // by coordinate: whole turns make a difference
+  std::vector<bool> bends;    // by coordinate: not tied by couplings alone
   Given given;
   Eigen::VectorXd assembly;
 };

@@ -6,6 +6,7 @@
 #include "base/printable.h"
 #include "dynamics/compiled_dynamics.h"
 #include "dynamics/given_joints.h"
+#include "loops/compiled_loops.h"
 #include "loops/cut_tree.h"
 #include "loops/given_loops.h"
 #include "scene/input_checks.h"
@@ -38,6 +39,8 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
       actuated(mechanism.coordinates().size(), true),
       assembly(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(actuated.size()))) {
   given.coordinates = actuated;
+  coupled.assign(actuated.size(), false);
+  bends.assign(actuated.size(), true);
   if (!needsClosedLoops(scene)) {
     chain.emplace(mechanism, scene, request, instruction_set);
     return;
@@ -65,8 +68,22 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
   assembly = loops->assembly();
   const std::vector<std::string>& closures = loops->actuatedClosures();
   effort_names.insert(effort_names.end(), closures.begin(), closures.end());
+  for (const Coupling& coupling : scene.couplings) effort_names.push_back(coupling.name);
   residuals.resize(effort_names.size(), false);
   for (const Closure& closure : scene.closures) closure_names.push_back(closure.name);
+  first_coupling = closure_names.size();
+  for (const Coupling& coupling : scene.couplings) {
+    closure_names.push_back(coupling.name);
+    if (coupling.rate_only) have_positions = false;
+  }
+  const LoopKinematics& kinematics = loops->impl_->kinematics;
+  for (std::size_t s = 0; s < kinematics.sets(); ++s) {
+    if (!kinematics.set(s).isLinear()) continue;
+    for (const int coordinate : kinematics.set(s).coordinates()) {
+      coupled[static_cast<std::size_t>(coordinate)] = true;
+      bends[static_cast<std::size_t>(coordinate)] = kinematics.bends(coordinate);
+    }
+  }
 }
 
 Dynamics::Dynamics(const Mechanism& mechanism, const Scene& scene, const Request& request,
@@ -115,6 +132,14 @@ const std::vector<std::string>& Dynamics::closureNames() const {
 const std::vector<std::string>& Dynamics::oneSided() const {
   static const std::vector<std::string> kNone;
   return impl_->loops ? impl_->loops->oneSided() : kNone;
+}
+
+std::string Dynamics::closureLabel(std::size_t i) const {
+  return (i < impl_->first_coupling ? "closure " : "coupling ") + inQuotes(impl_->closure_names[i]);
+}
+
+std::size_t Dynamics::couplings() const {
+  return impl_->closure_names.size() - impl_->first_coupling;
 }
 
 const std::vector<bool>& Dynamics::actuated() const {
@@ -211,8 +236,8 @@ std::string Dynamics::whyOpen(const Motion& motion, const std::vector<bool>& giv
     return kSingularPosition;
   }
   const auto closure = static_cast<std::size_t>(worst - found.relative_residuals.begin());
-  return "the loops cannot be closed: closure " + inQuotes(impl_->closure_names[closure]) +
-         " stays open by " + numberText(found.residuals[closure].position) + " m or rad";
+  return "the loops cannot be closed: " + closureLabel(closure) + " stays open by " +
+         numberText(found.residuals[closure].position) + " m or rad";
 }
 
 void Dynamics::compute(const Motion& motion, Workspace& workspace) const {

@@ -14,6 +14,7 @@ struct EffortGroups {
   std::vector<std::string> actuated;   ///< of actuators
   std::vector<std::string> passive;    ///< of passive coordinates, which are zero
   std::vector<std::string> residuals;  ///< of free motions, which nothing delivers
+  std::vector<std::string> couplings;  ///< which couplings deliver
 };
 
 }  // namespace virtual_work_dynamics

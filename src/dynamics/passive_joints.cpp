@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dynamics/compiled_dynamics.h"
 #include "loops/given_loops.h"
 #include "scene/input_checks.h"
 
@@ -58,10 +59,11 @@ PassiveJoints::PassiveJoints(const Mechanism& mechanism, const Dynamics& dynamic
   for (std::size_t i = 0; i < mechanism.coordinates().size(); ++i) {
     const Joint& joint = mechanism.joints()[static_cast<std::size_t>(mechanism.coordinates()[i])];
     const auto index = static_cast<Eigen::Index>(i);
-    if (joint.type != JointType::kPrismatic) turning_.push_back(index);
+    const Dynamics::Impl& plan = *dynamics.impl_;
+    if (joint.type != JointType::kPrismatic && plan.bends[i]) turning_.push_back(index);
     if (!given.coordinates[i]) continue;
     fixed_.push_back(index);
-    wraps_.push_back(joint.type == JointType::kContinuous && !is_mimicked[i]);
+    wraps_.push_back(joint.type == JointType::kContinuous && !is_mimicked[i] && !plan.coupled[i]);
   }
   if (driven_.q.size() > 0 && dynamics.closed()) driven_loops_ = dynamics.givenLoops(given);
   for (Eigen::Index i = 0; i < driven_.q.size(); ++i) {

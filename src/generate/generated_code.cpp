@@ -21,6 +21,8 @@ void refuseLoops(const Scene& scene) {
     why = "closure " + inQuotes(scene.closures[0].name) + " closes a loop";
   } else if (!scene.springs.empty()) {
     why = "spring " + inQuotes(scene.springs[0].name) + " acts between two points";
+  } else if (!scene.couplings.empty()) {
+    why = "coupling " + inQuotes(scene.couplings[0].name) + " ties joints together";
   } else if (needsClosedLoops(scene)) {
     why = "not all joints are actuated";
   } else {

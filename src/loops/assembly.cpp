@@ -84,7 +84,8 @@ bool closeNear(LoopCompletion& completion, LoopKinematics& kinematics, NearestCl
   kinematics.setPosition(q);
   if (completion.misfit(kinematics) <= kNearlyClosed) {
     Eigen::VectorXd tried = q;
-    if (completion.close(kinematics, tried, given) && completion.largest(tried - q) <= kShortWay) {
+    if (completion.close(kinematics, tried, given) &&
+        kinematics.largestBent(tried - q, completion.scales()) <= kShortWay) {
       q = tried;
       return true;
     }
@@ -96,7 +97,7 @@ bool closeNear(LoopCompletion& completion, LoopKinematics& kinematics, NearestCl
 bool moveGiven(LoopCompletion& completion, LoopKinematics& kinematics, Eigen::VectorXd& q,
                const Eigen::VectorXd& start, const std::vector<bool>& given) {
   const Eigen::VectorXd from = q;
-  const double way = completion.largest(start - from);
+  const double way = kinematics.largestBent(start - from, completion.scales());
   const int steps = 1 + static_cast<int>(way / kShortWay);
   for (int step = 1; step <= steps; ++step) {
     for (Eigen::Index i = 0; i < q.size(); ++i) {
@@ -139,13 +140,15 @@ Eigen::VectorXd closedPosition(const LoopScene& loops, LoopCompletion& completio
 
 }  // namespace
 
-std::vector<std::string> farFromStart(const Mechanism& mechanism, const Eigen::VectorXd& start,
-                                      const Eigen::VectorXd& assembly, double length) {
+std::vector<std::string> farFromStart(const Mechanism& mechanism, const LoopKinematics& kinematics,
+                                      const Eigen::VectorXd& start, const Eigen::VectorXd& assembly,
+                                      double length) {
   std::vector<std::string> far;
   for (Eigen::Index i = 0; i < start.size(); ++i) {
     const Unit unit = mechanism.unitOf(static_cast<int>(i));
     const double way = std::abs(assembly[i] - start[i]);
     if (way <= (unit == Unit::kMetre ? length : kFar)) continue;
+    if (!kinematics.bends(static_cast<int>(i))) continue;  // it has no branches
     const std::string name = unit == Unit::kMetre ? " m" : " rad";
     far.push_back(
         "assembly: " + inQuotes(mechanism.coordinateNames()[static_cast<std::size_t>(i)]) +

@@ -24,10 +24,11 @@ constexpr double kCoincide = 1e-9;
 Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopCompletion& completion,
                          LoopKinematics& kinematics);
 
-/// Says of each coordinate that is assembled more than 1.5 rad, or the length, from its start how
-/// far that is, in one line.
-std::vector<std::string> farFromStart(const Mechanism& mechanism, const Eigen::VectorXd& start,
-                                      const Eigen::VectorXd& assembly, double length);
+/// Says of each coordinate of loops that is assembled more than 1.5 rad, or the length, from its
+/// start how far that is, in one line.
+std::vector<std::string> farFromStart(const Mechanism& mechanism, const LoopKinematics& kinematics,
+                                      const Eigen::VectorXd& start, const Eigen::VectorXd& assembly,
+                                      double length);
 
 /// Finds a position close to the assembly at which the loops are closed. It is regular even where
 /// the assembly is singular, unless the mechanism is singular everywhere. Returns the assembly

@@ -53,6 +53,7 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& of, const Scene& scene, const Re
       mechanism(of),
       static_motion(scene.static_motion),
       loops(resolveLoopScene(mechanism, scene)),
+      couplings(resolveCouplings(mechanism, scene)),
       springs(mechanism, scene),
       bare_tree(withoutLoops(scene)),
       tree(closedTreeScene(scene, springs)),
@@ -99,7 +100,7 @@ void ClosedLoopDynamics::Impl::close(const Scene& scene) {
   length = loops.length.value_or(loopLength(groups, kinematics));
   if (scene.free_motion) chooseResidual(scene);
   LoopSolvers solvers(mechanism, loops, groups, kinematics, length);
-  way = solvers.completion.largest(assembly - loops.start);
+  way = kinematics.largestBent(assembly - loops.start, solvers.completion.scales());
   requireHeld(mechanism, loops, assembly, solvers.completion, solvers.kinematics, solvers.forces);
   requireSprings(solvers);
 }
@@ -191,7 +192,8 @@ double ClosedLoopDynamics::assemblyWay() const {
 }
 
 std::vector<std::string> ClosedLoopDynamics::assemblyDoubts() const {
-  return farFromStart(impl_->mechanism, impl_->loops.start, impl_->assembly, impl_->length);
+  return farFromStart(impl_->mechanism, impl_->kinematics, impl_->loops.start, impl_->assembly,
+                      impl_->length);
 }
 
 const std::vector<bool>& ClosedLoopDynamics::actuated() const {

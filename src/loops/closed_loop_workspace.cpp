@@ -26,8 +26,9 @@ ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compil
       rest_(plan.assembly.size()) {
   if (plan.weighed_pass) weighed_ = plan.weighed_pass->makeWorkspace();
   load_.wrenches.resize(plan.own_wrenches + 2 * plan.springs.size());
-  const auto actuated_closures = static_cast<Eigen::Index>(plan.actuated_closures.size());
-  results.effort.setZero(plan.assembly.size() + actuated_closures);
+  const auto more_efforts =
+      static_cast<Eigen::Index>(plan.actuated_closures.size() + plan.couplings.size());
+  results.effort.setZero(plan.assembly.size() + more_efforts);
   results.child_axes.resize(child_axes_.size());
   results.root_axes.resize(root_axes_.size());
   if (plan.request.poses) results.poses.resize(root_axes_.size());
@@ -45,11 +46,13 @@ ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compil
   loops.root_axes_exist = determined.root_axes;
   loops.holds.assign(plan.holds.names().size(), Hold::kHolds);
   loops.springs_directed.assign(plan.springs.size(), true);
-  loops.closure_conditions.assign(plan.closures, 1);
-  loops.residuals.resize(plan.closures);
-  loops.relative_residuals.resize(plan.closures);
-  loops.actuated_positions.setZero(actuated_closures);
-  loops.actuated_velocities.setZero(actuated_closures);
+  const std::size_t sets = plan.closures + plan.couplings.size();
+  loops.closure_conditions.assign(sets, 1);
+  loops.residuals.resize(sets);
+  loops.relative_residuals.resize(sets);
+  loops.actuated_positions.setZero(more_efforts);
+  loops.actuated_velocities.setZero(more_efforts);
+  if (!plan.couplings.empty()) loops.tree_effort.setZero(plan.assembly.size());
   loops.tree_wrenches.resize(plan.tree.applied_wrenches.size());
 }
 
@@ -136,6 +139,38 @@ void ClosedLoopDynamics::Workspace::Impl::collect() {
     for (std::size_t c = 0; c < solution.closures.size(); ++c) {
       closures_[group.group().closures[c]] = solution.closures[c];
     }
+    for (std::size_t local = solution.closures.size(); local < group.group().sets.size(); ++local) {
+      results.effort[static_cast<Eigen::Index>(effortOf(group, local))] =
+          group.unitsOf(local)[0] * solution.x[group.firstUnknownOf(local)];
+    }
+  }
+  if (!plan.couplings.empty()) setCouplings();
+}
+
+std::size_t ClosedLoopDynamics::Workspace::Impl::effortOf(const LoopForces& group,
+                                                          std::size_t local) const {
+  const std::size_t coupling = group.group().sets[local] - plan.closures;
+  return plan.loops.actuated.size() + plan.actuated_closures.size() + coupling;
+}
+
+// What couplings exert on coordinates, the column of A^T times the multiplier (3.1), and their
+// sums.
+void ClosedLoopDynamics::Workspace::Impl::setCouplings() {
+  LoopResults& loops = results.loops;
+  loops.tree_effort = results.effort.head(plan.assembly.size());
+  const Eigen::Index first =
+      loops.actuated_positions.size() - static_cast<Eigen::Index>(plan.couplings.size());
+  for (std::size_t i = 0; i < plan.couplings.size(); ++i) {
+    const Eigen::Index place = first + static_cast<Eigen::Index>(i);
+    const double effort = results.effort[plan.assembly.size() + place];
+    double sum = 0;
+    for (const ResolvedCoupling::Term& term : plan.couplings[i].terms) {
+      sum += term.factor * solvers.kinematics.position()[term.coordinate];
+      loops.tree_effort[term.coordinate] += term.factor * effort;
+    }
+    loops.actuated_positions[place] = sum;
+    loops.actuated_velocities[place] =
+        solvers.kinematics.rates()[solvers.kinematics.firstOf(plan.closures + i)];
   }
 }
 
@@ -189,6 +224,10 @@ void ClosedLoopDynamics::Workspace::Impl::setDetermined() {
         const double open = change.x[actuator.unknown] / group.leastChange();
         effort_freedoms_[actuator.index] += open * open;
       }
+      for (const std::size_t local : change.touched_others) {
+        const double open = change.x[group.firstUnknownOf(local)] / group.leastChange();
+        effort_freedoms_[effortOf(group, local)] += open * open;
+      }
     }
     if (group.bears()) continue;
     child_axes_.addUnborne(kinematics, g, group);
@@ -220,8 +259,8 @@ void ClosedLoopDynamics::Workspace::Impl::setDeterminacy() {
     determinacy.redundant_constraints += static_cast<int>(group.redundantConstraints());
     determinacy.gap = std::min(determinacy.gap, group.gap());
     determinacy.condition = std::max(determinacy.condition, group.condition());
-    for (const std::size_t c : group.group().closures) {
-      results.loops.closure_conditions[c] = group.condition();
+    for (const std::size_t s : group.group().sets) {
+      results.loops.closure_conditions[s] = group.condition();
     }
   }
 }
@@ -281,6 +320,11 @@ void ClosedLoopDynamics::Workspace::Impl::setExistence() {
     for (const int i : group.group().coordinates) {
       const auto coordinate = static_cast<std::size_t>(i);
       loops.effort_exists[coordinate] = determined.effort[coordinate];
+    }
+    const LoopGroup& of = group.group();
+    for (std::size_t local = of.closures.size(); local < of.sets.size(); ++local) {
+      const std::size_t coupling = effortOf(group, local);
+      loops.effort_exists[coupling] = determined.effort[coupling];
     }
   }
 }

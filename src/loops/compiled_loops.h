@@ -17,6 +17,7 @@
 #include "loops/reactions.h"
 #include "loops/residuals.h"
 #include "loops/spring_reach.h"
+#include "scene/couplings.h"
 #include "scene/resolved_loops.h"
 #include "virtual_work_dynamics/closed_loop_dynamics.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
@@ -47,8 +48,9 @@ struct ClosedLoopDynamics::Impl {
   Mechanism mechanism;
   bool static_motion;
   LoopScene loops;
+  std::vector<ResolvedCoupling> couplings;
   PointSprings springs;
-  Scene bare_tree;  // without closures and springs
+  Scene bare_tree;  // without closures, springs and couplings
   Scene tree;
   std::size_t own_wrenches;  // number of the scene's own, the tree's first
   Load own_load;             // values of the scene's own wrenches
@@ -96,6 +98,8 @@ struct ClosedLoopDynamics::Workspace::Impl {
     std::swap(results, others);
     all_exist_ = false;
   }
+  /// The effort, by place in Results, of a set of a group that is no closure's.
+  std::size_t effortOf(const LoopForces& group, std::size_t local) const;
   /// Sets the flags and the ranks below, of the sample computed last.
   void setDetermined();
   void setRanks();
@@ -120,6 +124,7 @@ struct ClosedLoopDynamics::Workspace::Impl {
   void addClosures(const LoopReactions& reactions, const std::vector<Wrench>& tree,
                    std::vector<Wrench>& values) const;
   void setActuatedClosures();
+  void setCouplings();
   void publishFlags();
   void setExistence();
   void leaveOutSprings();

@@ -39,7 +39,8 @@ double LoopCompletion::misfit(const LoopKinematics& kinematics) const {
 }
 
 // Solves A_p u = -conditions by the latest factorizations for all groups; returns the largest
-// entry, rad or over the length. Those of a group are shortened to `longest`.
+// entry of coordinates that bend, rad or over the length. Those of a group are shortened to
+// `longest`.
 double LoopCompletion::solveSteps(const LoopKinematics& kinematics,
                                   const Eigen::VectorXd& conditions, double longest,
                                   Eigen::VectorXd& step) {
@@ -48,7 +49,10 @@ double LoopCompletion::solveSteps(const LoopKinematics& kinematics,
     setRight(kinematics, system, conditions);
     solve(system);
     double own = 0;
-    for (const int place : system.found) own = std::max(own, std::abs(found_[place]));
+    for (const int place : system.found) {
+      const int coordinate = system.group.coordinates[static_cast<std::size_t>(place)];
+      if (kinematics.bends(coordinate)) own = std::max(own, std::abs(found_[place]));
+    }
     const double damping = own > longest ? longest / own : 1;
     for (const int place : system.found) {
       const int coordinate = system.group.coordinates[static_cast<std::size_t>(place)];
@@ -66,7 +70,7 @@ double LoopCompletion::bendStep(LoopKinematics& kinematics) {
   if (step_length_ > kLongestBent || kinematics.drives()) return 0;
   kinematics.setVelocity(step_);
   const double bend = solveSteps(kinematics, kinematics.turning(), kUnknown, bend_) / 2;
-  return bend <= kMostBent * step_length_ ? bend / step_length_ : 0;
+  return bend > 0 && bend <= kMostBent * step_length_ ? bend / step_length_ : 0;
 }
 
 // Goes the step, or as much of it as lessens the misfit; returns the misfit there.
@@ -116,7 +120,7 @@ bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
     if (fresh && share_ == 1) {
       if (bend == 0) bend = then / now;
       left = 2 * bend;
-      curvature = bend / step_length_;
+      if (step_length_ > 0) curvature = bend / step_length_;
     }
     if (!again) close_by_ = left < kUnknown && step_length_ <= kCloseBy;
     const bool stalled = then > search.stalled * now && then > closed;

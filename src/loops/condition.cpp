@@ -1,6 +1,7 @@
 #include "loops/condition.h"
 
 #include "loops/closure_conditions.h"
+#include "loops/coupling_conditions.h"
 
 namespace virtual_work_dynamics {
 
@@ -9,7 +10,7 @@ namespace {
 using Maker = ConditionSets (*)(const Mechanism& mechanism, const Scene& scene);
 
 // One line for each kind of condition. Closures stay first, so that closure c is set c.
-constexpr Maker kMakers[] = {closureConditions};
+constexpr Maker kMakers[] = {closureConditions, couplingConditions};
 
 }  // namespace
 
@@ -22,7 +23,7 @@ ConditionValues::ConditionValues(Eigen::Index conditions, Eigen::Index coordinat
                                  std::size_t sets)
     : frames(sets) {
   phi.setZero(conditions);
-  turning = b = bd = phi;
+  turning = b = bd = roundings = phi;
   A.setZero(conditions, coordinates);
   unit_wrenches.resize(static_cast<std::size_t>(conditions));
 }

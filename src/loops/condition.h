@@ -54,9 +54,12 @@ static_assert(sizeof(ClosureWrench) == kWrenchNumbers * sizeof(double), "plain n
 struct ConditionValues {
   ConditionValues(Eigen::Index conditions, Eigen::Index coordinates, std::size_t sets);
   Eigen::VectorXd phi;
-  Eigen::MatrixXd A;                         ///< conditions x coordinates
-  Eigen::VectorXd turning;                   ///< Ad qd
-  Eigen::VectorXd b, bd;                     ///< zero where a condition does not drive
+  Eigen::MatrixXd A;        ///< conditions x coordinates
+  Eigen::VectorXd turning;  ///< Ad qd
+  Eigen::VectorXd b, bd;    ///< zero where a condition does not drive
+  /// Roundings of Phi; where Phi adopts its constant, what is less is none. Zero where it is not
+  /// said.
+  Eigen::VectorXd roundings;
   std::vector<ClosureWrench> unit_wrenches;  ///< of a multiplier of one; zero without a wrench
   std::vector<FramePair> frames;             ///< by set; those of a closure
 };
@@ -68,6 +71,7 @@ class ConditionRows {
       : values_(values), set_(set), first_(first) {}
 
   double& phi(Eigen::Index i) { return values_.phi[first_ + i]; }
+  double& rounding(Eigen::Index i) { return values_.roundings[first_ + i]; }
   double& A(Eigen::Index i, int coordinate) { return values_.A(first_ + i, coordinate); }
   /// The entries of the set's rows for a coordinate.
   double* column(int coordinate) { return values_.A.col(coordinate).data() + first_; }
@@ -112,6 +116,10 @@ class ConditionSet {
   /// The joints whose levers tell how large its rows are where nothing cancels; null: its entries
   /// tell.
   virtual const std::vector<PathStep>* levers() const { return nullptr; }
+
+  /// Whether its rows are the same in every position, so that no step to where they are met is too
+  /// long.
+  virtual bool isLinear() const { return false; }
 
   /// Sets phi where there is one, A, and the frames and unit wrenches of a closure, from q and
   /// time. Does not allocate.

@@ -8,6 +8,7 @@ Scene withoutLoops(const Scene& scene) {
   Scene tree = scene;
   tree.closures.clear();
   tree.springs.clear();
+  tree.couplings.clear();
   tree.actuated.reset();
   tree.given.reset();
   tree.assembly.clear();

@@ -1,5 +1,6 @@
 #include "loops/kinematics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -21,6 +22,7 @@ LoopKinematics::LoopKinematics(const Mechanism& mechanism, const Scene& scene)
 LoopKinematics::LoopKinematics(const Mechanism& mechanism, ConditionSets sets)
     : kernel_(&loopKernelFor(chosenInstructionSet()).one),
       sets_(std::move(sets)),
+      bends_(mechanism.coordinates().size(), false),
       state_(mechanism),
       values_(countOf(sets_), static_cast<Eigen::Index>(mechanism.coordinates().size()),
               sets_.size()),
@@ -37,6 +39,9 @@ LoopKinematics::LoopKinematics(const Mechanism& mechanism, ConditionSets sets)
                      static_cast<int>(set->conditions().size()),
                      static_cast<std::size_t>(values_.A.rows())});
     lengths_.push_back(0);
+    for (const int i : coordinates) {
+      if (!set->isLinear()) bends_[static_cast<std::size_t>(i)] = true;
+    }
     for (const Condition& condition : set->conditions()) {
       if (condition.adopts_constant) {
         adopting_.push_back(static_cast<Eigen::Index>(conditions_.size()));
@@ -60,6 +65,15 @@ LoopKinematics::Norms LoopKinematics::normsOf(std::size_t set,
 }
 
 void LoopKinematics::setPosition(const Eigen::VectorXd& q) {
+double LoopKinematics::largestBent(const Eigen::VectorXd& way,
+                                   const std::vector<double>& scales) const {
+  double most = 0;
+  for (std::size_t i = 0; i < bends_.size(); ++i) {
+    if (bends_[i]) most = std::max(most, std::abs(way[static_cast<Eigen::Index>(i)]) / scales[i]);
+  }
+  return most;
+}
+
   if (placed_ && state_.q == q) return;
   placed_ = true;
   moving_ = false;
@@ -76,6 +90,7 @@ void LoopKinematics::subtractConstants() {
     if (adopted_) {
       values_.phi[i] -= constant;
       continue;
+      if (std::abs(values_.phi[i]) <= values_.roundings[i]) values_.phi[i] = 0;
     }
     constant = values_.phi[i];
     values_.phi[i] = 0;

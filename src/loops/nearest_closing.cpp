@@ -206,7 +206,11 @@ NearestClosing::Attempt NearestClosing::descend(const LoopGroup& group,
       Eigen::MatrixXd damped = squares;
       damped.diagonal().array() += damping;
       Eigen::VectorXd step = damped.ldlt().solve(slope);
-      const double longest = width > 0 ? step.cwiseAbs().maxCoeff() : 0;
+      double longest = 0;
+      for (Eigen::Index k = 0; k < width; ++k) {
+        const bool bends = kinematics_.bends(moving[static_cast<std::size_t>(k)]);
+        if (bends) longest = std::max(longest, std::abs(step[k]));
+      }
       if (longest > kLongestSearchStep) step *= kLongestSearchStep / longest;
       Eigen::VectorXd tried = attempt.q;
       for (Eigen::Index k = 0; k < width; ++k) {

@@ -10,8 +10,8 @@ LoopResiduals::LoopResiduals(const Mechanism& mechanism, const LoopKinematics& k
   for (int i = 0; i < static_cast<int>(mechanism.coordinates().size()); ++i) {
     scales_.push_back(scaleOf(mechanism.unitOf(i), length));
   }
-  for (std::size_t c = 0; c < kinematics.closures(); ++c) {
-    lengths_.push_back(kinematics.lengthsOf(c));
+  for (std::size_t s = 0; s < kinematics.sets(); ++s) {
+    lengths_.push_back(kinematics.lengthsOf(s));
   }
   view_ = {kinematics.shapesOfRows(),
            lengths_.data(),

@@ -9,8 +9,8 @@
 
 namespace virtual_work_dynamics {
 
-/// How far a motion violates each closure, in units and relative. Nothing after construction
-/// allocates.
+/// How far a motion violates each set of conditions, in units and relative. Nothing after
+/// construction allocates.
 class LoopResiduals {
  public:
   /// @param kinematics whose conditions it is about; must outlive it
@@ -18,7 +18,7 @@ class LoopResiduals {
   LoopResiduals(const Mechanism& mechanism, const LoopKinematics& kinematics, double length);
 
   /// Computes the residuals of a motion at the position of `kinematics`.
-  /// @param plain, relative receive one for each closure
+  /// @param plain, relative receive one for each set
   void find(LoopKinematics& kinematics, const Motion& motion, std::vector<ClosureResidual>& plain,
             std::vector<ClosureResidual>& relative) const;
   /// As kernels see them.
@@ -27,7 +27,7 @@ class LoopResiduals {
  private:
   const LoopFunctions* kernel_;
   std::vector<double> scales_;  // by coordinate: 1 or the length
-  std::vector<int> lengths_;    // by closure: how many of its conditions are lengths
+  std::vector<int> lengths_;    // by set: how many of its conditions are lengths
   ResidualsView view_;
 };
 

@@ -8,6 +8,7 @@ vwd_core(
   completion_rates.cpp
   condition.cpp
   condition_sizes.cpp
+  coupling_conditions.cpp
   cut_tree.cpp
   cylinder_conditions.cpp
   driven_conditions.cpp

@@ -12,6 +12,7 @@ SpringReach::SpringReach(const Mechanism& mechanism, const Scene& scene, const L
                          std::size_t spring, const Request& request) {
   std::vector<bool> joints(mechanism.joints().size()), closures(scene.closures.size());
   std::vector<bool> coordinates(mechanism.coordinates().size());
+  std::vector<bool> couplings(scene.couplings.size());
   for (const PathStep& step :
        pathBetween(mechanism, springs.linkA(spring), springs.linkB(spring))) {
     joints[static_cast<std::size_t>(step.joint)] = true;
@@ -23,6 +24,9 @@ SpringReach::SpringReach(const Mechanism& mechanism, const Scene& scene, const L
     if (std::none_of(group.coordinates.begin(), group.coordinates.end(), reached)) continue;
     for (const int i : group.coordinates) coordinates[static_cast<std::size_t>(i)] = true;
     for (const std::size_t c : group.closures) closures[c] = true;
+    for (std::size_t local = group.closures.size(); local < group.sets.size(); ++local) {
+      couplings[group.sets[local] - closures.size()] = true;
+    }
     for (const LoopGroup::CrossedJoint& crossed : group.joints) {
       joints[static_cast<std::size_t>(crossed.joint)] = true;
     }
@@ -32,6 +36,10 @@ SpringReach::SpringReach(const Mechanism& mechanism, const Scene& scene, const L
   }
   for (std::size_t i = 0; i < loops.actuated_closures.size(); ++i) {
     if (closures[loops.actuated_closures[i]]) efforts.push_back(coordinates.size() + i);
+  }
+  const std::size_t first = coordinates.size() + loops.actuated_closures.size();
+  for (std::size_t i = 0; i < couplings.size(); ++i) {
+    if (couplings[i]) efforts.push_back(first + i);
   }
   const auto add = [&](const std::vector<std::string>& names, std::vector<std::size_t>& items) {
     for (std::size_t i = 0; i < names.size(); ++i) {

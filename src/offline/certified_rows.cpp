@@ -17,7 +17,7 @@ void CertifiedRows::check(const Motion& motion, const Load& load, const Results&
     return;
   }
   dynamics_.getTreeLoad(results, load, load_);
-  const Certificates found = certifier_.check(motion, load_, results.effort.head(motion.q.size()),
+  const Certificates found = certifier_.check(motion, load_, results.treeEffort(motion.q.size()),
                                               results.child_axes[ground_]);
   note(found, line);
   cells.insert(cells.end(), {found.power, found.ground_force, found.ground_moment});

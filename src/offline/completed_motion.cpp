@@ -89,12 +89,14 @@ constexpr Level kLevels[] = {{"positions", "m or rad", &ClosureResidual::positio
 CompletedMotion::CompletedMotion(RecordedMotion recorded, const Mechanism& mechanism,
                                  const Scene& scene, const Dynamics& dynamics, double tolerance,
                                  const RecordingOptions& options)
-    : closures_(dynamics.closureNames()),
-      tolerance_(tolerance),
+    : tolerance_(tolerance),
       file_(std::move(recorded.file)),
       row_(dynamics.coordinates(), dynamics.orientations()),
       driven_row_(static_cast<Eigen::Index>(recorded.drivenNumbers())),
       passive_(mechanism, dynamics, recorded.given) {
+  for (std::size_t i = 0; i < dynamics.closureNames().size(); ++i) {
+    closures_.push_back(dynamics.closureLabel(i));
+  }
   positions_follow_ = !GivenJoints::givesAll(recorded.given);
   if ((dynamics.closuresDetermine() || positions_follow_) && !scene.static_motion) {
     velocities_follow_ = positions_follow_ || !file_.table.hasVelocities();
@@ -155,9 +157,9 @@ void CompletedMotion::check(std::size_t row, const Results& computed) const {
       const double relative = computed.loops.relative_residuals[i].*level.residual;
       if (relative <= tolerance_) continue;
       std::ostringstream text;
-      text << file_.at(row) << ": the " << level.name << " violate closure "
-           << inQuotes(closures_[i]) << " by " << computed.loops.residuals[i].*level.residual << " "
-           << level.unit << ", " << relative << " relative; the tolerance is " << tolerance_;
+      text << file_.at(row) << ": the " << level.name << " violate " << closures_[i] << " by "
+           << computed.loops.residuals[i].*level.residual << " " << level.unit << ", " << relative
+           << " relative; the tolerance is " << tolerance_;
       throw FileError(text.str());
     }
   }

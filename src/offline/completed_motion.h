@@ -42,7 +42,7 @@ class CompletedMotion {
   void check(std::size_t row, const Results& computed) const;
 
  private:
-  std::vector<std::string> closures_;
+  std::vector<std::string> closures_;  // and couplings, as messages name them
   double tolerance_;
   MotionFile file_;
   MotionTable driven_;  // numbers that are given besides coordinates

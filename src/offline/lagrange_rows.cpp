@@ -40,7 +40,12 @@ const Results& LagrangeRows::compute(const Motion& motion, const Load& load,
   lagrange_.compute(motion, load_);
   results_ = results;
   if (lagrange_.request().efforts) {
-    results_.effort.head(lagrange_.coordinates()) = lagrange_.effort();
+    const Eigen::Index coordinates = lagrange_.coordinates();
+    results_.effort.head(coordinates) = lagrange_.effort();
+    if (dynamics_.couplings() > 0) {
+      results_.effort.head(coordinates) +=
+          results.effort.head(coordinates) - results.treeEffort(coordinates);
+    }
   }
   merge(child_places_, lagrange_.childAxes(), results_.child_axes);
   merge(root_places_, lagrange_.rootAxes(), results_.root_axes);

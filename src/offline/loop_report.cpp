@@ -19,11 +19,11 @@ using Names = std::vector<std::string>;
 int conditionsOf(const Scene& scene) {
   int conditions = 0;
   for (const Closure& closure : scene.closures) conditions += conditionCount(closure);
-  return conditions;
+  return conditions + static_cast<int>(scene.couplings.size());
 }
 
 void printClosures(std::ostream& out, const Scene& scene) {
-  Names closures, springs;
+  Names closures, springs, couplings;
   for (const Closure& closure : scene.closures) {
     closures.push_back(closure.name + " (" + traitsOf(closure.type).name + ", " +
                        closure.parent.link + " to " + closure.child.link + ")");
@@ -31,8 +31,15 @@ void printClosures(std::ostream& out, const Scene& scene) {
   for (const PointSpring& spring : scene.springs) {
     springs.push_back(spring.name + " (" + spring.link_a + " to " + spring.link_b + ")");
   }
+  for (const Coupling& coupling : scene.couplings) {
+    std::string joints;
+    for (const NamedNumber& term : coupling.terms)
+      joints += (joints.empty() ? "" : " ") + term.name;
+    couplings.push_back(coupling.name + " (" + joints + ")");
+  }
   printNames(out, "closures", closures);
   printNames(out, "springs", springs);
+  if (!couplings.empty()) printNames(out, "couplings", couplings);
 }
 
 void printActuated(std::ostream& out, const Dynamics& dynamics) {
@@ -99,7 +106,10 @@ void printLoops(std::ostream& out, const Mechanism& mechanism, const Scene& scen
         << assembled.q[static_cast<Eigen::Index>(i)] << "\n";
   }
   printCount(out, "degrees of freedom", static_cast<int>(dynamics.coordinates()) - independent);
-  printCount(out, "conditions of the closures", conditions);
+  printCount(out,
+             scene.couplings.empty() ? "conditions of the closures"
+                                     : "conditions of the closures and couplings",
+             conditions);
   printCount(out, "redundant constraints", found.redundant_constraints);
   printCount(out, "redundancy, unknown forces less rank", found.redundancy);
   if (found.free_motions > 0) {
@@ -115,8 +125,12 @@ void printCost(std::ostream& out, const Scene& scene, const Dynamics& dynamics) 
   if (!dynamics.closed()) return;
   out << "closed loops are solved, sample by sample: " << conditionsOf(scene) << " conditions of "
       << scene.closures.size() << (scene.closures.size() == 1 ? " closure" : " closures") << ", "
-      << scene.springs.size() << (scene.springs.size() == 1 ? " spring" : " springs")
-      << "; the tree is computed twice, first for efforts alone; this is not counted above\n";
+      << scene.springs.size() << (scene.springs.size() == 1 ? " spring" : " springs");
+  if (!scene.couplings.empty()) {
+    out << ", " << scene.couplings.size()
+        << (scene.couplings.size() == 1 ? " coupling" : " couplings");
+  }
+  out << "; the tree is computed twice, first for efforts alone; this is not counted above\n";
 }
 
 }  // namespace virtual_work_dynamics

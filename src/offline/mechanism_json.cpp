@@ -126,8 +126,14 @@ std::string effortJson(const Mechanism& mechanism, const Scene& scene, const Dyn
   if (effort >= coordinates) {
     const auto closure = std::find_if(scene.closures.begin(), scene.closures.end(),
                                       [&](const Closure& other) { return other.name == name; });
+    const auto coupling = std::find_if(scene.couplings.begin(), scene.couplings.end(),
+                                       [&](const Coupling& other) { return other.name == name; });
     const bool slides =
-        closure != scene.closures.end() && traitsOf(closure->type).free_axis == Unit::kMetre;
+        closure != scene.closures.end()
+            ? traitsOf(closure->type).free_axis == Unit::kMetre
+            : coupling != scene.couplings.end() &&
+                  unitOf(mechanism.joint(mechanism.jointIndex(coupling->terms[0].name))) ==
+                      Unit::kMetre;
     object.addText("unit", slides ? "m" : "rad");
     return object.text();
   }

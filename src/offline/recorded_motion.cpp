@@ -48,12 +48,14 @@ class Choice {
   Names choose(const Names& header) {
     columns_ = NameSet(header.begin(), header.end());
     Names wanted;
-    if (!scene_.closures.empty()) wanted = chosen();
+    if (hasConditions()) wanted = chosen();
     if (wanted.empty()) wanted = needed();
     return wanted;
   }
 
  private:
+  bool hasConditions() const { return !scene_.closures.empty() || !scene_.couplings.empty(); }
+
   // The columns of coordinates, closures and poses that the file has.
   Names chosen() {
     Names wanted;
@@ -90,7 +92,7 @@ class Choice {
     motion_.given = Given();
     for (std::size_t i = 0; i < all.size(); ++i) {
       const std::string& name = all[i];
-      const bool needs = scene_.closures.empty() || !scene_.actuated ||
+      const bool needs = !hasConditions() || !scene_.actuated ||
                          std::count(scene_.actuated->begin(), scene_.actuated->end(), name) > 0;
       const bool has = columns_.count(name) > 0;
       if (!isFreeAngle(i) && (has || (needs && !rests(name)))) wanted.push_back(name);

@@ -42,7 +42,7 @@ ResidualRows::ResidualRows(const Mechanism& mechanism, const Dynamics& dynamics,
   const Names& efforts = dynamics.effortNames();
   Names unused, lacking, offered;
   for (const MeasuredEffort& effort : measured) offered.push_back(effort.joint());
-  for (std::size_t i = 0; i < efforts.size(); ++i) {
+  for (std::size_t i = 0; i + dynamics.couplings() < efforts.size(); ++i) {
     const auto coordinate = static_cast<Eigen::Index>(i);
     if (dynamics.residuals()[i]) continue;
     if (coordinate < dynamics.coordinates() && !dynamics.actuated()[i]) continue;

@@ -201,7 +201,7 @@ class Search {
     doubt("element " + shown(transmission) + " is not read: it couples the joints " +
           namesInQuotes(joints) +
           "; efforts are those at the joints, not at its motors, and where it ties joints to one "
-          "another, <mimic> in the joint says so");
+          "another, <mimic> in the joint or couplings in the scene say so");
   }
 
   void visitGazebo(const XMLElement& gazebo) {

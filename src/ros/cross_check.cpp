@@ -91,7 +91,7 @@ bool CrossCheckSlot::offer(const Motion& motion, const Load& load, const Results
     return false;
   }
   motion_ = motion;
-  effort_ = results.effort.head(effort_.size());  // those of closures come after them
+  effort_ = results.treeEffort(effort_.size());
   child_axes_ = results.child_axes;
   root_axes_ = results.root_axes;
   load_.wrenches = closed_ ? results.loops.tree_wrenches : load.wrenches;

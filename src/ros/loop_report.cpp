@@ -49,6 +49,15 @@ std::string count(std::size_t number, const char* one, const char* many) {
   return std::to_string(number) + " " + (number == 1 ? one : many);
 }
 
+// How messages name closures and couplings.
+Names labelsOf(const Dynamics& dynamics) {
+  Names labels;
+  for (std::size_t i = 0; i < dynamics.closureNames().size(); ++i) {
+    labels.push_back(dynamics.closureLabel(i));
+  }
+  return labels;
+}
+
 }  // namespace
 
 Names loopLines(const Mechanism& mechanism, const Scene& scene, const Dynamics& everything,
@@ -64,6 +73,9 @@ Names loopLines(const Mechanism& mechanism, const Scene& scene, const Dynamics& 
   }
   return {"closed loops: " + count(scene.closures.size(), "closure", "closures") + ", " +
               count(scene.springs.size(), "spring", "springs") +
+              (scene.couplings.empty()
+                   ? ""
+                   : ", " + count(scene.couplings.size(), "coupling", "couplings")) +
               "; actuated: " + listOf(efforts.actuated) + "; passive: " + listOf(efforts.passive) +
               (efforts.residuals.empty() ? "" : "; free motions: " + listOf(efforts.residuals)),
           "as assembled: " + numbers + "; efforts: " + found.status[0].message +
@@ -73,6 +85,7 @@ Names loopLines(const Mechanism& mechanism, const Scene& scene, const Dynamics& 
 LoopReport::LoopReport(const Dynamics& dynamics, Names reactions, LoopRecord& record,
                        const LoopLimits& limits)
     : closures_(dynamics.closureNames()),
+      labels_(labelsOf(dynamics)),
       efforts_(dynamics.effortNames()),
       reactions_(std::move(reactions)),
       closed_(dynamics.closed()),
@@ -132,12 +145,12 @@ void LoopReport::addViolations(DiagnosticStatusWrapper& status,
   for (std::size_t c = 0; c < closures_.size(); ++c) {
     for (std::size_t i = 0; i < LoopRecord::kLevels; ++i) {
       if (report.relative[c][i] <= limits_.tolerance) continue;
-      status.mergeSummary(
-          DiagnosticStatus::WARN,
-          std::string(kLevels[i].many) + " violate closure " + inQuotes(closures_[c]) + " by " +
-              shortNumber(report.residuals[c][i]) + " " + kLevels[i].unit + ", " +
-              shortNumber(report.relative[c][i]) + " relative; " + privateName("loop_tolerance") +
-              " is " + numberText(limits_.tolerance));
+      status.mergeSummary(DiagnosticStatus::WARN,
+                          std::string(kLevels[i].many) + " violate " + labels_[c] + " by " +
+                              shortNumber(report.residuals[c][i]) + " " + kLevels[i].unit + ", " +
+                              shortNumber(report.relative[c][i]) + " relative; " +
+                              privateName("loop_tolerance") + " is " +
+                              numberText(limits_.tolerance));
     }
   }
 }

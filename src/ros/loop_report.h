@@ -40,7 +40,7 @@ class LoopReport {
   void addLeftOut(diagnostic_updater::DiagnosticStatusWrapper& status,
                   const LoopRecord::Report& report, const std::string& why) const;
 
-  std::vector<std::string> closures_, efforts_, reactions_;
+  std::vector<std::string> closures_, labels_, efforts_, reactions_;
   bool closed_;
   LoopRecord& record_;
   LoopLimits limits_;

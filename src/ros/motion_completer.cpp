@@ -103,10 +103,9 @@ void MotionCompleter::took(const Motion& motion, const Results& results) {
 std::optional<std::string> MotionCompleter::openStates() {
   if (!open_ || open_told_) return std::nullopt;
   open_told_ = true;
-  return "the positions leave closure " + inQuotes(dynamics_.closureNames()[open_closure_]) +
-         " open by " + numberText(open_by_.position) + " m or rad, " +
-         numberText(open_relative_.position) + " relative, more than " +
-         numberText(nearly_closed_) +
+  return "the positions leave " + dynamics_.closureLabel(open_closure_) + " open by " +
+         numberText(open_by_.position) + " m or rad, " + numberText(open_relative_.position) +
+         " relative, more than " + numberText(nearly_closed_) +
          ": passive joints of trajectories do not start from there, but from " +
          (evaluated_ ? "where the loops were closed last" : "the assembly");
 }

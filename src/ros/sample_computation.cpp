@@ -168,7 +168,7 @@ void SampleComputation::check(ActivePlan& plan, const Results& results) {
   if (plan.cross_check) plan.cross_check->offer(motion_, load_, results);
   if (!plan.certifier) return;
   plan.dynamics.getTreeLoad(results, load_, plan.tree_load);
-  tree_effort_ = results.effort.head(tree_effort_.size());
+  tree_effort_ = results.treeEffort(tree_effort_.size());
   // The child axes of ground's reaction are those of the root link.
   const Wrench& ground = results.child_axes[plan.ground];
   records_.certificates.record(

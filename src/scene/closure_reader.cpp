@@ -13,6 +13,7 @@ const Names kClosureKeys = {"name", "type", "parent", "child", "length"};
 const Names kSpringKeys = {"name", "link_a",    "at_a",        "link_b",
                            "at_b", "stiffness", "rest_length", "damping"};
 const Names kRedundancyKeys = {"policy",         "zero_at",        "stiffness",
+const Names kCouplingKeys = {"name", "terms", "offset", "rate_only"};
                                "effort_weights", "rank_tolerance", "length"};
 
 // In the order of RedundancyPolicy.
@@ -147,6 +148,19 @@ Redundancy readRedundancy(const YAML::Node& node) {
       has_stiffness = true;
     }
     if (key == "effort_weights") {
+Coupling readCoupling(const YAML::Node& node, const std::string& where) {
+  Coupling coupling;
+  readMap(node, where, kCouplingKeys, [&](const auto& key, const auto& value, const auto& path) {
+    if (key == "name") coupling.name = scalarText(value, path, "a name");
+    if (key == "terms") coupling.terms = readNamedNumbers(value, path, "factor");
+    if (key == "offset") coupling.offset = readNumber(value, path);
+    if (key == "rate_only") coupling.rate_only = readBool(value, path);
+  });
+  require(!coupling.name.empty(), where, "name");
+  require(!coupling.terms.empty(), where, "terms");
+  return coupling;
+}
+
       redundancy.effort_weights = readNamedNumbers(value, path, "weight");
     }
     if (key == "rank_tolerance") redundancy.rank_tolerance = readNumber(value, path);
@@ -183,3 +197,5 @@ bool readLoopEntry(const std::string& key, const YAML::Node& value, Scene& scene
 }
 
 }  // namespace virtual_work_dynamics
+  } else if (key == "couplings") {
+    scene.couplings = readList(value, key, readCoupling);

@@ -8,8 +8,8 @@
 
 namespace virtual_work_dynamics {
 
-/// Reads the keys of a scene that concern closed loops: closures, springs, actuated, assembly,
-/// redundancy. Returns false for any other key.
+/// Reads the keys of a scene that concern closed loops: closures, springs, couplings,
+/// actuated, assembly, redundancy. Returns false for any other key.
 /// @throws SceneError naming the key.
 bool readLoopEntry(const std::string& key, const YAML::Node& value, Scene& scene);
 

@@ -74,6 +74,10 @@ const Scene& openChain(const Scene& scene) {
     throw SceneError("springs: " + inQuotes(scene.springs[0].name) +
                      ": an open chain has no springs between points");
   }
+  if (!scene.couplings.empty()) {
+    throw SceneError("couplings: " + inQuotes(scene.couplings[0].name) +
+                     ": an open chain has no couplings");
+  }
   if (scene.actuated) {
     throw SceneError("actuated: every joint of an open chain carries effort");
   }

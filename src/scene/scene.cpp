@@ -33,8 +33,8 @@ NameSet checkedNames(const Mechanism& mechanism, const Scene& scene) {
 }  // namespace
 
 bool needsClosedLoops(const Scene& scene) {
-  return !scene.closures.empty() || !scene.springs.empty() || scene.actuated || scene.given ||
-         scene.free_motion;
+  return !scene.closures.empty() || !scene.springs.empty() || !scene.couplings.empty() ||
+         scene.actuated || scene.given || scene.free_motion;
 }
 
 std::vector<std::string> requestedReactions(const Mechanism& mechanism, const Scene& scene) {

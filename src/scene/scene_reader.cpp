@@ -192,8 +192,8 @@ void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
   if (readLoopEntry(key, value, scene)) return;
   if (!contains(kSceneKeys, key)) {
     Names known = kSceneKeys;
-    for (const char* other :
-         {"closures", "springs", "actuated", "free_motion", "given", "assembly", "redundancy"}) {
+    for (const char* other : {"closures", "springs", "couplings", "actuated", "free_motion",
+                              "given", "assembly", "redundancy"}) {
       known.emplace_back(other);
     }
     known.insert(known.end(), touchKeys().begin(), touchKeys().end());

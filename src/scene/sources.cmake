@@ -2,6 +2,7 @@ vwd_core(
   bare_scene.cpp
   closure_reader.cpp
   closure_types.cpp
+  couplings.cpp
   input_checks.cpp
   joint_terms.cpp
   joint_types.cpp

@@ -27,6 +27,9 @@ set(core_test_files
   test/core/compound_joints_test.cpp
   test/core/contacts_test.cpp
   test/core/cylinder_test.cpp
+  test/core/couplings_random_test.cpp
+  test/core/couplings_refusals_test.cpp
+  test/core/couplings_test.cpp
   test/core/description_deviations_test.cpp
   test/core/description_messages_test.cpp
   test/core/deviation_rows_test.cpp

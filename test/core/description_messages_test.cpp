@@ -183,7 +183,7 @@ TEST(DescriptionMessages, CouplingsAreNamed) {
   EXPECT_EQ(theDoubt(arm(one + "<joint name='shoulder'/></transmission>")),
             "element <transmission name='t'> is not read: it couples the joints 'elbow' and "
             "'shoulder'; efforts are those at the joints, not at its motors, and where it ties "
-            "joints to one another, <mimic> in the joint says so");
+            "joints to one another, <mimic> in the joint or couplings in the scene say so");
   EXPECT_EQ(theDoubt(arm("<gazebo><plugin><joint>elbow</joint><mimicJoint>tip</mimicJoint>"
                          "</plugin></gazebo>")),
             "element <mimicJoint> in <gazebo> is not read: joint 'elbow' does not follow 'tip'; "

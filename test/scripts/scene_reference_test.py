@@ -34,17 +34,19 @@ MAPS = {
     "kKnifeEdgeKeys": ("knife_edges",),
     "kContactKeys": ("contacts",),
     "kCylinderKeys": ("cylinders",),
+    "kCouplingKeys": ("couplings",),
     "kRedundancyKeys": ("redundancy",),
 }
 # Lists of {name, <quantity>} that readNamedNumbers() reads.
 NAMED_NUMBERS = {"position": "assembly", "stiffness": "redundancy.stiffness",
-                 "weight": "redundancy.effort_weights"}
+                 "weight": "redundancy.effort_weights", "factor": "couplings.terms"}
 STRUCTS = {"": "Scene", "moments_about": "MomentPoint", "applied_wrenches": "AppliedWrench",
            "applied_wrenches.deviation": "WrenchDeviation",
            "payload": "Payload", "joints": "JointTerms",
            "tolerances": "Tolerances",
            "rolling": "Touch", "contacts": "Touch",
            "closures.parent": "LinkFrame", "closures.child": "LinkFrame", "springs": "PointSpring",
+           "couplings": "Coupling",
            "redundancy": "Redundancy"}
 # Members that have other names, or other values, than their keys.
 MEMBERS = {"motion": "static_motion", "root": "root_moves", "payload": "payloads"}
@@ -55,6 +57,7 @@ TABLES = {"Top level": [""], "moments_about": ["moments_about"],
           "joint_types": ["joint_types"],
           "tolerances": ["tolerances"],
           "closures": ["closures", ("closures.parent", "closures.child")], "springs": ["springs"],
+          "couplings": ["couplings", "couplings.terms"],
           "rolling": ["rolling", "rolling.plane"], "knife_edges": ["knife_edges"],
           "contacts": ["contacts"], "cylinders": ["cylinders"],
           "assembly": ["assembly"],

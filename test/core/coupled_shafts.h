@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "closed_loop_results.h"
+#include "robot_builder.h"
+
+namespace virtual_work_dynamics {
+
+/// Balanced shafts side by side on the root link, which turn about z or slide along it, coupled by
+/// what a test says. joint_1 is the first one. There is no gravity.
+class CoupledShafts {
+ public:
+  struct Shaft {
+    double inertia;  // kg m^2, or kg of one that slides
+    bool slides;
+  };
+
+  explicit CoupledShafts(const std::vector<Shaft>& shafts) : builder_(1) {
+    scene.gravity.setZero();
+    scene.actuated = std::vector<std::string>();
+    for (const Shaft& shaft : shafts) {
+      const int link = builder_.add(shaft.slides ? JointType::kPrismatic : JointType::kContinuous,
+                                    0, Vector3l::UnitZ(), Matrix3l::Identity(),
+                                    Vector3l(0.3L * static_cast<long double>(links_++), 0, 0));
+      builder_.removeInertia(link);
+      builder_.link(link).mass = shaft.slides ? shaft.inertia : 1;
+      builder_.link(link).inertia_Cm_K = shaft.inertia * Matrix3l::Identity();
+    }
+  }
+
+  static std::string nameOf(int shaft) { return "joint_" + std::to_string(shaft); }
+
+  /// Couples shafts, counted from 1, by factors. Returns the coupling, to be changed.
+  Coupling& couple(const std::string& name, const std::vector<std::pair<int, double>>& terms) {
+    Coupling coupling;
+    coupling.name = name;
+    for (const auto& [shaft, factor] : terms) coupling.terms.push_back({nameOf(shaft), factor});
+    scene.couplings.push_back(coupling);
+    return scene.couplings.back();
+  }
+  void actuate(int shaft) { scene.actuated->push_back(nameOf(shaft)); }
+
+  /// An effort that the shaft needs besides that of its motion.
+  void load(int shaft, double effort) {
+    JointTerms terms;
+    terms.joint = nameOf(shaft);
+    terms.offset = effort;
+    scene.joints.push_back(terms);
+  }
+
+  RobotBuilder& builder() { return builder_; }
+  Mechanism mechanism() const { return builder_.build(); }
+
+  Scene scene;
+
+ private:
+  RobotBuilder builder_;
+  int links_ = 0;
+};
+
+}  // namespace virtual_work_dynamics
