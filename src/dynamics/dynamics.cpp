@@ -60,6 +60,9 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
   for (const Closure& closure : scene.closures) {
     if (!hasPositions(closure)) have_positions = false;
   }
+  for (const Coupling& coupling : scene.couplings) {
+    if (coupling.rate_only) have_positions = false;
+  }
   // The axes of actuated closures would have to be given, too, and where there are no positions to
   // be found all of them.
   if (!scene.given && (!loops->actuatedClosures().empty() || !have_positions)) {
@@ -72,10 +75,7 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
   residuals.resize(effort_names.size(), false);
   for (const Closure& closure : scene.closures) closure_names.push_back(closure.name);
   first_coupling = closure_names.size();
-  for (const Coupling& coupling : scene.couplings) {
-    closure_names.push_back(coupling.name);
-    if (coupling.rate_only) have_positions = false;
-  }
+  for (const Coupling& coupling : scene.couplings) closure_names.push_back(coupling.name);
   const LoopKinematics& kinematics = loops->impl_->kinematics;
   for (std::size_t s = 0; s < kinematics.sets(); ++s) {
     if (!kinematics.set(s).isLinear()) continue;
