@@ -25,6 +25,10 @@ struct MotionCovariance {
   std::vector<TurnCovariance> turns = {};
   /// Of the root link's motion, where it moves; zero: exact.
   RootCovariance root = RootCovariance::Zero();
+  /// Index of the link whose motion, of its origin and axes, `root` is the covariance of. The
+  /// motion of a root link that is known by a sensor on another link is as doubtful as the joints
+  /// between them, too.
+  int root_link = 0;
   /// Of each applied wrench of the scene, in its axes and about its point of action; empty: as
   /// AppliedWrench::deviation says. Those that the scene gives no deviation count as exact.
   std::vector<WrenchCovariance> wrenches = {};

@@ -51,8 +51,13 @@ class PassiveJoints {
 
   /// The position that was found last.
   const Eigen::VectorXd& position() const { return position_; }
+  /// Of each joint that turns freely: what its angles in position() turn on from, where its
+  /// orientation is found.
+  const std::vector<Eigen::Quaterniond>& references() const { return references_; }
   /// Continues from a position that was found elsewhere.
-  void moveTo(const Eigen::VectorXd& position);
+  /// @param references what the angles turn on from; empty: as before
+  void moveTo(const Eigen::VectorXd& position,
+              const std::vector<Eigen::Quaterniond>& references = {});
 
  private:
   static constexpr int kHalvings = 8;
@@ -84,9 +89,9 @@ class PassiveJoints {
   struct FoundTurn {
     std::size_t orientation;
     Eigen::Index angles;  ///< the first of three coordinates
-    Eigen::Quaterniond reference = Eigen::Quaterniond::Identity();  ///< that they turn on from
   };
   std::vector<FoundTurn> found_turns_;
+  std::vector<Eigen::Quaterniond> references_;  // by orientation
   Eigen::VectorXd position_;  // found last
   Eigen::VectorXd before_, closed_;
   Eigen::VectorXd previous_;                            // before closed_ on the way

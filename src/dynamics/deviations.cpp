@@ -74,6 +74,12 @@ struct Deviations::Impl {
                         what);
     };
     require(covariance.coordinates.size(), independent.size(), " coordinates");
+    if (covariance.root_link < 0 ||
+        static_cast<std::size_t>(covariance.root_link) >= mechanism.links().size()) {
+      throw MotionError("covariance: link " + std::to_string(covariance.root_link) +
+                        " is to tell how the root moves, the mechanism has " +
+                        std::to_string(mechanism.links().size()) + " links");
+    }
     if (!covariance.turns.empty())
       require(covariance.turns.size(), mechanism.orientations(), " joints that turn freely");
     if (covariance.wrenches.empty() || covariance.wrenches.size() == wrenches.size()) return;
@@ -172,6 +178,7 @@ void Deviations::Workspace::Impl::setShifts(const Motion& at, const MotionCovari
     };
     correlations.row(i) << correlation(0, 1), correlation(0, 2), correlation(1, 2);
   }
+  shifts.root_link = covariance.root_link;
   shifts.turns = !covariance.turns.empty();
   if (shifts.turns) setTurnShifts(at, covariance);
   const RootMotion& root = at.root;
@@ -181,6 +188,7 @@ void Deviations::Workspace::Impl::setShifts(const Motion& at, const MotionCovari
     const MotionLevel level = i < 3   ? MotionLevel::kPosition
                               : i < 6 ? MotionLevel::kVelocity
                                       : MotionLevel::kAcceleration;
+    // Of another link it is the size that counts, which is about that of the root.
     const double value = i < 3 ? 0 : (*vectors[i / 3 - 1])[i % 3];
     shifts.root[i] = shiftOf(level, value, std::sqrt(covariance.root(i, i)));
   }

@@ -49,6 +49,7 @@ PassiveJoints::PassiveJoints(const Mechanism& mechanism, const Dynamics& dynamic
       coordinates_(dynamics.coordinates()),
       completed_(coordinates_, mechanism.orientations()),
       driven_(static_cast<Eigen::Index>(given.drivenNumbers())),
+      references_(completed_.orientations),
       position_(dynamics.assembly()),
       missed_(position_) {
   for (std::size_t i = 0; i < mechanism.orientations(); ++i) {
@@ -82,8 +83,10 @@ PassiveJoints::~PassiveJoints() = default;
 PassiveJoints::PassiveJoints(PassiveJoints&&) noexcept = default;
 PassiveJoints& PassiveJoints::operator=(PassiveJoints&&) noexcept = default;
 
-void PassiveJoints::moveTo(const Eigen::VectorXd& position) {
+void PassiveJoints::moveTo(const Eigen::VectorXd& position,
+                           const std::vector<Eigen::Quaterniond>& references) {
   position_ = position;
+  if (!references.empty()) references_ = references;
   closed_.head(coordinates_) = position;
   if (driven_loops_) {
     driven_loops_->getDriven(position, closed_.tail(closed_.size() - coordinates_));
@@ -104,8 +107,9 @@ bool PassiveJoints::complete(Motion& motion, const Motion& driven, const Dynamic
   requireLengths(driven, driven_.q.size());
   if (!dynamics.closed()) return true;
   if (!motion.orientations.empty()) completed_.orientations = motion.orientations;
+  completed_.root = motion.root;
   for (const FoundTurn& turn : found_turns_) {
-    completed_.orientations[turn.orientation] = turn.reference;
+    completed_.orientations[turn.orientation] = references_[turn.orientation];
   }
   before_ = closed_;
   setNearest(motion, driven);
@@ -136,13 +140,14 @@ bool PassiveJoints::complete(Motion& motion, const Motion& driven, const Dynamic
 // search starts without a guess of how they go on.
 void PassiveJoints::foldTurns() {
   constexpr double kLarge = 0.5;  // rad; singular is a quarter turn
-  for (FoundTurn& turn : found_turns_) {
+  for (const FoundTurn& turn : found_turns_) {
     const Eigen::Vector3d angles = position_.segment<3>(turn.angles);
     if (angles.cwiseAbs().maxCoeff() < kLarge) continue;
+    Eigen::Quaterniond& reference = references_[turn.orientation];
     for (int i = 0; i < 3; ++i) {
-      turn.reference = turn.reference * Eigen::AngleAxisd(angles[i], Eigen::Vector3d::Unit(i));
+      reference = reference * Eigen::AngleAxisd(angles[i], Eigen::Vector3d::Unit(i));
     }
-    turn.reference.normalize();
+    reference.normalize();
     for (Eigen::VectorXd* values : {&position_, &closed_, &previous_, &rates_, &accelerations_}) {
       values->segment<3>(turn.angles).setZero();
     }

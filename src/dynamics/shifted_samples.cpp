@@ -130,6 +130,7 @@ ShiftedChain::ShiftedChain(const Mechanism& mechanism, const InverseDynamics& dy
       root_(dynamics.rootMoves() ? RootState::kNumbers * samples_ : 0),
       orientations_(4 * dynamics.orientations() * samples_),
       shifted_(dynamics.coordinates(), dynamics.orientations()),
+      root_by_link_(mechanism),
       loads_(samples_, own) {
   const ResultNumbers numbers(dynamics.makeWorkspace().results());
   outputs_.resize(numbers.all() * samples_);
@@ -214,27 +215,59 @@ void ShiftedChain::setRoots(const Motion& motion, const SampleShifts& shifts) {
   for (std::size_t c = 0; c < RootState::kNumbers; ++c) {
     std::fill_n(&root_[c * samples_], samples_, state.data()[c]);
   }
+  if (shifts.root_link != 0) {
+    setRootsByLink(motion, shifts);
+    return;
+  }
   for (std::size_t number = 0; number < plan_.root; ++number) {
     RootMotion root = motion.root;
     shiftRoot(number, shifts.root[static_cast<Eigen::Index>(number)], root);
-    const RootState shifted = dynamics_.rootState(root);
-    const std::size_t column = plan_.firstOfRoot() + number;
-    for (std::size_t c = 0; c < RootState::kNumbers; ++c)
-      root_[c * samples_ + column] = shifted.data()[c];
+    setRoot(plan_.firstOfRoot() + number, root);
   }
 }
 
-// Only shifts of positions, and those of wrenches, change the load.
+// Where a sensor on another link tells how the root moves, each joint's shift moves the root, too.
+void ShiftedChain::setRootsByLink(const Motion& motion, const SampleShifts& shifts) {
+  root_by_link_.place(motion, shifts.root_link);
+  const RootMotion link = root_by_link_.linkOf(motion.root);
+  for (std::size_t number = 0; number < plan_.root; ++number) {
+    RootMotion shifted = link;
+    shiftRoot(number, shifts.root[static_cast<Eigen::Index>(number)], shifted);
+    setRoot(plan_.firstOfRoot() + number, root_by_link_.rootOf(shifted));
+  }
+  for (std::size_t level = 0; level < plan_.levels; ++level) {
+    for (std::size_t i = 0; i < plan_.coordinates; ++i) {
+      shifted_ = motion;
+      shiftCoordinate(mechanism_, shifts, level, i, shifted_);
+      root_by_link_.place(shifted_, shifts.root_link);
+      setRoot(plan_.columnOf(level, i), root_by_link_.rootOf(link));
+    }
+  }
+}
+
+void ShiftedChain::setRoot(std::size_t sample, const RootMotion& root) {
+  const RootState state = dynamics_.rootState(root);
+  for (std::size_t c = 0; c < RootState::kNumbers; ++c)
+    root_[c * samples_ + sample] = state.data()[c];
+}
+
+// Shifts of positions, of the root's attitude, against which wrenches may be measured, and those of
+// wrenches change the load.
 void ShiftedChain::setLoads(const Motion& motion, const SampleShifts& shifts, const LoadLaw& law) {
   if (loads_.front().wrenches.empty()) return;
   law(motion, loads_.front());
   for (std::size_t sample = 1; sample < samples_; ++sample) {
-    if (sample > plan_.coordinates) {
+    const bool of_position = sample <= plan_.coordinates;
+    const std::size_t of_root = sample - plan_.firstOfRoot();
+    const bool of_attitude = sample >= plan_.firstOfRoot() && of_root < plan_.root / 4;
+    if (!of_position && !of_attitude) {
       loads_[sample] = loads_.front();
       continue;
     }
     shifted_ = motion;
-    shiftCoordinate(mechanism_, shifts, 0, sample - 1, shifted_);
+    if (of_position) shiftCoordinate(mechanism_, shifts, 0, sample - 1, shifted_);
+    if (of_attitude)
+      shiftRoot(of_root, shifts.root[static_cast<Eigen::Index>(of_root)], shifted_.root);
     law(shifted_, loads_[sample]);
   }
   for (std::size_t i = 0; i < plan_.wrenches.size(); ++i) {
@@ -257,19 +290,25 @@ ShiftedLoops::ShiftedLoops(const Mechanism& mechanism, const ClosedLoopDynamics&
       samples_(plan.columns()),
       shifted_(dynamics.coordinates(), mechanism.orientations()),
       load_(own),
+      root_by_link_(mechanism),
       values_(numbers_.all() * samples_),
       known_(numbers_.all()) {}
 
 void ShiftedLoops::compute(const Motion& motion, const SampleShifts& shifts, const LoadLaw& law) {
   // The sample itself is completed, too: what it violates of the closures is not a shift.
+  root_link_ = 0;
   shifted_ = motion;
   bool complete = computeSample(0, law);
+  if (complete) setLink(shifted_, shifts);
   markKnown(workspace_.results(), known_);
   complete = complete && computeCoordinates(motion, shifts, law);
   for (std::size_t number = 0; number < plan_.root && complete; ++number) {
     shifted_ = motion;
-    shiftRoot(number, shifts.root[static_cast<Eigen::Index>(number)], shifted_.root);
+    const RootMotion link = link_;
+    shiftRoot(number, shifts.root[static_cast<Eigen::Index>(number)],
+              root_link_ == 0 ? shifted_.root : link_);
     complete = computeSample(plan_.firstOfRoot() + number, law);
+    link_ = link;
   }
   for (std::size_t number = 0; number < 6 * plan_.wrenches.size() && complete; ++number) {
     shifted_ = motion;
@@ -291,9 +330,21 @@ bool ShiftedLoops::computeCoordinates(const Motion& motion, const SampleShifts& 
   return true;
 }
 
+// Sets whose motion tells how the root moves in all samples but the first, and how it moves.
+void ShiftedLoops::setLink(const Motion& motion, const SampleShifts& shifts) {
+  root_link_ = shifts.root_link;
+  if (root_link_ == 0) return;
+  root_by_link_.place(motion, root_link_);
+  link_ = root_by_link_.linkOf(motion.root);
+}
+
 // `shifted_wrench` counts the numbers of the plan's wrenches.
 bool ShiftedLoops::computeSample(std::size_t sample, const LoadLaw& law, int shifted_wrench) {
   if (!dynamics_.complete(shifted_, independent_, workspace_)) return false;
+  if (root_link_ != 0) {
+    root_by_link_.place(shifted_, root_link_);
+    shifted_.root = root_by_link_.rootOf(link_);
+  }
   law(shifted_, load_);
   if (shifted_wrench >= 0) {
     const auto number = static_cast<std::size_t>(shifted_wrench);

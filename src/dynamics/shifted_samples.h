@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "dynamics/root_by_link.h"
 #include "virtual_work_dynamics/block.h"
 #include "virtual_work_dynamics/closed_loop_dynamics.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
@@ -71,6 +72,9 @@ struct SampleShifts {
   /// TurnCovariance. The sample then has orientations, and angles of zero.
   bool turns = false;
   Eigen::Matrix<double, 12, 1> root;  ///< as RootCovariance
+  /// The link whose motion `root` shifts, and from which, as MotionCovariance::root_link, the
+  /// root's motion follows in each sample.
+  int root_link = 0;
   /// N and N m: results are linear in wrenches.
   static constexpr double kOfWrenches = 1;
 };
@@ -108,6 +112,8 @@ class ShiftedChain : public ShiftedSamples {
   void setOrientations(const Motion& motion);
   void shiftTurns(const Motion& motion, const SampleShifts& shifts);
   void setRoots(const Motion& motion, const SampleShifts& shifts);
+  void setRootsByLink(const Motion& motion, const SampleShifts& shifts);
+  void setRoot(std::size_t sample, const RootMotion& root);
   void setLoads(const Motion& motion, const SampleShifts& shifts, const LoadLaw& law);
 
   const Mechanism& mechanism_;
@@ -118,6 +124,7 @@ class ShiftedChain : public ShiftedSamples {
   std::vector<double> inputs_, root_, orientations_, outputs_;
   ResultBlock<double> results_;
   Motion shifted_;           // a sample
+  RootByLink root_by_link_;
   std::vector<Load> loads_;  // of the samples
   std::vector<bool> known_;
 };
@@ -139,6 +146,7 @@ class ShiftedLoops : public ShiftedSamples {
 
  private:
   bool computeSample(std::size_t sample, const LoadLaw& law, int shifted_wrench = -1);
+  void setLink(const Motion& motion, const SampleShifts& shifts);
   bool computeCoordinates(const Motion& motion, const SampleShifts& shifts, const LoadLaw& law);
 
   const Mechanism& mechanism_;
@@ -150,6 +158,9 @@ class ShiftedLoops : public ShiftedSamples {
   const std::size_t samples_;
   Motion shifted_;
   Load load_;  // of shifted_
+  RootByLink root_by_link_;
+  int root_link_ = 0;     // that of the shifts
+  RootMotion link_;       // its motion in the sample
   std::vector<double> values_;
   std::vector<bool> known_;
 };

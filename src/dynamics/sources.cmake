@@ -11,6 +11,7 @@ vwd_core(
   momentum_terms.cpp
   motion_start.cpp
   passive_joints.cpp
+  root_by_link.cpp
   shifted_samples.cpp
   sample_rows.cpp
   scene_doubts.cpp

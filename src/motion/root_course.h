@@ -28,6 +28,9 @@ class RootCourse {
   /// @param covariance of the motion, unless null
   virtual bool read(std::int64_t stamp_ns, RootMotion& motion, RootCovariance* covariance) = 0;
   bool read(std::int64_t stamp_ns, RootMotion& motion) { return read(stamp_ns, motion, nullptr); }
+  /// Index of the link whose motion is read: the root link, unless a sensor on another link tells
+  /// how it moves, from which that of the root then follows.
+  virtual int link() const { return 0; }
   /// Whether the motion that was read last lies behind all that is known, and was foreseen.
   virtual bool foreseen() const = 0;
 
@@ -40,7 +43,7 @@ class RootCourse {
   /// before there are two. Zero where they are given.
   virtual double interval() const { return 0; }
   /// Most streams of a course.
-  static constexpr std::size_t kMostStreams = 6;
+  static constexpr std::size_t kMostStreams = 7;
   /// Lists the streams that the motion is estimated from; none where it is given. Does not allocate
   /// where `streams` has room for kMostStreams.
   virtual void getStreams(std::vector<RootStream>& streams) const { streams.clear(); }

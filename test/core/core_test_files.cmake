@@ -127,6 +127,7 @@ set(core_test_files
   test/core/reference_test.cpp
   test/core/regressor_test.cpp
   test/core/rolling_test.cpp
+  test/core/root_by_link_test.cpp
   test/core/root_coordinates_test.cpp
   test/core/root_covariance_test.cpp
   test/core/root_estimator_test.cpp

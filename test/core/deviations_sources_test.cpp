@@ -11,6 +11,7 @@
 #include "compound_cases.h"
 #include "dynamics/effort_doubts.h"
 #include "dynamics/live_wrenches.h"
+#include "dynamics/root_by_link.h"
 #include "four_bar.h"
 #include "moving_roots.h"
 #include "random_motions.h"
@@ -107,13 +108,28 @@ struct Sources {
       turn.angular_acceleration += noise.tail<3>();
       setFreeTurn(mechanism, i, turn, drawn);
     }
-    if (!root) return drawn;
+    if (!root || covariance.root_link != 0) return drawn;
     const Eigen::Matrix<double, 12, 1> noise = draw<12>(generator, covariance.root);
     drawn.root.orientation = turnedBy(drawn.root.orientation, noise.head<3>());
     drawn.root.angular_velocity += noise.segment<3>(3);
     drawn.root.angular_acceleration += noise.segment<3>(6);
     drawn.root.acceleration += noise.tail<3>();
     return drawn;
+  }
+  // Where a sensor on another link tells how the root moves: the root's motion for the drawn
+  // motions of this link and of all joints.
+  void placeRoot(const Mechanism& mechanism, const Motion& mean, Motion& drawn) {
+    if (covariance.root_link == 0) return;
+    RootByLink by_link(mechanism);
+    by_link.place(mean, covariance.root_link);
+    RootMotion link = by_link.linkOf(mean.root);
+    const Eigen::Matrix<double, 12, 1> noise = draw<12>(generator, covariance.root);
+    link.orientation = turnedBy(link.orientation, noise.head<3>());
+    link.angular_velocity += noise.segment<3>(3);
+    link.angular_acceleration += noise.segment<3>(6);
+    link.acceleration += noise.tail<3>();
+    by_link.place(drawn, covariance.root_link);
+    drawn.root = by_link.rootOf(link);
   }
   Load load(const Scene& scene) {
     Load drawn(scene);
@@ -144,6 +160,7 @@ void expectDrawn(const Mechanism& mechanism, const Scene& scene, const Motion& m
   for (int i = 0; i < kDraws; ++i) {
     Motion drawn = sources.motion(mechanism, motion);
     ASSERT_TRUE(dynamics.complete(drawn, workspace));
+    sources.placeRoot(mechanism, motion, drawn);
     dynamics.compute(drawn, sources.load(scene), workspace);
     spread.add(numbersOf(workspace.results()));
   }
@@ -202,6 +219,69 @@ TEST(DeviationsOfRoots, ClosedLoopsMatchDrawnMotions) {
   sources.ofRoot();
   sources.ofCoordinates(motion.q.size(), 0.1);
   expectDrawn(cut.mechanism, cut.scene, motion, sources);
+}
+
+// A sensor on a link that joints move: their doubts are the root's, too.
+TEST(DeviationsOfRoots, BySensorsOnOtherLinksMatchDrawnMotions) {
+  for (const unsigned seed : {2u, 5u}) {
+    SCOPED_TRACE(seed);
+    RandomRobot robot(seed, 8);
+    const Mechanism mechanism = readUrdf(robot.urdf());
+    Motion motion = robot.motion(mechanism);
+    Sources sources(seed);
+    motion.root = randomRootMotion(sources.generator);
+    Scene scene;
+    scene.root_moves = true;
+    scene.reactions = ReactionSelection::kNamed;
+    scene.reaction_names = {kGround, "joint_1"};
+    sources.ofRoot();
+    sources.ofCoordinates(motion.q.size(), 1);
+    sources.covariance.root_link = static_cast<int>(mechanism.links().size()) - 1;
+    expectDrawn(mechanism, scene, motion, sources);
+  }
+  const FourBar four_bar;
+  FourBar::Cut cut = four_bar.cut('C');
+  Motion motion = cut.motion(four_bar.turnings(1.1, 3.1, -4.2));
+  Sources sources(4);
+  motion.root = randomRootMotion(sources.generator);
+  cut.scene.root_moves = true;
+  sources.ofRoot();
+  sources.ofCoordinates(motion.q.size(), 0.1);
+  sources.covariance.root_link = 1;
+  expectDrawn(cut.mechanism, cut.scene, motion, sources);
+}
+
+TEST(DeviationsOfRoots, BySensorsOnOtherLinksCoverFreeTurns) {
+  unsigned seed = 1;
+  while (CompoundCase(seed).mechanism.orientations() == 0) ++seed;
+  CompoundCase tree(seed);
+  Scene scene = tree.scene;
+  scene.applied_wrenches.clear();
+  scene.root_moves = true;
+  Sources sources(seed);
+  tree.motion.root = randomRootMotion(sources.generator);
+  sources.ofRoot();
+  sources.ofTurns(tree.mechanism.orientations());
+  sources.ofCoordinates(tree.motion.q.size(), 0);
+  sources.covariance.root_link = tree.mechanism.freeJoint(0).last + 1;
+  expectDrawn(tree.mechanism, scene, tree.motion, sources);
+}
+
+TEST(DeviationsOfRoots, LinksThatAreNotThereAreRefused) {
+  RandomRobot robot(2, 4);
+  const Mechanism mechanism = readUrdf(robot.urdf());
+  Scene scene;
+  scene.root_moves = true;
+  const Deviations deviations(mechanism, scene, Request());
+  Deviations::Workspace workspace = deviations.makeWorkspace();
+  const Motion motion(deviations.coordinates());
+  MotionCovariance covariance;
+  covariance.coordinates.assign(static_cast<std::size_t>(deviations.coordinates()),
+                                Eigen::Matrix3d::Zero());
+  for (const int link : {-1, static_cast<int>(mechanism.links().size())}) {
+    covariance.root_link = link;
+    EXPECT_THROW(deviations.computeMotion(motion, covariance, workspace), MotionError) << link;
+  }
 }
 
 // A massless base that carries a point mass m at r: its weight, and what it takes to accelerate it.

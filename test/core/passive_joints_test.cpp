@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "closed_loops.h"
 #include "loop_examples.h"
+#include "moving_roots.h"
 #include "robot_builder.h"
 #include "slider_crank.h"
 
@@ -53,6 +55,19 @@ TEST_F(FollowedSliderCrank, KeepsItsBranchOverGapsAndTurns) {
   for (const double angle : {0.7, 2.5, -2.5, 0.1, 3.1, -0.1, 1.0 + 100 * kTurn, 1.1}) {
     expectFollowed(angle, 1.5, -0.7);
   }
+}
+
+// The joints close the loops, wherever the root carries them.
+TEST_F(FollowedSliderCrank, LeavesTheRootsMotionAsItIs) {
+  std::mt19937 generator(4);
+  Motion motion = SliderCrank::motion(0.7, 1, 2);
+  motion.root = randomRootMotion(generator);
+  const RootMotion root = motion.root;
+  ASSERT_TRUE(passive_.complete(motion, dynamics_, workspace_));
+  EXPECT_EQ(motion.root.position, root.position);
+  EXPECT_EQ(motion.root.orientation.coeffs(), root.orientation.coeffs());
+  EXPECT_EQ(motion.root.angular_acceleration, root.angular_acceleration);
+  EXPECT_EQ(motion.root.acceleration, root.acceleration);
 }
 
 TEST_F(FollowedSliderCrank, IsWhereItWasAfterAFailure) {
