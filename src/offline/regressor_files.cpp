@@ -13,6 +13,7 @@
 #include "base/json_text.h"
 #include "base/number_text.h"
 #include "base/output_file.h"
+#include "base/printable.h"
 #include "npz/npy_header.h"
 #include "offline/computation.h"
 #include "offline/progress.h"
@@ -104,14 +105,21 @@ void RegressorFiles::writeEfforts(const Dynamics& dynamics, CompletedMotion& mot
   const std::size_t rows = motion.file().lines.size();
   OutputFile file(path("effort.npy"));
   file.write(npyHeader(kDouble, {rows, dynamics.effortNames().size()}));
+  std::size_t singular = 0, first = 0;
   Progress progress(std::cerr, ProgressLine::whereIs(STDERR_FILENO), "computing");
   Computation(dynamics, motion, loads, threads_)
       .run([&](std::size_t row, const Motion&, const Load&, const Results& results) {
+        if (results.singular() && ++singular == 1) first = row;
         const Eigen::VectorXd effort = existing(results);
         writeNumbers(file, effort.data(), static_cast<std::size_t>(effort.size()));
         progress.update(row + 1, rows);
       });
   file.commit();
+  if (singular == 0) return;
+  std::cerr << "warning: " << printable(motion.file().path) << ": " << singular
+            << (singular == 1 ? " row" : " rows") << " in singular positions, first in "
+            << motion.file().place(first)
+            << "; efforts without a value there, and all that they depend on, are nan\n";
 }
 
 void RegressorFiles::writeMotion(const MotionTable& table) const {
