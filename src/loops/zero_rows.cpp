@@ -59,12 +59,13 @@ std::vector<double> lengthsOf(const LoopKinematics& kinematics) {
   return lengths;
 }
 
-// The largest change of a condition when a coordinate turns by one radian or slides by `length`.
+// The largest change of a closure's condition when a coordinate turns by one radian or slides by
+// `length`.
 double largestEntry(const Mechanism& mechanism, const LoopKinematics& kinematics,
-                    Eigen::Index condition, double length) {
+                    std::size_t closure, Eigen::Index condition, double length) {
   double largest = 0;
-  for (Eigen::Index k = 0; k < kinematics.jacobian().cols(); ++k) {
-    const double scale = scaleOf(mechanism.unitOf(static_cast<int>(k)), length);
+  for (const int k : kinematics.set(closure).coordinates()) {
+    const double scale = scaleOf(mechanism.unitOf(k), length);
     largest = std::max(largest, scale * std::abs(kinematics.jacobian()(condition, k)));
   }
   return largest;
@@ -95,7 +96,7 @@ std::vector<bool> zeroRows(const Mechanism& mechanism, const LoopKinematics& giv
         if (!zero[static_cast<std::size_t>(i)]) continue;
         const double size = scaleOf(kinematics.condition(i).unit, lengths[c]);
         zero[static_cast<std::size_t>(i)] =
-            largestEntry(mechanism, kinematics, i, lengths[c]) <= kRowRounding * size;
+            largestEntry(mechanism, kinematics, c, i, lengths[c]) <= kRowRounding * size;
       }
     }
   }
