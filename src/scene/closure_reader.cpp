@@ -11,8 +11,8 @@ const Names kFrameKeys = {"link", "xyz", "rpy"};
 const Names kClosureKeys = {"name", "type", "parent", "child", "length"};
 const Names kSpringKeys = {"name", "link_a",    "at_a",        "link_b",
                            "at_b", "stiffness", "rest_length", "damping"};
-const Names kRedundancyKeys = {"policy",         "zero_at",        "stiffness",
 const Names kCouplingKeys = {"name", "terms", "offset", "rate_only"};
+const Names kRedundancyKeys = {"policy",         "zero_at",        "stiffness",
                                "effort_weights", "rank_tolerance", "length"};
 
 // In the order of RedundancyPolicy.
@@ -115,6 +115,19 @@ std::vector<NamedNumber> readNamedNumbers(const YAML::Node& node, const std::str
   });
 }
 
+Coupling readCoupling(const YAML::Node& node, const std::string& where) {
+  Coupling coupling;
+  readMap(node, where, kCouplingKeys, [&](const auto& key, const auto& value, const auto& path) {
+    if (key == "name") coupling.name = scalarText(value, path, "a name");
+    if (key == "terms") coupling.terms = readNamedNumbers(value, path, "factor");
+    if (key == "offset") coupling.offset = readNumber(value, path);
+    if (key == "rate_only") coupling.rate_only = readBool(value, path);
+  });
+  require(!coupling.name.empty(), where, "name");
+  require(!coupling.terms.empty(), where, "terms");
+  return coupling;
+}
+
 // Refuses what belongs to another policy and would have no effect.
 void checkPolicy(const Redundancy& redundancy, bool has_zero_at, bool has_stiffness) {
   const bool zero_at = redundancy.policy == RedundancyPolicy::kZeroAt;
@@ -145,19 +158,6 @@ Redundancy readRedundancy(const YAML::Node& node) {
       has_stiffness = true;
     }
     if (key == "effort_weights") {
-Coupling readCoupling(const YAML::Node& node, const std::string& where) {
-  Coupling coupling;
-  readMap(node, where, kCouplingKeys, [&](const auto& key, const auto& value, const auto& path) {
-    if (key == "name") coupling.name = scalarText(value, path, "a name");
-    if (key == "terms") coupling.terms = readNamedNumbers(value, path, "factor");
-    if (key == "offset") coupling.offset = readNumber(value, path);
-    if (key == "rate_only") coupling.rate_only = readBool(value, path);
-  });
-  require(!coupling.name.empty(), where, "name");
-  require(!coupling.terms.empty(), where, "terms");
-  return coupling;
-}
-
       redundancy.effort_weights = readNamedNumbers(value, path, "weight");
     }
     if (key == "rank_tolerance") redundancy.rank_tolerance = readNumber(value, path);
@@ -176,6 +176,8 @@ bool readLoopEntry(const std::string& key, const YAML::Node& value, Scene& scene
     scene.closures = readList(value, key, readClosure);
   } else if (key == "springs") {
     scene.springs = readList(value, key, readSpring);
+  } else if (key == "couplings") {
+    scene.couplings = readList(value, key, readCoupling);
   } else if (key == "actuated") {
     scene.actuated = readNames(value, key, "names of joints and closures");
   } else if (key == "free_motion") {
@@ -193,5 +195,3 @@ bool readLoopEntry(const std::string& key, const YAML::Node& value, Scene& scene
 }
 
 }  // namespace virtual_work_dynamics
-  } else if (key == "couplings") {
-    scene.couplings = readList(value, key, readCoupling);
