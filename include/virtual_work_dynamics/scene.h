@@ -169,6 +169,19 @@ struct NamedNumber {
   double value = 0;
 };
 
+/// A linear relation between coordinates, such as gears, belts and differentials make: the sum of
+/// factors times positions is the offset. Positions are those of whole turns, not within one. The
+/// sum has the unit of the first joint's position, factors of joints of the other kind carry a
+/// length. Its effort, N m or N to match, acts on each coordinate by the factor times the effort;
+/// it loads no bearing.
+struct Coupling {
+  std::string name;
+  /// Joints that move, each once, and their factors; of a joint with several freedoms its parts.
+  std::vector<NamedNumber> terms;
+  std::optional<double> offset;  ///< rad or m; none: what the sum is in the assembly
+  bool rate_only = false;  ///< ties velocities and accelerations alone, as a slipping belt does
+};
+
 /// Which of many solutions is reported for forces that rigid-body mechanics does not determine.
 enum class RedundancyPolicy {
   kMinimumNorm,  ///< the least sum of squares of the closures' forces and moments over `length`
@@ -184,19 +197,6 @@ struct Redundancy {
   RedundancyPolicy policy = RedundancyPolicy::kMinimumNorm;
   std::vector<std::string> zero_at;         ///< names of closures, for kZeroAt
   std::vector<NamedNumber> stiffness;       ///< joints and closures, relative; others: 1
-/// A linear relation between coordinates, such as gears, belts and differentials make: the sum of
-/// factors times positions is the offset. Positions are those of whole turns, not within one. The
-/// sum has the unit of the first joint's position, factors of joints of the other kind carry a
-/// length. Its effort, N m or N to match, acts on each coordinate by the factor times the effort;
-/// it loads no bearing.
-struct Coupling {
-  std::string name;
-  /// Joints that move, each once, and their factors; of a joint with several freedoms its parts.
-  std::vector<NamedNumber> terms;
-  std::optional<double> offset;  ///< rad or m; none: what the sum is in the assembly
-  bool rate_only = false;  ///< ties velocities and accelerations alone, as a slipping belt does
-};
-
   std::vector<NamedNumber> effort_weights;  ///< actuated joints, in least squares; others: 1
   /// Tolerance of the rank of the length-scaled system, relative. Closures whose frames fit each
   /// other to within it count as closed.
@@ -245,6 +245,7 @@ struct Scene {
 
   std::vector<Closure> closures;  ///< empty: an open chain
   std::vector<PointSpring> springs;
+  std::vector<Coupling> couplings;
   /// Joints, and closures with one free axis, that carry effort; the others are passive. None:
   /// every joint of the tree is actuated, and no closure.
   std::optional<std::vector<std::string>> actuated;
@@ -260,7 +261,6 @@ struct Scene {
   Redundancy redundancy;
 };
 
-  std::vector<Coupling> couplings;
 /// Whether a scene has closures, springs, couplings or passive joints, or says what motions give,
 /// which only ClosedLoopDynamics knows.
 bool needsClosedLoops(const Scene& scene);

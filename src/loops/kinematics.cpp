@@ -38,10 +38,10 @@ LoopKinematics::LoopKinematics(const Mechanism& mechanism, ConditionSets sets)
     rows_.push_back({coordinates.data(), static_cast<int>(coordinates.size()),
                      static_cast<int>(set->conditions().size()),
                      static_cast<std::size_t>(values_.A.rows())});
-    lengths_.push_back(0);
     for (const int i : coordinates) {
       if (!set->isLinear()) bends_[static_cast<std::size_t>(i)] = true;
     }
+    lengths_.push_back(0);
     for (const Condition& condition : set->conditions()) {
       if (condition.adopts_constant) {
         adopting_.push_back(static_cast<Eigen::Index>(conditions_.size()));
@@ -64,7 +64,6 @@ LoopKinematics::Norms LoopKinematics::normsOf(std::size_t set,
   return {std::sqrt(lengths), std::sqrt(directions)};
 }
 
-void LoopKinematics::setPosition(const Eigen::VectorXd& q) {
 double LoopKinematics::largestBent(const Eigen::VectorXd& way,
                                    const std::vector<double>& scales) const {
   double most = 0;
@@ -74,6 +73,7 @@ double LoopKinematics::largestBent(const Eigen::VectorXd& way,
   return most;
 }
 
+void LoopKinematics::setPosition(const Eigen::VectorXd& q) {
   if (placed_ && state_.q == q) return;
   placed_ = true;
   moving_ = false;
@@ -89,8 +89,8 @@ void LoopKinematics::subtractConstants() {
     double& constant = constants_[static_cast<Eigen::Index>(j)];
     if (adopted_) {
       values_.phi[i] -= constant;
-      continue;
       if (std::abs(values_.phi[i]) <= values_.roundings[i]) values_.phi[i] = 0;
+      continue;
     }
     constant = values_.phi[i];
     values_.phi[i] = 0;

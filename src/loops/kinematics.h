@@ -77,14 +77,14 @@ class LoopKinematics {
   void setMotion(const Motion& motion);
   /// A qdd + Ad qd + bd
   const Eigen::VectorXd& accelerations() const { return accelerations_; }
-  /// Whether b and its derivative bd can differ from zero.
-  bool drives() const { return drives_; }
-  const Eigen::VectorXd& b() const { return values_.b; }
   /// Whether rows depend on a coordinate that are not the same in every position: it must go to
   /// where they are met in short steps.
   bool bends(int coordinate) const { return bends_[static_cast<std::size_t>(coordinate)]; }
   /// The largest of these entries of a vector by coordinate, each over its scale.
   double largestBent(const Eigen::VectorXd& way, const std::vector<double>& scales) const;
+  /// Whether b and its derivative bd can differ from zero.
+  bool drives() const { return drives_; }
+  const Eigen::VectorXd& b() const { return values_.b; }
   const Eigen::VectorXd& bd() const { return values_.bd; }
   /// Norms of a set's entries in phi(), rates() or accelerations(), with lengths and directions
   /// apart.
@@ -175,11 +175,11 @@ class LoopKinematics {
   std::vector<Eigen::Index> first_;
   std::vector<RowsShape> rows_;  // by set; they point to coordinates of sets_
   std::vector<int> lengths_;     // by set: how many of its conditions, the first, are lengths
+  std::vector<bool> bends_;      // by coordinate
   bool drives_ = false;
   std::vector<Eigen::Index> adopting_;  // conditions that adopt a constant
   bool adopted_ = false;
   bool placed_ = false;        // whether values_ are at state_.q
-  std::vector<bool> bends_;      // by coordinate
   bool moving_ = false;        // whether they are those of state_.qd
   Eigen::VectorXd constants_;  // by adopting_; of the present position until adopted
   LoopState state_;

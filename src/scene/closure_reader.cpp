@@ -12,8 +12,8 @@ const Names kFrameKeys = {"link", "xyz", "rpy"};
 const Names kClosureKeys = {"name", "type", "parent", "child", "length"};
 const Names kSpringKeys = {"name", "link_a",    "at_a",        "link_b",
                            "at_b", "stiffness", "rest_length", "damping"};
-const Names kRedundancyKeys = {"policy",         "zero_at",        "stiffness",
 const Names kCouplingKeys = {"name", "terms", "offset", "rate_only"};
+const Names kRedundancyKeys = {"policy",         "zero_at",        "stiffness",
                                "effort_weights", "rank_tolerance", "length"};
 
 // In the order of RedundancyPolicy.
@@ -118,6 +118,19 @@ std::vector<NamedNumber> readNamedNumbers(const YAML::Node& node, const std::str
   });
 }
 
+Coupling readCoupling(const YAML::Node& node, const std::string& where) {
+  Coupling coupling;
+  readMap(node, where, kCouplingKeys, [&](const auto& key, const auto& value, const auto& path) {
+    if (key == "name") coupling.name = scalarText(value, path, "a name");
+    if (key == "terms") coupling.terms = readNamedNumbers(value, path, "factor");
+    if (key == "offset") coupling.offset = readNumber(value, path);
+    if (key == "rate_only") coupling.rate_only = readBool(value, path);
+  });
+  require(!coupling.name.empty(), where, "name");
+  require(!coupling.terms.empty(), where, "terms");
+  return coupling;
+}
+
 // Refuses what belongs to another policy and would have no effect.
 void checkPolicy(const Redundancy& redundancy, bool has_zero_at, bool has_stiffness) {
   const bool zero_at = redundancy.policy == RedundancyPolicy::kZeroAt;
@@ -148,19 +161,6 @@ Redundancy readRedundancy(const YAML::Node& node) {
       has_stiffness = true;
     }
     if (key == "effort_weights") {
-Coupling readCoupling(const YAML::Node& node, const std::string& where) {
-  Coupling coupling;
-  readMap(node, where, kCouplingKeys, [&](const auto& key, const auto& value, const auto& path) {
-    if (key == "name") coupling.name = scalarText(value, path, "a name");
-    if (key == "terms") coupling.terms = readNamedNumbers(value, path, "factor");
-    if (key == "offset") coupling.offset = readNumber(value, path);
-    if (key == "rate_only") coupling.rate_only = readBool(value, path);
-  });
-  require(!coupling.name.empty(), where, "name");
-  require(!coupling.terms.empty(), where, "terms");
-  return coupling;
-}
-
       redundancy.effort_weights = readNamedNumbers(value, path, "weight");
     }
     if (key == "rank_tolerance") redundancy.rank_tolerance = readNumber(value, path);
@@ -180,6 +180,8 @@ bool readLoopEntry(const std::string& key, const YAML::Node& value, Scene& scene
     scene.closures.insert(scene.closures.end(), closures.begin(), closures.end());
   } else if (key == "springs") {
     scene.springs = readList(value, key, readSpring);
+  } else if (key == "couplings") {
+    scene.couplings = readList(value, key, readCoupling);
   } else if (key == "actuated") {
     scene.actuated = readNames(value, key, "names of joints and closures");
   } else if (key == "free_motion") {
@@ -197,5 +199,3 @@ bool readLoopEntry(const std::string& key, const YAML::Node& value, Scene& scene
 }
 
 }  // namespace virtual_work_dynamics
-  } else if (key == "couplings") {
-    scene.couplings = readList(value, key, readCoupling);
