@@ -4,6 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "loop_examples.h"
+#include "loops/cut_tree.h"
 #include "loops/driven_conditions.h"
 #include "loops/kinematics.h"
 #include "touching_bodies.h"
@@ -178,6 +180,28 @@ TEST(Cylinder, LengthsHaveTheDerivativesOfTheirDifferences) {
     EXPECT_NEAR(rates[i], (then[i] - before[i]) / (2 * step), kDifference) << i;
     EXPECT_NEAR(kinematics.turning()[i], (then[i] - 2 * now[i] + before[i]) / (step * step), 1e-6)
         << i;
+  }
+}
+
+// The example: what the rams feed in is what motors in its joints would.
+TEST(Cylinder, RamsMoveTheExampleOfTheExcavator) {
+  const LoopExample example("excavator");
+  Request request;
+  const InverseDynamics motors(example.mechanism, withoutLoops(example.scene), request);
+  Workspace workspace = motors.makeWorkspace();
+  ClosedLoops rams(example.mechanism, example.scene, request);
+  EXPECT_EQ(rams.actuatedClosures(),
+            (std::vector<std::string>{"boom_ram", "stick_ram", "bucket_ram"}));
+  for (const double t : {0.0, 0.5, 1.0}) {
+    const Motion motion =
+        motionOf({0.3 - t, 1.5 - 0.5 * t, 0.2 + t}, {-0.4, 0.3, 0.5}, {0.2, -0.6, 0.9});
+    motors.compute(motion, workspace);
+    rams.compute(motion);
+    const double power = workspace.effort().dot(motion.qd);
+    EXPECT_NEAR(rams.effort().tail<3>().dot(rams.actuatedVelocities()), power,
+                1e-12 * std::abs(workspace.effort().cwiseAbs().maxCoeff()));
+    for (int i = 0; i < 3; ++i)
+      EXPECT_TRUE(rams.effortDetermined()[static_cast<std::size_t>(3 + i)]);
   }
 }
 
