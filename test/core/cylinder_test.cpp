@@ -183,6 +183,24 @@ TEST(Cylinder, LengthsHaveTheDerivativesOfTheirDifferences) {
   }
 }
 
+// Without a length it has no direction, and what only it could hold has no value.
+TEST(Cylinder, HoldsNothingWhereItsEndsMeet) {
+  BodiesOnAxes bodies;
+  bodies.load(bodies.turn(0, bodies.y()), 10, {1, 1, 1}, {0.5, 0, 0});
+  const Mechanism mechanism = bodies.build();
+  ClosedLoops loops(mechanism, sceneOf(R"(
+cylinders: [{name: ram, link_a: link_0, at_a: [0.5, 0, 0], link_b: link_1, at_b: [0.5, 0, 0]}]
+actuated: []
+assembly: [{name: joint_1, position: 0.3}]
+)"));
+  loops.compute(motionOf({0.3}, {0.1}, {0}));
+  EXPECT_TRUE(loops.effortExists()[1]);
+  loops.compute(motionOf({0}, {0.1}, {0}));
+  EXPECT_TRUE(loops.results().singular());
+  EXPECT_FALSE(loops.effortExists()[1]);
+  EXPECT_TRUE(loops.finite());
+}
+
 // The example: what the rams feed in is what motors in its joints would.
 TEST(Cylinder, RamsMoveTheExampleOfTheExcavator) {
   const LoopExample example("excavator");
