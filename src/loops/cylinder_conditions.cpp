@@ -15,7 +15,10 @@ FramePair CylinderConditions::framesAt(const LinkKinematics& links) const {
   FramePair frames = ClosureConditions::framesAt(links);
   const Eigen::Vector3d r = frames.Co - frames.Po;
   const double length = r.norm();
-  if (!(length > 0)) return frames;
+  if (!(length > 0)) {  // no direction, so that the cylinder exerts nothing
+    frames.R_P.setZero();
+    return frames;
+  }
   const Eigen::Vector3d z = r / length, x = z.unitOrthogonal();
   frames.R_P << x, z.cross(x), z;
   return frames;

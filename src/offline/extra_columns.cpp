@@ -12,7 +12,7 @@ namespace virtual_work_dynamics {
 ExtraColumns::ExtraColumns(const Arguments& arguments, const Mechanism& mechanism,
                            const Scene& scene, const Dynamics& dynamics, const Request& written,
                            const MotionFile& file, MeasuredEfforts measured, Columns& columns)
-    : arguments_(arguments), mechanism_(mechanism), file_(file) {
+    : arguments_(arguments), mechanism_(mechanism), file_(file), holds_(dynamics.oneSided()) {
   const auto append = [&](const std::vector<std::string>& names) {
     columns.more.insert(columns.more.end(), names.begin(), names.end());
   };
@@ -55,6 +55,7 @@ void ExtraColumns::add(std::size_t row, const Motion& motion, const Load& load,
     cells.push_back(file_.one_sided[row] ? 1 : 0);
   }
   if (arguments_.positions) appendMotion(mechanism_, motion, cells);
+  holds_.add(row, results);
   if (limits_) limits_->add(file_.table.times[row], results);
 }
 
@@ -66,6 +67,7 @@ std::string ExtraColumns::notes() const {
             ": certificates judge arithmetic, not input: " + certified_->summary(file_.row_name) +
             "\n";
   }
+  text += holds_.text(file_);
   if (limits_) text += limits_->text(file);
   if (deviations_) {
     text += deviations_->notes(arguments_.deviation_warn.value_or(kDeviationWarn));

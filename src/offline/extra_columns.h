@@ -9,6 +9,7 @@
 #include "offline/arguments.h"
 #include "offline/certified_rows.h"
 #include "offline/deviation_rows.h"
+#include "offline/hold_rows.h"
 #include "offline/limit_rows.h"
 #include "offline/measured_efforts.h"
 #include "offline/motion_file.h"
@@ -55,6 +56,7 @@ class ExtraColumns {
   std::optional<ResidualRows> residuals_;
   std::optional<ReportColumns> report_;
   std::optional<LimitRows> limits_;
+  HoldRows holds_;
 };
 
 }  // namespace virtual_work_dynamics

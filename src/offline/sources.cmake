@@ -14,6 +14,7 @@ foreach(file
     free_turn_rows.cpp
     generated_files.cpp
     help_text.cpp
+    hold_rows.cpp
     inputs.cpp
     joint_renaming.cpp
     joint_state_rows.cpp

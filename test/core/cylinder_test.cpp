@@ -4,6 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "loop_examples.h"
+#include "loops/cut_tree.h"
 #include "loops/driven_conditions.h"
 #include "loops/kinematics.h"
 #include "touching_bodies.h"
@@ -178,6 +180,46 @@ TEST(Cylinder, LengthsHaveTheDerivativesOfTheirDifferences) {
     EXPECT_NEAR(rates[i], (then[i] - before[i]) / (2 * step), kDifference) << i;
     EXPECT_NEAR(kinematics.turning()[i], (then[i] - 2 * now[i] + before[i]) / (step * step), 1e-6)
         << i;
+  }
+}
+
+// Without a length it has no direction, and what only it could hold has no value.
+TEST(Cylinder, HoldsNothingWhereItsEndsMeet) {
+  BodiesOnAxes bodies;
+  bodies.load(bodies.turn(0, bodies.y()), 10, {1, 1, 1}, {0.5, 0, 0});
+  const Mechanism mechanism = bodies.build();
+  ClosedLoops loops(mechanism, sceneOf(R"(
+cylinders: [{name: ram, link_a: link_0, at_a: [0.5, 0, 0], link_b: link_1, at_b: [0.5, 0, 0]}]
+actuated: []
+assembly: [{name: joint_1, position: 0.3}]
+)"));
+  loops.compute(motionOf({0.3}, {0.1}, {0}));
+  EXPECT_TRUE(loops.effortExists()[1]);
+  loops.compute(motionOf({0}, {0.1}, {0}));
+  EXPECT_TRUE(loops.results().singular());
+  EXPECT_FALSE(loops.effortExists()[1]);
+  EXPECT_TRUE(loops.finite());
+}
+
+// The example: what the rams feed in is what motors in its joints would.
+TEST(Cylinder, RamsMoveTheExampleOfTheExcavator) {
+  const LoopExample example("excavator");
+  Request request;
+  const InverseDynamics motors(example.mechanism, withoutLoops(example.scene), request);
+  Workspace workspace = motors.makeWorkspace();
+  ClosedLoops rams(example.mechanism, example.scene, request);
+  EXPECT_EQ(rams.actuatedClosures(),
+            (std::vector<std::string>{"boom_ram", "stick_ram", "bucket_ram"}));
+  for (const double t : {0.0, 0.5, 1.0}) {
+    const Motion motion =
+        motionOf({0.3 - t, 1.5 - 0.5 * t, 0.2 + t}, {-0.4, 0.3, 0.5}, {0.2, -0.6, 0.9});
+    motors.compute(motion, workspace);
+    rams.compute(motion);
+    const double power = workspace.effort().dot(motion.qd);
+    EXPECT_NEAR(rams.effort().tail<3>().dot(rams.actuatedVelocities()), power,
+                1e-12 * std::abs(workspace.effort().cwiseAbs().maxCoeff()));
+    for (int i = 0; i < 3; ++i)
+      EXPECT_TRUE(rams.effortDetermined()[static_cast<std::size_t>(3 + i)]);
   }
 }
 

@@ -37,6 +37,7 @@ EXAMPLES = {
     'planar_3rrr': None,
     'stewart_gough': None,
     'spatial_parallelogram': None,
+    'excavator': ['boom_joint', 'stick_joint', 'bucket_joint', 'boom_ram', 'stick_ram', 'bucket_ram'],
     'arm_on_a_ship': ['ground'] + ['joint_%d' % i for i in range(1, 7)],
     'balance_board': ['ground', 'ankle', 'knee', 'hip', 'waist'],
     'quadruped': ['ground'],
