@@ -62,6 +62,14 @@ constexpr char kPrelude[] = R"(
 #define $N_PACK_WIDTH 2
 #define $N_FEW_WIDTH 2
 #endif
+
+/* Without AVX-512VL clang moves single numbers in the widest vectors: then one sample is computed
+   without AVX-512. */
+#if defined(__clang__) && defined(__AVX512F__) && !defined(__AVX512VL__)
+#define $N_NARROW 1
+#else
+#define $N_NARROW 0
+#endif
 )";
 
 // Packs, of two kinds: $p stands for their name, $P for it in capitals.
@@ -80,7 +88,7 @@ $N_WITHIN $n_$p $n_$p_fma($n_$p a, $n_$p b, $n_$p c) { return _mm512_fmadd_pd(a,
 $N_WITHIN $n_$p $n_$p_fnma($n_$p a, $n_$p b, $n_$p c) { return _mm512_fnmadd_pd(a, b, c); }
 $N_WITHIN $n_$p $n_$p_fms($n_$p a, $n_$p b, $n_$p c) { return _mm512_fmsub_pd(a, b, c); }
 $N_WITHIN $n_$p $n_$p_fnms($n_$p a, $n_$p b, $n_$p c) { return _mm512_fnmsub_pd(a, b, c); }
-#elif $N_FUSED && defined(__FMA__) && $N_$P_WIDTH == 4
+#elif $N_FUSED && defined(__FMA__) && $N_$P_WIDTH == 4 && !$N_NARROW
 $N_WITHIN $n_$p $n_$p_fma($n_$p a, $n_$p b, $n_$p c) { return _mm256_fmadd_pd(a, b, c); }
 $N_WITHIN $n_$p $n_$p_fnma($n_$p a, $n_$p b, $n_$p c) { return _mm256_fnmadd_pd(a, b, c); }
 $N_WITHIN $n_$p $n_$p_fms($n_$p a, $n_$p b, $n_$p c) { return _mm256_fmsub_pd(a, b, c); }
@@ -192,6 +200,23 @@ $N_WITHIN int $n_sines(double a, double b, double c, double d, double e, double 
   }
   return every;
 }
+#endif
+)";
+
+// Around what computes one sample.
+constexpr char kOneSample[] = R"(
+#if $N_NARROW
+#pragma clang attribute push(__attribute__((target("no-avx512f"))), apply_to = function)
+#elif defined(__GNUC__) && !defined(__clang__)
+#pragma GCC push_options
+#pragma GCC optimize("-fschedule-insns", "-fsched-pressure")
+#endif
+)";
+constexpr char kOneSampleEnd[] = R"(
+#if $N_NARROW
+#pragma clang attribute pop
+#elif defined(__GNUC__) && !defined(__clang__)
+#pragma GCC pop_options
 #endif
 )";
 

@@ -77,15 +77,17 @@ class Source {
   std::string text() {
     out_ = content_.head + "#include \"" + name_ + ".h\"\n";
     out_ += filled(kPrelude, name_);
-    for (const char* pack : {"pack", "few"}) out_ += filled(kPacks, name_, pack);
-    if (!graph().angles().empty()) {
-      out_ += filled(kSineConstants, name_);
-      for (const char* pack : {"pack", "few"}) out_ += filled(kPackSines, name_, pack);
-      out_ += filled(kSines, name_);
-    }
+    const bool turns = !graph().angles().empty();
+    out_ += filled(kPacks, name_, "pack");
+    if (turns) out_ += filled(kSineConstants, name_) + filled(kPackSines, name_, "pack");
+    out_ += filled(kOneSample, name_);
+    out_ += filled(kPacks, name_, "few");
+    if (turns) out_ += filled(kPackSines, name_, "few") + filled(kSines, name_);
     smallFunctions();
     parts(false);
     computeFunction();
+    out_ += filled(kOneSampleEnd, name_);
+    smallFunctionsOfPacks();
     oneOfBlock();
     out_ += "\n#if " + packsExist();
     parts(true);
@@ -100,10 +102,17 @@ class Source {
   std::string angleCount() const { return std::to_string(graph().angles().size()); }
 
   void smallFunctions() {
-    if (held_) {
-      out_ += filled(R"(
+    if (!held_) return;
+    out_ += filled(R"(
 /* Returns x, or 1 or -1 where x is beyond. */
 $N_WITHIN double $n_held(double x) { return x < -1.0 ? -1.0 : x > 1.0 ? 1.0 : x; }
+)",
+                   name_);
+  }
+
+  void smallFunctionsOfPacks() {
+    if (held_) {
+      out_ += filled(R"(
 #if $N_PACK_WIDTH > 1
 $N_WITHIN $n_pack $n_pack_held($n_pack x) {
   int i;

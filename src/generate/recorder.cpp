@@ -2,12 +2,10 @@
 
 #include <algorithm>
 
-#include "base/aligned_memory.h"
 #include "generate/recorded_number.h"
 #include "tree/applied_at.h"
 #include "tree/kernel/joint_angles.h"
-#include "tree/kernel/scratch.h"
-#include "virtual_work_dynamics/root_motion.h"
+#include "tree/plan_run.h"
 
 namespace virtual_work_dynamics {
 
@@ -24,21 +22,19 @@ Term termAt(const Numbers& numbers, std::size_t at) {
   return Term(numbers[at]);
 }
 
-// Adds an array of inputs, if it has any numbers, and returns what stands for them.
-Numbers inputArray(RecordedPlan& recording, const NamedArray& array) {
-  Numbers numbers(static_cast<std::size_t>(array.count) + 1);
-  if (array.count == 0) return numbers;
+// Adds an array of inputs, if it has any numbers, and puts terms in their places.
+void inputArray(RecordedPlan& recording, const NamedArray& array, Numbers& numbers) {
+  if (array.count == 0) return;
   const int index = static_cast<int>(recording.inputs.size());
   recording.inputs.push_back(array);
   for (int i = 0; i < array.count; ++i) {
     put(numbers, static_cast<std::size_t>(i), recording.graph.input(index, i));
   }
-  return numbers;
 }
 
-// The applied wrenches as kernels read them, of those that a user gives.
-Numbers appliedArray(const Plan<double>& plan, const Numbers& given) {
-  Numbers applied(given.size());
+// Turns applied wrenches that a user gives into those that kernels read.
+void applyWrenches(const Plan<double>& plan, Numbers& applied) {
+  const Numbers given = applied;
   for (std::size_t i = 0; i < plan.applied.size(); ++i) {
     const auto vector = [&](std::size_t at) -> Vec3<Term> {
       return {termAt(given, at), termAt(given, at + 1), termAt(given, at + 2)};
@@ -50,7 +46,6 @@ Numbers appliedArray(const Plan<double>& plan, const Numbers& given) {
       for (const Term& term : {part->x, part->y, part->z}) put(applied, at++, term);
     }
   }
-  return applied;
 }
 
 // As the kernels find them, see joint_angles.h.
@@ -92,61 +87,47 @@ bool RecordedPlan::anyRest() const {
 }
 
 RecordedPlan record(const Plan<double>& plan) {
-  const PlanView<double> view = viewOf(plan);
-  ScratchDealer counting(nullptr);
-  dealScratch<Term>(view, 0, counting);
-  const AlignedMemory memory(counting.used());
-  ScratchDealer dealer(memory.get());
-  const Scratch<Term, double> scratch = dealScratch<Term>(view, 0, dealer);
-  prepareScratch(view, 0, scratch);
-
   RecordedPlan recording;
   const GraphInUse in_use(recording.graph);
+  SampleArrays arrays(plan);
   const int coordinates = plan.coordinates;
-  const auto input = [&](const char* name, int count, const char* says) {
-    return inputArray(recording, {name, count, says});
+  const auto input = [&](const char* name, int count, const char* says, Numbers& numbers) {
+    inputArray(recording, {name, count, says}, numbers);
   };
-  const Numbers q = input("q", coordinates, "positions, rad or m");
-  const Numbers qd = input("qd", coordinates, "velocities, rad/s or m/s");
-  const Numbers qdd = input("qdd", coordinates, "accelerations, rad/s^2 or m/s^2");
-  const Numbers root = input("root", plan.root_moves ? RootState::kNumbers : 0,
-                             "of the root link, in its axes: angular velocity, angular "
-                             "acceleration, acceleration less gravity");
-  const Numbers orientations = input("orientations", 4 * plan.orientations,
-                                     "x y z w of each joint that turns freely, of unit length");
-  const Numbers applied = appliedArray(
-      plan, input("applied", 6 * static_cast<int>(plan.applied.size()),
-                  "force and torque of each applied wrench, N and N m, as the scene gives them"));
-  const KernelInputs<double> in = {
-      q.data(),    qd.data(), qdd.data(),          1, applied.data(), 1,
-      root.data(), 1,         orientations.data(), 1};
+  input("q", coordinates, "positions, rad or m", arrays.q);
+  input("qd", coordinates, "velocities, rad/s or m/s", arrays.qd);
+  input("qdd", coordinates, "accelerations, rad/s^2 or m/s^2", arrays.qdd);
+  input("root", plan.root_moves ? RootState::kNumbers : 0,
+        "of the root link, in its axes: angular velocity, angular acceleration, acceleration less "
+        "gravity",
+        arrays.root);
+  input("orientations", 4 * plan.orientations,
+        "x y z w of each joint that turns freely, of unit length", arrays.orientations);
+  input("applied", 6 * static_cast<int>(plan.applied.size()),
+        "force and torque of each applied wrench, N and N m, as the scene gives them",
+        arrays.applied);
+  applyWrenches(plan, arrays.applied);
+  runPlan<Term>(plan, arrays, [&](const auto& view, const auto& in, const auto& scratch) {
+    recordAngles(view, in, scratch, recording.graph);
+  });
+
   const int child_count = 6 * static_cast<int>(plan.child_axes.size());
   const int root_count = static_cast<int>(plan.root_axes.size());
-  const auto room = [](int count) { return Numbers(static_cast<std::size_t>(count) + 1); };
-  Numbers effort = room(coordinates), child = room(child_count), in_root = room(6 * root_count),
-          poses = room(12 * root_count), twists = room(6 * root_count);
-  const KernelOutputs<double> out = {plan.efforts ? effort.data() : nullptr,
-                                     child.data(),
-                                     in_root.data(),
-                                     plan.poses ? poses.data() : nullptr,
-                                     plan.twists ? twists.data() : nullptr,
-                                     1};
-  recordAngles(view, in, scratch, recording.graph);
-  evaluate(view, in, out, scratch);
-
-  outputArray(recording, {"effort", plan.efforts ? coordinates : 0, "N m or N"}, effort);
-  const char* const wrench = "fx fy fz tx ty tz of each, N and N m";
   const bool both = child_count > 0 && root_count > 0;
-  outputArray(recording, {both ? "child_reactions" : "reactions", child_count, wrench}, child);
-  outputArray(recording, {both ? "root_reactions" : "reactions", 6 * root_count, wrench}, in_root);
+  const char* const wrench = "fx fy fz tx ty tz of each, N and N m";
+  outputArray(recording, {"effort", plan.efforts ? coordinates : 0, "N m or N"}, arrays.effort);
+  outputArray(recording, {both ? "child_reactions" : "reactions", child_count, wrench},
+              arrays.child_axes);
+  outputArray(recording, {both ? "root_reactions" : "reactions", 6 * root_count, wrench},
+              arrays.root_axes);
   outputArray(recording,
               {"poses", plan.poses ? 12 * root_count : 0,
                "of each joint: x y z, then its axes in the root link's by rows"},
-              poses);
+              arrays.poses);
   outputArray(
       recording,
       {"twists", plan.twists ? 6 * root_count : 0, "of each joint: vx vy vz wx wy wz, root axes"},
-      twists);
+      arrays.twists);
   return recording;
 }
 

@@ -31,6 +31,8 @@ struct PlanUse {
   bool poses = false;   ///< whether poses are reported with the reactions in root axes
   bool twists = false;  ///< whether twists are reported with the reactions in root axes
   bool any_pose = false;
+  bool child_zeros = false;    ///< some reaction in child axes is known to be zero
+  bool root_zeros = false;     ///< some reaction in root axes is known to be zero
   bool geared_angles = false;  ///< some joint that turns is not moved one to one
   int wrenches = 0;  ///< number of the bodies' wrenches and of the partial sums behind them
   std::vector<Carry> carries;

@@ -1,9 +1,7 @@
 #include "tree/plan_counting.h"
 
-#include "base/aligned_memory.h"
-#include "tree/applied_values.h"
 #include "tree/kernel/joint_angles.h"
-#include "tree/kernel/scratch.h"
+#include "tree/plan_run.h"
 
 namespace virtual_work_dynamics {
 
@@ -86,35 +84,11 @@ std::vector<std::string> linesOf(const Plan<double>& plan) {
 }  // namespace
 
 PlanSummary summarize(const Plan<double>& plan) {
-  const PlanView<double> view = viewOf(plan);
-  ScratchDealer counting(nullptr);
-  dealScratch<Counted>(view, 0, counting);
-  const AlignedMemory memory(counting.used());
-  ScratchDealer dealer(memory.get());
-  const Scratch<Counted, double> scratch = dealScratch<Counted>(view, 0, dealer);
-  prepareScratch(view, 0, scratch);
-
-  const AppliedValues<double> applied(plan);
-  const std::vector<double> zeros(static_cast<std::size_t>(plan.coordinates) + 1);
-  std::vector<double> effort(zeros.size()), child(6 * plan.child_axes.size() + 1),
-      root(6 * plan.root_axes.size() + 1);
-  std::vector<double> poses(12 * plan.root_axes.size() + 1), twists(root.size());
-  const std::vector<double> root_state(RootState::kNumbers);
-  const std::vector<double> orientations(4 * static_cast<std::size_t>(plan.orientations) + 1);
-  const KernelInputs<double> in = {zeros.data(),        zeros.data(),
-                                   zeros.data(),        1,
-                                   applied.data(),      applied.stride(),
-                                   root_state.data(),   1,
-                                   orientations.data(), 1};
-  const KernelOutputs<double> out = {plan.efforts ? effort.data() : nullptr,
-                                     child.data(),
-                                     root.data(),
-                                     plan.poses ? poses.data() : nullptr,
-                                     plan.twists ? twists.data() : nullptr,
-                                     1};
+  SampleArrays arrays(plan);
   counted = {};
-  plainAngles(view, in, scratch, uncounted, uncounted);
-  evaluate(view, in, out, scratch);
+  runPlan<Counted>(plan, arrays, [](const auto& view, const auto& in, const auto& scratch) {
+    plainAngles(view, in, scratch, uncounted, uncounted);
+  });
 
   PlanSummary summary;
   summary.bodies = plan.bodies.size();

@@ -259,12 +259,22 @@ class Reduction {
     }
     sumHubsPairwise();
     for (std::size_t i = 0; i < plan_.child_axes.size(); ++i) {
-      const int body = plan_.child_axes[i].body;
-      if (body >= 0) bodies_[body].child_axes = static_cast<int>(i);
+      Body<Real>* const body = reportedBody(plan_.child_axes[i]);
+      if (body) body->child_axes = static_cast<int>(i);
+      if (!body) plan_.child_zeros = true;
     }
-    for (const auto& output : plan_.root_axes) {
-      if (output.body >= 0) bodies_[output.body].wrench_outlives = true;
+    for (std::size_t i = 0; i < plan_.root_axes.size(); ++i) {
+      Body<Real>* const body = reportedBody(plan_.root_axes[i]);
+      if (body) body->root_axes = static_cast<int>(i);
+      if (!body) plan_.root_zeros = true;
     }
+  }
+
+  // The body whose wrench is reported, if it is not known to be zero.
+  Body<Real>* reportedBody(const ReactionOutput<Real>& output) {
+    if (output.body < 0 || !bodies_[output.body].wrench_needed) return nullptr;
+    bodies_[output.body].reported = true;
+    return &bodies_[output.body];
   }
 
   // Departs from (3.8): a sum over children. Those of a hub go two by two into partial sums of 1,
@@ -327,8 +337,7 @@ class Reduction {
       if (body.mobility != Mobility::kRevolute || body.geared || body.angle < 0) continue;
       body.plain_motion = body.motion_needed && body.has_inertia && !body.parent_rests &&
                           body.parent_slot < 0 && body.own_slot < 0;
-      body.plain_wrench = body.wrench_needed && body.drives && !body.summed && body.hands_on &&
-                          !body.wrench_outlives;
+      body.plain_wrench = body.wrench_needed && body.drives && !body.summed && body.hands_on;
     }
   }
 

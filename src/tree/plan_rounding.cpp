@@ -137,6 +137,8 @@ PlanView<T> viewOf(const Plan<T>& plan) {
   view.static_motion = plan.static_motion;
   view.root_moves = plan.root_moves;
   view.any_pose = plan.any_pose;
+  view.child_zeros = plan.child_zeros;
+  view.root_zeros = plan.root_zeros;
   view.geared_angles = plan.geared_angles;
   view.root_wrench = plan.root_wrench;
   return view;

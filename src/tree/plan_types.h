@@ -40,9 +40,9 @@ struct BodyUse {
 
   bool motion_needed = false;
   bool wrench_needed = false;
-  bool pose_needed = false;      ///< R_0Z and p_0
-  bool bears_point = false;      ///< its position says where the point or axis of a moment is
-  bool wrench_outlives = false;  ///< the sum of (3.8) is read again after the sweep
+  bool pose_needed = false;  ///< R_0Z and p_0
+  bool bears_point = false;  ///< its position says where the point or axis of a moment is
+  bool reported = false;     ///< its wrench is a result in some axes
   bool has_inertia = false;
 
   // Constants that are zero, so that their products are left out.
@@ -70,6 +70,7 @@ struct BodyUse {
   int coordinate = -1;   ///< the coordinate that moves it; -1: fixed
   int orientation = -1;  ///< the orientation of the sample behind R_PZ; -1: none
   int child_axes = -1;   ///< index into Plan::child_axes
+  int root_axes = -1;    ///< index into Plan::root_axes
 
   int sums_into = -1;     ///< index of the wrench it is added to: the parent's, or a partial sum
   int carries_begin = 0;  ///< range of Plan::carries that follow the addition

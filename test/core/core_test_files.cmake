@@ -51,6 +51,7 @@ set(core_test_files
   test/core/free_bodies_published_test.cpp
   test/core/free_motion_test.cpp
   test/core/generated_code_test.cpp
+  test/core/generated_compilers_test.cpp
   test/core/given_motions_test.cpp
   test/core/instruction_set_test.cpp
   test/core/inverse_dynamics_test.cpp

@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <random>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
-#include "generated_program.h"
+#include "generated_cases.h"
 #include "robot_builder.h"
 #include "sample_robots.h"
 #include "tested_build.h"
@@ -21,147 +23,10 @@
 namespace virtual_work_dynamics {
 namespace {
 
-using Numbers = std::vector<double>;
-
-// A robot in a scene, and samples of all that its function reads.
-struct Case {
-  Mechanism mechanism;
-  Scene scene;
-  Request request;
-  double farthest;  // position, rad or m
-};
-
-Case caseOf(const Mechanism& mechanism, const Scene& scene, bool child_axes) {
-  Case made{mechanism, scene, {}, 3};
-  (child_axes ? made.request.child_axes : made.request.root_axes) =
-      requestedReactions(mechanism, scene);
-  return made;
-}
-
-std::vector<int> inputCounts(const Case& of) {
-  const int coordinates = static_cast<int>(of.mechanism.coordinates().size());
-  std::vector<int> counts(3, coordinates);
-  if (of.scene.root_moves) counts.push_back(RootState::kNumbers);
-  const int orientations = static_cast<int>(of.mechanism.orientations());
-  if (orientations > 0) counts.push_back(4 * orientations);
-  const int wrenches = static_cast<int>(of.scene.applied_wrenches.size());
-  if (wrenches > 0) counts.push_back(6 * wrenches);
-  return counts;
-}
-
-std::vector<int> outputCounts(const Case& of) {
-  std::vector<int> counts;
-  const auto add = [&](std::size_t count) {
-    if (count > 0) counts.push_back(static_cast<int>(count));
-  };
-  add(of.request.efforts ? of.mechanism.coordinates().size() : 0);
-  add(6 * of.request.child_axes.size());
-  add(6 * of.request.root_axes.size());
-  return counts;
-}
-
-template <typename Vector>
-void append(Numbers& numbers, const Vector& vector) {
-  numbers.insert(numbers.end(), vector.data(), vector.data() + vector.size());
-}
-
-// Makes a sample, appends it to `row`, and what the library computes of it to `results`.
-void addSample(const Case& of, const InverseDynamics& dynamics, Workspace& workspace,
-               std::mt19937& generator, Numbers& row, Numbers& results) {
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  const auto fill = [&](auto& vector, double size) {
-    for (Eigen::Index i = 0; i < vector.size(); ++i) vector[i] = size * uniform(generator);
-    append(row, vector);
-  };
-  Motion motion(dynamics.coordinates(), dynamics.orientations());
-  fill(motion.q, of.farthest);
-  fill(motion.qd, 3);
-  fill(motion.qdd, 3);
-  if (of.scene.root_moves) {
-    motion.root.angular_velocity = Eigen::Vector3d(uniform(generator), 1, uniform(generator));
-    motion.root.angular_acceleration = Eigen::Vector3d(2, uniform(generator), -1);
-    motion.root.acceleration = Eigen::Vector3d(uniform(generator), 0.5, 3);
-    const RootState state = dynamics.rootState(motion.root);
-    row.insert(row.end(), state.data(), state.data() + RootState::kNumbers);
-  }
-  for (Eigen::Quaterniond& orientation : motion.orientations) {
-    orientation = Eigen::Quaterniond(uniform(generator), uniform(generator), 1, 0.5).normalized();
-    append(row, orientation.coeffs());
-  }
-  Load load(of.scene);
-  for (Wrench& wrench : load.wrenches) {
-    fill(wrench.force, 5);
-    fill(wrench.torque, 5);
-  }
-  dynamics.compute(motion, load, workspace);
-  append(results, workspace.effort());
-  for (const auto* wrenches : {&workspace.childAxes(), &workspace.rootAxes()}) {
-    for (const Wrench& wrench : *wrenches) {
-      append(results, wrench.force);
-      append(results, wrench.torque);
-    }
-  }
-}
-
-// Numbers that are not the same bits; the sign of a zero is free.
-std::size_t differences(const Numbers& made, const Numbers& expected) {
-  if (made.size() != expected.size()) return std::max(made.size(), expected.size());
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < made.size(); ++i) count += made[i] == expected[i] ? 0 : 1;
-  return count;
-}
-
-// Compiles and runs the code of a case, and counts results with other bits than the library's.
-void expectSameBits(const Case& of, const std::string& compiler, const std::string& options,
-                    const GeneratedCodeOptions& how = {}, std::size_t samples = 203) {
-  GeneratedProgram program(generateCode(of.mechanism, of.scene, of.request, how), how.name,
-                           inputCounts(of), outputCounts(of));
-  const InstructionSet set = comparedInstructions();
-  ASSERT_EQ(program.compile(compiler, options + optionsFor(set)), "");
-  const InverseDynamics dynamics(of.mechanism, of.scene, of.request, set);
-  Workspace workspace = dynamics.makeWorkspace();
-  std::mt19937 generator(11);
-  Numbers rows, expected;
-  for (std::size_t i = 0; i < samples; ++i) {
-    Numbers results;
-    addSample(of, dynamics, workspace, generator, rows, results);
-    for (int twice = 0; twice < 2; ++twice) {
-      expected.insert(expected.end(), results.begin(), results.end());
-    }
-  }
-  EXPECT_EQ(differences(program.run(rows), expected), 0u) << "of " << expected.size();
-}
-
 Mechanism robotWithFreeJoints() {
   RobotBuilder builder(5);
   builder.add(builder.add(builder.add(0)));
   return builder.build();
-}
-
-Scene busyScene(const Mechanism& mechanism) {
-  Scene scene;
-  scene.gravity = {0.3, -1, -9.6};
-  scene.root_moves = true;
-  const std::string& last = mechanism.links().back().name;
-  AppliedWrench wrench;
-  wrench.link = last;
-  wrench.at = {0.1, -0.2, 0.3};
-  wrench.axes = Axes::kRoot;
-  wrench.force = {1, 2, 3};
-  scene.applied_wrenches.push_back(wrench);
-  wrench.axes = Axes::kLink;
-  scene.applied_wrenches.push_back(wrench);
-  JointTerms terms;
-  terms.joint = mechanism.joint(mechanism.coordinates().front()).name;
-  terms.stiffness = 3;
-  terms.rest = 0.4;
-  terms.damping = 0.2;
-  terms.coulomb = 0.7;
-  terms.coulomb_velocity = 2;
-  terms.rotor_inertia = 0.05;
-  terms.offset = -0.6;
-  scene.joints = {terms};
-  return scene;
 }
 
 TEST(GeneratedCode, HasTheBitsOfComputeForRandomRobotsOfEveryJointType) {
@@ -170,25 +35,6 @@ TEST(GeneratedCode, HasTheBitsOfComputeForRandomRobotsOfEveryJointType) {
     SCOPED_TRACE(seed);
     expectSameBits(caseOf(mechanism, Scene(), seed % 2 == 1), "cc", std::string("-O1 ") + kStrictC);
   }
-}
-
-TEST(GeneratedCode, HasTheBitsOfComputeAsCpp) {
-  const Mechanism mechanism = readUrdf(RandomRobot(4, 8).urdf());
-  expectSameBits(caseOf(mechanism, busyScene(mechanism), true), "c++",
-                 std::string("-O2 ") + kStrictCpp);
-}
-
-TEST(GeneratedCode, HasTheBitsOfComputeFromOtherCompilers) {
-  const Mechanism mechanism = readUrdf(RandomRobot(2, 8).urdf());
-  int compilers = 0;
-  for (const char* const compiler : {"gcc", "clang", "clang-14"}) {
-    if (!isThere(compiler)) continue;
-    ++compilers;
-    SCOPED_TRACE(compiler);
-    // Contraction is the compilers' default for what is not ISO C: it must not reach the results.
-    expectSameBits(caseOf(mechanism, busyScene(mechanism), false), compiler, "-O2 -std=gnu99 ");
-  }
-  if (compilers == 0) GTEST_SKIP() << "neither gcc nor clang is there";
 }
 
 TEST(GeneratedCode, HasTheBitsOfComputeInMovingRootsWithWrenchesAndTerms) {
@@ -209,7 +55,7 @@ TEST(GeneratedCode, HasTheBitsOfComputeForFreeJoints) {
 }
 
 TEST(GeneratedCode, HasTheBitsOfComputeFarOut) {
-  Case of = caseOf(readUrdf(RandomRobot(2, 8).urdf()), Scene(), true);
+  GeneratedCase of = caseOf(readUrdf(RandomRobot(2, 8).urdf()), Scene(), true);
   of.farthest = 2e6;  // half of the angles are beyond the polynomials' range
   expectSameBits(of, "cc", "-O1 ");
 }
@@ -219,7 +65,7 @@ TEST(GeneratedCode, HasTheBitsOfComputeForMimicJointsNearAndFar) {
   const std::string end = "</joint>\n</robot>";
   urdf.replace(urdf.find(end), end.size(),
                "<mimic joint='joint_1' multiplier='1.3' offset='0.7'/>" + end);
-  Case of = caseOf(readUrdf(urdf), Scene(), true);
+  GeneratedCase of = caseOf(readUrdf(urdf), Scene(), true);
   ASSERT_EQ(of.mechanism.coordinates().size(), 1u);
   ASSERT_NE(generateCode(of.mechanism, of.scene, of.request).source.find("rest[0] ="),
             std::string::npos);
@@ -233,23 +79,16 @@ TEST(GeneratedCode, HasTheBitsOfComputeInManyFunctions) {
   how.name = "in_parts";
   how.operations_of_function = 60;
   const Mechanism mechanism = readUrdf(RandomRobot(8, 12).urdf());
-  const Case of = caseOf(mechanism, busyScene(mechanism), true);
+  const GeneratedCase of = caseOf(mechanism, busyScene(mechanism), true);
   EXPECT_GT(generateCode(of.mechanism, of.scene, of.request, how).functions, 5u);
   expectSameBits(of, "cc", std::string("-O1 ") + kStrictC, how);
-}
-
-TEST(GeneratedCode, RunsUnderSanitizers) {
-  const Mechanism mechanism = readUrdf(RandomRobot(2, 8).urdf());
-  Case of = caseOf(mechanism, busyScene(mechanism), true);
-  of.farthest = 2e6;
-  expectSameBits(of, "cc", "-O1 -g0 -fsanitize=address,undefined -fno-sanitize-recover=all ");
 }
 
 TEST(GeneratedCode, OfAStaticSceneReadsNoVelocities) {
   Scene scene;
   scene.static_motion = true;
   const Mechanism mechanism = readUrdf(RandomRobot(2, 8).urdf());
-  const Case of = caseOf(mechanism, scene, true);
+  const GeneratedCase of = caseOf(mechanism, scene, true);
   const std::string source = generateCode(of.mechanism, of.scene, of.request).source;
   EXPECT_EQ(source.find("qd[0]"), std::string::npos);
   EXPECT_EQ(source.find("qdd[0]"), std::string::npos);
@@ -280,7 +119,7 @@ TEST(GeneratedCode, MakesIdentifiersOfAnyNamesThatDiffer) {
   const std::vector<std::string> names = {"a-b",          "a.b",      "a_b", "A B",  "1st",  "int",
                                           "*/ #error /*", "?\?/",     "\"",  "\\",   "a\nb", "",
                                           "\xc3\xa4rmel", "a__b\x7f", "_",   "a_b_2"};
-  const Case of = caseOf(robotOf(names), Scene(), true);
+  const GeneratedCase of = caseOf(robotOf(names), Scene(), true);
   GeneratedCodeOptions how;
   how.name = "odd";
   how.origin = {"from /* \"somewhere\" */ ?\?/", "\\"};

@@ -21,6 +21,13 @@ constexpr char kStrictC[] = "-std=c99 -Wall -Wextra -Wpedantic -Wshadow -Wconver
 constexpr char kStrictCpp[] =
     "-x c++ -std=c++17 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror ";
 
+/// As for a machine without an operating system, and all that both compilers warn of.
+constexpr char kStrictest[] =
+    "-std=c99 -pedantic-errors -ffreestanding -Wall -Wextra -Wshadow -Wconversion "
+    "-Wsign-conversion -Wdouble-promotion -Wfloat-conversion -Wundef -Wvla -Wcast-qual "
+    "-Wcast-align -Wstrict-prototypes -Wmissing-prototypes -Wold-style-definition "
+    "-Wredundant-decls -Wswitch-default -Wformat=2 -Werror ";
+
 /// The instructions that a generated program is compiled for, and the library's that it is compared
 /// with.
 inline InstructionSet comparedInstructions() {
@@ -58,6 +65,15 @@ class GeneratedProgram {
                                 name_ + ".c main.c -o program -lm >log 2>&1";
     const int status = std::system(command.c_str());
     return read(log) + (status == 0 ? "" : "\nthe compiler failed: " + command);
+  }
+
+  /// Compiles the generated file alone. @returns what the compiler says, or the names of what the
+  /// object takes from elsewhere, one a line and in order.
+  std::string needs(const std::string& compiler, const std::string& options) {
+    const std::string command = "cd '" + folder_ + "' && { " + compiler + " " + options + " -c " +
+                                name_ + ".c -o part.o && nm -u part.o | sed 's/.* //'; } >log 2>&1";
+    const int status = std::system(command.c_str());
+    return read(folder_ + "/log") + (status == 0 ? "" : "the compiler failed: " + command);
   }
 
   /// Runs it on samples, the inputs of each in a row. @returns for each sample the results of the

@@ -30,7 +30,7 @@ struct PlanView {
   const int* zero_efforts;
   int body_count, angle_count, slide_count, child_axes_count, root_axes_count, moved_count,
       applied_count, actuator_count, zero_effort_count, slots, wrench_count;
-  bool static_motion, root_moves, any_pose, geared_angles;
+  bool static_motion, root_moves, any_pose, child_zeros, root_zeros, geared_angles;
   PlainWrench<R> root_wrench;
 };
 

@@ -14,44 +14,34 @@ struct BodyPose {
   Vec3<T> w_0;   ///< omega_{k0}
 };
 
-/// How much of a pose is wanted.
-enum class PoseExtent { kRotation, kPosition, kTwist };
-
-/// The rotation of a body from its parent's.
-template <typename T, typename R>
+/// The rotation of a body from its parent's. kPlain: see BodyUse::plain_motion.
+template <bool kPlain, AxisDirection kAxis, typename T, typename R>
 VWD_INLINE Mat3<T> propagateRotation(const Body<R>& body, const KernelInputs<R>& in,
                                      const RotationZ<T>& Rz, const Mat3<T>& R_0P) {
-  Mat3<T> R_0Z;
-  forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
-    const Vec3<T> x = toChild<axis.value>(body.R_PZ, Vec3<T>{R_0P.xx, R_0P.xy, R_0P.xz});
-    const Vec3<T> y = toChild<axis.value>(body.R_PZ, Vec3<T>{R_0P.yx, R_0P.yy, R_0P.yz});
-    const Vec3<T> z = toChild<axis.value>(body.R_PZ, Vec3<T>{R_0P.zx, R_0P.zy, R_0P.zz});
-    R_0Z = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
-  });
-  if (body.mobility == Mobility::kRevolute) R_0Z = times(R_0Z, Rz);
+  const Vec3<T> x = toChild<kAxis>(body.R_PZ, Vec3<T>{R_0P.xx, R_0P.xy, R_0P.xz});
+  const Vec3<T> y = toChild<kAxis>(body.R_PZ, Vec3<T>{R_0P.yx, R_0P.yy, R_0P.yz});
+  const Vec3<T> z = toChild<kAxis>(body.R_PZ, Vec3<T>{R_0P.zx, R_0P.zy, R_0P.zz});
+  const Mat3<T> R_0Z = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
+  if (kPlain || body.mobility == Mobility::kRevolute) return times(R_0Z, Rz);
   if (VWD_SELDOM(body.mobility == Mobility::kOriented)) {
-    const Mat3<T> turn = orientationOf<T>(body, in), A = R_0Z;
-    const Vec3<T> x = transposeTimes(turn, Vec3<T>{A.xx, A.xy, A.xz});
-    const Vec3<T> y = transposeTimes(turn, Vec3<T>{A.yx, A.yy, A.yz});
-    const Vec3<T> z = transposeTimes(turn, Vec3<T>{A.zx, A.zy, A.zz});
-    R_0Z = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
+    const Mat3<T> turn = orientationOf<T>(body, in);
+    const Vec3<T> a = transposeTimes(turn, x), b = transposeTimes(turn, y),
+                  c = transposeTimes(turn, z);
+    return {a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z};
   }
   return R_0Z;
 }
 
-/// Pose of a body from its parent's, and its velocities (2.5) and (2.6) in root axes, as far as
-/// they are wanted; the rest of `pose` stays as it is.
-template <PoseExtent kExtent, typename T, typename R>
-VWD_INLINE void propagatePose(const Body<R>& body, const KernelInputs<R>& in,
-                              const JointMotion<T>& joint, const BodyPose<T>& parent,
-                              BodyPose<T>& pose) {
-  pose.R_0Z = propagateRotation(body, in, joint.Rz, parent.R_0Z);
-  if (kExtent == PoseExtent::kRotation) return;
+/// Position of a body from its parent's, and with kTwist its velocities (2.5) and (2.6) in root
+/// axes; its rotation is there.
+template <bool kTwist, typename T, typename R>
+VWD_INLINE void propagatePose(const Body<R>& body, const JointMotion<T>& joint,
+                              const BodyPose<T>& parent, BodyPose<T>& pose) {
   const Vec3<T> arm = body.mobility == Mobility::kPrismatic
                           ? times(parent.R_0Z, originInParent(body, joint.slide))
                           : columnTimes(parent.R_0Z, body.p_PoZo_P);
   pose.p_0 = parent.p_0 + arm;
-  if (kExtent == PoseExtent::kPosition) return;
+  if (!kTwist) return;
   pose.w_0 = parent.w_0;
   pose.v_0 = addCross(parent.v_0, parent.w_0, arm);  // (2.6)
   const Vec3<T> u3{pose.R_0Z.xz, pose.R_0Z.yz, pose.R_0Z.zz};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tree/kernel/moved_moments.h"
+#include "tree/kernel/results.h"
 
 namespace virtual_work_dynamics {
 namespace {  // see kernel.h
@@ -22,12 +23,17 @@ VWD_INLINE void feedNext(const PlanView<R>& plan, const Body<R>& body, const Scr
 
 /// Moves a body of sweepOut() that is plain.
 template <bool kStatic, AxisDirection kAxis, typename T, typename R>
-VWD_INLINE void movePlainBody(const PlanView<R>& plan, const Body<R>& body,
-                              const KernelInputs<R>& in, const Scratch<T, R>& scratch,
-                              Arrival<T>& arrival, PlainWrench<T>& wrench) {
+VWD_INLINE void movePlainBody(const PlanView<R>& plan, int k, const KernelInputs<R>& in,
+                              const Scratch<T, R>& scratch, Arrival<T>& arrival) {
+  const Body<R>& body = plan.bodies[k];
+  PlainWrench<T>& wrench = scratch.wrenches[k];
+  const JointMotion<T> joint = jointMotion<kStatic, true>(body, in, scratch);
+  if (body.pose_needed) {
+    const Mat3<T>& R_0P = scratch.poses[body.parent].R_0Z;
+    scratch.poses[k].R_0Z = propagateRotation<true, kAxis>(body, in, joint.Rz, R_0P);
+  }
   BodyMotion<T> motion;
-  propagateMotion<kStatic, true, kAxis>(body, in, jointMotion<kStatic, true>(body, in, scratch),
-                                        arrival, motion);
+  propagateMotion<kStatic, true, kAxis>(body, in, joint, arrival, motion);
   wrench = inertiaWrench<kStatic>(body, motion);
   feedNext<kStatic>(plan, body, scratch, motion, arrival);
 }
@@ -79,7 +85,20 @@ VWD_INLINE void moveRoot(const PlanView<R>& plan, const KernelInputs<R>& in,
   feedNext<kStatic>(plan, root, scratch, motion, arrival);
 }
 
-/// Root to leaves: motions (2.5)-(2.7) and the wrenches (3.5) of the single bodies.
+/// Finds the rotation of any other body of sweepOut() in root axes.
+template <typename T, typename R>
+VWD_INLINE void turnBody(const PlanView<R>& plan, int k, const KernelInputs<R>& in,
+                         const Scratch<T, R>& scratch) {
+  const Body<R>& body = plan.bodies[k];
+  const JointMotion<T> joint = jointMotion<true, false>(body, in, scratch);
+  const Mat3<T>& R_0P = scratch.poses[body.parent].R_0Z;
+  forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
+    scratch.poses[k].R_0Z = propagateRotation<false, axis.value>(body, in, joint.Rz, R_0P);
+  });
+}
+
+/// Root to leaves: rotations in root axes where they are needed, motions (2.5)-(2.7) and the
+/// wrenches (3.5) of the single bodies.
 template <bool kStatic, typename T, typename R>
 VWD_INLINE void sweepOut(const PlanView<R>& plan, const KernelInputs<R>& in,
                          const Scratch<T, R>& scratch) {
@@ -91,10 +110,11 @@ VWD_INLINE void sweepOut(const PlanView<R>& plan, const KernelInputs<R>& in,
     PlainWrench<T>& wrench = scratch.wrenches[k];
     if (body.plain_motion) {
       forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
-        movePlainBody<kStatic, axis.value>(plan, body, in, scratch, arrival, wrench);
+        movePlainBody<kStatic, axis.value>(plan, k, in, scratch, arrival);
       });
       continue;
     }
+    if (body.pose_needed) turnBody(plan, k, in, scratch);
     if (!body.has_inertia && body.wrench_needed) wrench = constantWrench<T>(PlainWrench<R>{});
     if (!body.motion_needed) continue;
     if (body.parent_rests) {
@@ -125,90 +145,6 @@ VWD_INLINE void subtractApplied(const PlanView<R>& plan, const KernelInputs<R>& 
   }
 }
 
-/// Takes from a wrench what actuators deliver, see ActivePart.
-template <typename T, typename R>
-VWD_INLINE void dropActive(const ReactionOutput<R>& output, const Body<R>& body,
-                           const KernelInputs<R>& in, const Scratch<T, R>& scratch,
-                           PlainWrench<T>& wrench) {
-  const T zero = T(0);
-  switch (output.active) {
-    case ActivePart::kAxis:
-      if (body.mobility == Mobility::kRevolute) wrench.torque.z = zero;
-      if (body.mobility == Mobility::kPrismatic) wrench.force.z = zero;
-      return;
-    case ActivePart::kPlane:
-      wrench = {{zero, zero, wrench.force.z}, {wrench.torque.x, wrench.torque.y, zero}};
-      return;
-    case ActivePart::kCylinder:
-      wrench.force.z = wrench.torque.z = zero;
-      return;
-    case ActivePart::kScrew:
-      wrench.torque.z = -output.pitch * wrench.force.z;
-      return;
-    case ActivePart::kBall:
-      wrench.torque = {zero, zero, zero};
-      return;
-    case ActivePart::kAll:
-      wrench = {{zero, zero, zero}, {zero, zero, zero}};
-      return;
-    case ActivePart::kCross:
-      break;
-  }
-  const JointMotion<T> joint = jointMotion<true, false>(body, in, scratch);
-  Vec3<T> normal = {T(output.normal_P.x), T(output.normal_P.y), T(output.normal_P.z)};
-  forAxis(body.axis,
-          [&](auto axis) VWD_LAMBDA { normal = toChild<axis.value>(body.R_PZ, normal); });
-  normal = transposeTimes(joint.Rz, normal);
-  const T along = mulAdd(normal.x, wrench.torque.x,
-                         mulAdd(normal.y, wrench.torque.y, normal.z * wrench.torque.z));
-  wrench.torque = {along * normal.x, along * normal.y, along * normal.z};
-}
-
-template <typename T, typename R>
-VWD_INLINE Vec3<T> flipped(const ReactionOutput<R>& output, const Vec3<T>& v) {
-  return {output.sign[0] * v.x, output.sign[1] * v.y, output.sign[2] * v.z};
-}
-
-/// A reported wrench in the axes of R_KZ, as six numbers.
-template <typename T, typename R>
-VWD_INLINE void storeWrench(const ReactionOutput<R>& output, PlainWrench<T> wrench, R* to,
-                            std::size_t stride) {
-  if (output.permutes) {
-    if (output.flips) {
-      wrench.force = flipped(output, wrench.force);
-      wrench.torque = flipped(output, wrench.torque);
-    }
-    R* const torque = to + 3 * stride;
-    const std::size_t x = static_cast<std::size_t>(output.row[0]) * stride;
-    const std::size_t y = static_cast<std::size_t>(output.row[1]) * stride;
-    const std::size_t z = static_cast<std::size_t>(output.row[2]) * stride;
-    store(to + x, wrench.force.x);
-    store(to + y, wrench.force.y);
-    store(to + z, wrench.force.z);
-    store(torque + x, wrench.torque.x);
-    store(torque + y, wrench.torque.y);
-    store(torque + z, wrench.torque.z);
-    return;
-  }
-  storeVector(times(output.R_KZ, wrench.force), to, stride);
-  storeVector(times(output.R_KZ, wrench.torque), to + 3 * stride, stride);
-}
-
-template <typename T, typename R>
-VWD_INLINE void storeZeros(R* to, std::size_t count, std::size_t stride) {
-  for (std::size_t i = 0; i < count; ++i) store(to + i * stride, T(0));
-}
-
-/// Adds the component along the joint axis, (3.7), summed over the joints that a coordinate moves.
-template <typename T, typename R>
-VWD_INLINE void addEffort(const Body<R>& body, const PlainWrench<T>& wrench,
-                          const KernelOutputs<R>& out) {
-  R* const to = out.effort + static_cast<std::size_t>(body.coordinate) * out.stride;
-  T active = body.mobility == Mobility::kPrismatic ? wrench.force.z : wrench.torque.z;  // (3.7)
-  if (body.geared) active = body.multiplier * active;
-  store(to, body.summed ? load<T>(to) + active : active);
-}
-
 template <typename T>
 VWD_INLINE void addTo(PlainWrench<T>& sum, bool starts, const PlainWrench<T>& wrench) {
   if (starts) {
@@ -231,7 +167,7 @@ VWD_INLINE void sumUp(const PlanView<R>& plan, const Body<R>& body, const PlainW
   }
 }
 
-/// Leaves to root: (3.8), and what is reported of it in Z axes or the child link's.
+/// Leaves to root: (3.8), and what is reported of it.
 template <typename T, typename R>
 VWD_INLINE void sweepIn(const PlanView<R>& plan, const KernelInputs<R>& in,
                         const KernelOutputs<R>& out, const Scratch<T, R>& scratch) {
@@ -255,15 +191,12 @@ VWD_INLINE void sweepIn(const PlanView<R>& plan, const KernelInputs<R>& in,
     } else if (body.drives && out.effort) {
       addEffort(body, wrench, out);
     }
-    if (body.child_axes >= 0 && out.child_axes) {
-      const ReactionOutput<R>& output = plan.child_axes[body.child_axes];
-      R* const to = out.child_axes + 6 * static_cast<std::size_t>(body.child_axes) * out.stride;
-      if (output.drop_active) {
-        PlainWrench<T> borne = wrench;
-        dropActive(output, body, in, scratch, borne);
-        storeWrench(output, borne, to, out.stride);
-      } else {
-        storeWrench(output, wrench, to, out.stride);
+    if (body.reported) {
+      if (body.child_axes >= 0 && out.child_axes) {
+        storeChildAxes(plan, body, in, out, scratch, wrench);
+      }
+      if (body.root_axes >= 0 && out.root_axes) {
+        storeRootAxes(plan, body, in, out, scratch, scratch.poses[k].R_0Z, wrench);
       }
     }
     if (body.plain_wrench) {
@@ -273,7 +206,6 @@ VWD_INLINE void sweepIn(const PlanView<R>& plan, const KernelInputs<R>& in,
       });
       continue;
     }
-    if (body.wrench_outlives) scratch.wrenches[k] = wrench;
     if (!body.hands_on && !body.adds_to_parent) continue;
     const JointMotion<T> joint = jointMotion<true, false>(body, in, scratch);
     forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
@@ -283,45 +215,7 @@ VWD_INLINE void sweepIn(const PlanView<R>& plan, const KernelInputs<R>& in,
   }
 }
 
-/// Writes zeros where results are known to be zero.
-template <typename T, typename R>
-VWD_INLINE void storeKnownZeros(const PlanView<R>& plan, const KernelOutputs<R>& out) {
-  if (out.effort) {
-    for (int i = 0; i < plan.zero_effort_count; ++i) {
-      storeZeros<T>(out.effort + static_cast<std::size_t>(plan.zero_efforts[i]) * out.stride, 1,
-                    out.stride);
-    }
-  }
-  for (int i = 0; out.child_axes && i < plan.child_axes_count; ++i) {
-    if (plan.child_axes[i].body >= 0) continue;
-    storeZeros<T>(out.child_axes + 6 * static_cast<std::size_t>(i) * out.stride, 6, out.stride);
-  }
-}
-
-/// Adds to the efforts what the joints' terms demand.
-template <bool kStatic, typename T, typename R>
-VWD_INLINE void addActuators(const PlanView<R>& plan, const KernelInputs<R>& in,
-                             const KernelOutputs<R>& out) {
-  for (int i = 0; i < plan.actuator_count; ++i) {
-    const ActuatorTerms<R>& joint = plan.actuators[i];
-    const std::size_t at = static_cast<std::size_t>(joint.coordinate);
-    const T q = load<T>(in.q + at * in.stride);
-    const T stretch = mulAdd(joint.multiplier, q, T(joint.offset));
-    T sum = mulAdd(joint.stiffness, stretch, T(joint.constant));
-    if (!kStatic) {
-      const T rate = joint.multiplier * load<T>(in.qd + at * in.stride);
-      const T acceleration = joint.multiplier * load<T>(in.qdd + at * in.stride);
-      const T s = heldWithinOne(joint.per_velocity * rate);
-      const T half = R(0.5) * s;
-      sum = mulAdd(joint.coulomb, mulAdd(half, T(R(1)) - s * s, s), sum);
-      sum = mulAdd(joint.damping, rate, mulAdd(joint.rotor_inertia, acceleration, sum));
-    }
-    R* const to = out.effort + at * out.stride;
-    store(to, mulAdd(joint.multiplier, sum, load<T>(to)));
-  }
-}
-
-/// Finds the poses of the bodies that need one, and velocities where they are asked for.
+/// Finds positions of the bodies that need a pose, and velocities where they are asked for.
 template <bool kStatic, typename T, typename R>
 VWD_INLINE void sweepPoses(const PlanView<R>& plan, const KernelInputs<R>& in,
                            const KernelOutputs<R>& out, const Scratch<T, R>& scratch) {
@@ -333,43 +227,9 @@ VWD_INLINE void sweepPoses(const PlanView<R>& plan, const KernelInputs<R>& in,
     JointMotion<T> joint = jointMotion<kStatic, false>(body, in, scratch);
     if (out.twists) {
       if (kStatic) joint.qd = T(0);
-      propagatePose<PoseExtent::kTwist>(body, in, joint, parent, pose);
-    } else if (out.poses) {
-      propagatePose<PoseExtent::kPosition>(body, in, joint, parent, pose);
+      propagatePose<true>(body, joint, parent, pose);
     } else {
-      propagatePose<PoseExtent::kRotation>(body, in, joint, parent, pose);
-    }
-  }
-}
-
-/// Writes reactions (4.3), poses and twists in root axes.
-template <typename T, typename R>
-VWD_INLINE void storeRootAxes(const PlanView<R>& plan, const KernelInputs<R>& in,
-                              const KernelOutputs<R>& out, const Scratch<T, R>& scratch) {
-  for (int i = 0; i < plan.root_axes_count; ++i) {
-    const ReactionOutput<R>& output = plan.root_axes[i];
-    const std::size_t index = static_cast<std::size_t>(i);
-    if (output.body < 0) {
-      if (out.root_axes) storeZeros<T>(out.root_axes + 6 * index * out.stride, 6, out.stride);
-      continue;
-    }
-    const BodyPose<T>& pose = scratch.poses[output.body];
-    if (out.root_axes) {
-      R* const to = out.root_axes + 6 * index * out.stride;
-      const Body<R>& body = plan.bodies[output.body];
-      if (body.wrench_needed) {
-        PlainWrench<T> wrench = scratch.wrenches[output.body];
-        if (output.drop_active) dropActive(output, body, in, scratch, wrench);
-        storeVector(times(pose.R_0Z, wrench.force), to, out.stride);  // (4.3)
-        storeVector(times(pose.R_0Z, wrench.torque), to + 3 * out.stride, out.stride);
-      } else {
-        storeZeros<T>(to, 6, out.stride);
-      }
-    }
-    if (out.poses) storePose(output, pose, out.poses + 12 * index * out.stride, out.stride);
-    if (out.twists) {
-      storeVector(pose.v_0, out.twists + 6 * index * out.stride, out.stride);
-      storeVector(pose.w_0, out.twists + (6 * index + 3) * out.stride, out.stride);
+      propagatePose<false>(body, joint, parent, pose);
     }
   }
 }
@@ -379,12 +239,12 @@ VWD_INLINE void sweepAll(const PlanView<R>& plan, const KernelInputs<R>& in,
                          const KernelOutputs<R>& out, const Scratch<T, R>& scratch) {
   slidePositions(plan, in, scratch);
   sweepOut<kStatic>(plan, in, scratch);
-  if (plan.any_pose) sweepPoses<kStatic>(plan, in, out, scratch);
+  if (out.poses || out.twists) sweepPoses<kStatic>(plan, in, out, scratch);
   subtractApplied(plan, in, scratch);
   sweepIn(plan, in, out, scratch);
   storeKnownZeros<T>(plan, out);
   if (out.effort) addActuators<kStatic, T>(plan, in, out);
-  storeRootAxes(plan, in, out, scratch);
+  if (out.poses || out.twists) storePoses(plan, out, scratch);
   if (plan.moved_count > 0) moveMoments(plan, in, out, scratch);
 }
 
