@@ -15,6 +15,9 @@ constexpr int kHalvingsWhenClosed = 4;
 // tolerance. Newton's method goes on until rounding stops it or is all that is left of each
 // condition.
 constexpr double kClosed = 1e-12;
+// Misfit, over that which is exact, at which a step that was to be the last one ends the search:
+// what it leaves is expected to the second order only, and another step makes sure.
+constexpr double kSettled = 4;
 // Longest step, rad or of the length, so that an almost singular position does not cause a jump.
 constexpr double kLongestStep = 0.5;
 // Longest step that is bent, and longest bend over its step: further off, the conditions are not
@@ -125,7 +128,7 @@ bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
     if (!again) close_by_ = left < kUnknown && step_length_ <= kCloseBy;
     const bool stalled = then > search.stalled * now && then > closed;
     now = then;
-    if (stalled || (last && now <= rounding_)) break;
+    if (stalled || (last && now <= kSettled * exact_)) break;
   }
   return now <= closed;
 }

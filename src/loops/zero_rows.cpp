@@ -16,22 +16,22 @@ constexpr double kLargestTurn = 3;  // rad; slides go as far, in lengths of the 
 // Entries that count as roundings of the products that they are made of, over their size without
 // cancellation. To leave out a row changes results by so much, and that must be rounding, too.
 constexpr double kRowRounding = 16 * std::numeric_limits<double>::epsilon();
-// Extent of a loop, over its distance from the root or the largest extent, below which it is
+// LoopExtent of a loop, over its distance from the root or the largest extent, below which it is
 // rounding itself.
 constexpr double kLeastExtent = 1e-4;
 
 /// Distances between origins on the path of a closure, and from the root.
-struct Extent {
+struct LoopExtent {
   double largest = 0, reach = 0;
 };
 
-Extent extentOf(const LoopKinematics& kinematics, std::size_t closure) {
+LoopExtent extentOfLoop(const LoopKinematics& kinematics, std::size_t closure) {
   std::vector<Eigen::Vector3d> origins{kinematics.parentOrigin(closure),
                                        kinematics.childOrigin(closure)};
   for (const PathStep& step : kinematics.path(closure)) {
     origins.push_back(kinematics.originOf(step.joint + 1));
   }
-  Extent extent;
+  LoopExtent extent;
   for (const Eigen::Vector3d& a : origins) {
     extent.reach = std::max(extent.reach, a.norm());
     for (const Eigen::Vector3d& b : origins) {
@@ -42,17 +42,17 @@ Extent extentOf(const LoopKinematics& kinematics, std::size_t closure) {
 }
 
 // By closure: the length that levers of its rows are compared with; never zero.
-std::vector<double> lengthsOf(const LoopKinematics& kinematics) {
-  std::vector<Extent> extents;
+std::vector<double> lengthsOfLoops(const LoopKinematics& kinematics) {
+  std::vector<LoopExtent> extents;
   double largest = 0, reach = 0;
   for (std::size_t c = 0; c < kinematics.closures(); ++c) {
-    extents.push_back(extentOf(kinematics, c));
+    extents.push_back(extentOfLoop(kinematics, c));
     largest = std::max(largest, extents.back().largest);
     reach = std::max(reach, extents.back().reach);
   }
   if (!(largest > kLeastExtent * reach)) largest = reach > 0 ? reach : 1;
   std::vector<double> lengths;
-  for (const Extent& extent : extents) {
+  for (const LoopExtent& extent : extents) {
     const double least = kLeastExtent * std::max(extent.reach, largest);
     lengths.push_back(extent.largest > least ? extent.largest : std::max(extent.reach, largest));
   }
@@ -81,7 +81,7 @@ std::vector<bool> zeroRows(const Mechanism& mechanism, const LoopKinematics& giv
   for (Eigen::Index i = 0; i < kinematics.firstOf(kinematics.closures()); ++i) {
     zero[static_cast<std::size_t>(i)] = !kinematics.condition(i).adopts_constant;
   }
-  const std::vector<double> lengths = lengthsOf(kinematics);
+  const std::vector<double> lengths = lengthsOfLoops(kinematics);
   const double length = lengths.empty() ? 1 : *std::max_element(lengths.begin(), lengths.end());
   std::mt19937 random(1);
   std::uniform_real_distribution<double> turn(-kLargestTurn, kLargestTurn);

@@ -229,5 +229,30 @@ TEST(LoopRank, DoesNotDependOnOtherLoops) {
   }
 }
 
+// Completed motions leave closed what rounding lets them, from any start close by.
+TEST(LoopRank, CompletedPositionsAreClosedToRounding) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> off(-1e-3, 1e-3);
+  for (const auto& make : kHeldMechanisms) {
+    for (const double y : {1.0, 1e-1, 1e-2}) {
+      const Held held = make(y);
+      SCOPED_TRACE(held.name + ", y = " + std::to_string(y));
+      ClosedLoopResults results(held.mechanism, held.scene, Motion(1));
+      const Determinacy determinacy = results.dynamics.determinacy();
+      // L = 1 joint, n unknowns of the loop.
+      const double limit = 4 * kEps * (1 + determinacy.rank + determinacy.redundancy);
+      for (int n = 0; n < 40; ++n) {
+        Motion motion(1);
+        motion.q[0] = off(random) * y;
+        ASSERT_TRUE(results.dynamics.complete(motion));
+        results.dynamics.compute(motion);
+        for (const ClosureResidual& residual : results.dynamics.relativeResiduals()) {
+          EXPECT_LE(residual.position, limit);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace virtual_work_dynamics

@@ -73,9 +73,9 @@ void addColumns(const RowsShape& shape, const double* A_numbers, const double* u
   for (int i = 0; i < kRowsOfPin; ++i) sums[i] = own[i];
 }
 
+constexpr int kSeveral = 4;
 /// Calls several(i) with the first of kSeveral rows, the last ones a second time where they do not
 /// come out even, or one(i) with every row where there are fewer.
-constexpr int kSeveral = 4;
 template <typename Several, typename One>
 VWD_INLINE void forRows(int rows, const Several& several, const One& one) {
   int i = 0;
