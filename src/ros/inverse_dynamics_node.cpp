@@ -66,7 +66,8 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
                    parameters.diagnostic_period),
       sim_time_(ros::Time::isSimTime()),
       wrench_inputs_(task_.mechanism, parameters.frame_prefix, wrenches_, parameters.wrench_timeout,
-                     counters_, [this](const auto&... what) { drop(what...); }) {
+                     parameters.root, task_.estimator.max_gap, counters_,
+                     [this](const auto&... what) { drop(what...); }) {
   task_.log(parameters);
   joint_states_.measureEfforts(*task_.efforts);
   ros::NodeHandle node;
@@ -214,9 +215,9 @@ void InverseDynamicsNode::take(const trajectory_msgs::JointTrajectory& message, 
     drop(topic, DropReason::kNoTime, "its stamp is zero, and /clock has not been received yet");
     return;
   }
-  if (task_.mechanism.orientations() > 0) {
+  if (const auto turn = completer_.turnToGive()) {
     drop(topic, DropReason::kOrientation,
-         "joint " + inQuotes(task_.mechanism.freeJoint(0).name) +
+         "joint " + inQuotes(task_.mechanism.freeJoint(*turn).name) +
              " turns freely, and a trajectory of joints does not tell its orientation");
     return;
   }
@@ -238,8 +239,9 @@ void InverseDynamicsNode::take(const trajectory_msgs::JointTrajectory& message, 
     return;
   }
   const bool of_points = !trajectory_.samples || plan.wantsTrajectories();
-  if (of_points) samples_.setRoots(trajectory_);
+  trajectory_.table.roots.clear();  // of the trajectory before
   if (of_points) completer_.complete(trajectory_, plan.dynamics, plan.workspace);
+  if (of_points) samples_.setRoots(trajectory_);
   const std::size_t results = trajectory_.results();
   const char* what = trajectory_.samples ? "samples" : "points";
   if (!trajectory_.completion.empty() && completion_throttle_.open()) {

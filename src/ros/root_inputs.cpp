@@ -26,14 +26,15 @@ RootInputs::RootInputs(const RootSettings& settings, const Mechanism& mechanism,
       drop_(std::move(drop)),
       conversion_(settings.inertial_frame,
                   settings.link.empty() ? frame_prefix + mechanism.link(0).name : settings.link),
-      imu_conversion_(mechanism, frame_prefix) {
+      imu_conversion_(mechanism, frame_prefix, settings.axes != RootAxes::kRoot) {
   const auto timeout_ns = static_cast<std::int64_t>(std::llround(settings.timeout * 1e9));
   if (settings.source == RootSource::kNone) return;
   if (settings.source == RootSource::kTrajectory) {
     trajectory_ = std::make_unique<RootTrajectory>(timeout_ns);
     course_ = trajectory_.get();
   } else if (settings.source == RootSource::kImu) {
-    imu_ = std::make_unique<RootImu>(estimator, timeout_ns, gravity);
+    imu_ =
+        std::make_unique<RootImu>(estimator, timeout_ns, gravity, settings.axes != RootAxes::kRoot);
     course_ = imu_.get();
   } else {
     estimator_ = std::make_unique<RootEstimator>(estimator, timeout_ns);
@@ -91,7 +92,7 @@ void RootInputs::receive(const ros::MessageEvent<const Message>& event) {
     if (const auto rejection = take(*event.getConstMessage(), event.getReceiptTime())) {
       drop_(subscriber_.getTopic(), rejection->reason, rejection->text);
     }
-    const std::string doubt = conversion_.takeDoubt();
+    const std::string doubt = imu_ ? imu_conversion_.takeDoubt() : conversion_.takeDoubt();
     if (!doubt.empty()) ROS_WARN("%s: %s", subscriber_.getTopic().c_str(), doubt.c_str());
   } catch (const std::exception& error) {
     drop_(subscriber_.getTopic(), DropReason::kInternal, printable(error.what()));
