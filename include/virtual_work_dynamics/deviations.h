@@ -53,8 +53,8 @@ std::vector<WrenchCovariance> wrenchCovariances(const Scene& scene);
 /// Where the root moves, the twelve numbers of RootCovariance are shifted, too, and of each wrench
 /// that the scene gives a deviation the six of WrenchCovariance. Of joints that turn freely,
 /// covariances of their turns may be given in place of those of their angles. Where another link
-/// tells how the root moves, MotionCovariance::root_link, the root's motion follows from that link's
-/// and the joints' in each sample.
+/// tells how the root moves, MotionCovariance::root_link, the root's motion follows from that
+/// link's and the joints' in each sample.
 ///
 /// Results are linear in masses and in moments of inertia: the share of the description is the root
 /// of the sum of squares of what each link's mass and inertia contribute, times their tolerance.

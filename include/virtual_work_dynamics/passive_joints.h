@@ -92,7 +92,7 @@ class PassiveJoints {
   };
   std::vector<FoundTurn> found_turns_;
   std::vector<Eigen::Quaterniond> references_;  // by orientation
-  Eigen::VectorXd position_;  // found last
+  Eigen::VectorXd position_;                    // found last
   Eigen::VectorXd before_, closed_;
   Eigen::VectorXd previous_;                            // before closed_ on the way
   Eigen::VectorXd rates_, accelerations_;               // at closed_; zero where not known

@@ -188,7 +188,6 @@ void Deviations::Workspace::Impl::setShifts(const Motion& at, const MotionCovari
     const MotionLevel level = i < 3   ? MotionLevel::kPosition
                               : i < 6 ? MotionLevel::kVelocity
                                       : MotionLevel::kAcceleration;
-    // Of another link it is the size that counts, which is about that of the root.
     const double value = i < 3 ? 0 : (*vectors[i / 3 - 1])[i % 3];
     shifts.root[i] = shiftOf(level, value, std::sqrt(covariance.root(i, i)));
   }

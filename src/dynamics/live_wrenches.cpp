@@ -42,6 +42,7 @@ void LiveWrenches::getLoad(const Motion& motion, Load& load) {
   if (movesFrames()) {
     links_.setOrientations(motion.orientations);
     links_.setPosition(motion.q);
+    root_ = motion.root;
   }
   for (const Live& live : wrenches_) {
     const WrenchHistory::Reading& reading = live.reading;
@@ -67,14 +68,23 @@ bool LiveWrenches::movesFrames() const {
 }
 
 LiveWrenches::Placed LiveWrenches::frameOf(const Live& live, const MeasuredWrench& measured) const {
+  if (measured.frame == live.link) return {Eigen::Matrix3d::Identity(), measured.at};
   const Eigen::Matrix3d R_L0 = links_.axesOf(live.link).transpose();
-  return {R_L0 * links_.axesOf(measured.frame),
-          R_L0 * (links_.originOf(measured.frame) - links_.originOf(live.link))};
+  Eigen::Matrix3d R_0F;
+  Eigen::Vector3d origin;
+  if (measured.frame == MeasuredWrench::kInertial) {
+    R_0F = root_.orientation.conjugate().toRotationMatrix();
+    origin = -(R_0F * root_.position);
+  } else {
+    R_0F = links_.axesOf(measured.frame);
+    origin = links_.originOf(measured.frame);
+  }
+  return {R_L0 * R_0F, R_L0 * (origin + R_0F * measured.at - links_.originOf(live.link))};
 }
 
 // The wrench in the axes of the link that it acts on, with the moment about that link's origin.
 Wrench LiveWrenches::onLink(const Live& live, const MeasuredWrench& measured) const {
-  if (measured.frame == live.link) return measured.value;
+  if (measured.frame == live.link && measured.at.isZero(0)) return measured.value;
   const Placed frame = frameOf(live, measured);
   const Eigen::Vector3d force = frame.R_LF * measured.value.force;
   return {force, frame.R_LF * measured.value.torque + frame.p_LoFo_L.cross(force)};
@@ -87,7 +97,7 @@ WrenchCovariance LiveWrenches::covarianceOf(const Live& live,
   const double torque = live.deviation.torque * live.deviation.torque;
   WrenchCovariance covariance = WrenchCovariance::Zero();
   covariance.diagonal() << Eigen::Vector3d::Constant(force), Eigen::Vector3d::Constant(torque);
-  if (measured.frame == live.link) return covariance;
+  if (measured.frame == live.link && measured.at.isZero(0)) return covariance;
   const Eigen::Matrix3d lever = crossMatrix(frameOf(live, measured).p_LoFo_L);
   covariance.bottomRightCorner<3, 3>() += force * lever * lever.transpose();
   covariance.bottomLeftCorner<3, 3>() = force * lever;

@@ -18,7 +18,8 @@ namespace virtual_work_dynamics {
 
 /// The live wrenches of a scene as they are measured, and the loads that they make. Poses of the
 /// frames that they are measured in are those of the mechanism's own kinematics at the position of
-/// the sample. Serves one thread. Does not allocate after construction.
+/// the sample, and that of the inertial frame is that of the root's motion. Serves one thread. Does
+/// not allocate after construction.
 class LiveWrenches {
  public:
   /// @param timeout s, positive; see WrenchHistory
@@ -73,6 +74,7 @@ class LiveWrenches {
 
   std::vector<Live> wrenches_;
   LinkKinematics links_;
+  RootMotion root_;  // of the latest load
 };
 
 }  // namespace virtual_work_dynamics

@@ -123,7 +123,7 @@ class ShiftedChain : public ShiftedSamples {
   std::size_t samples_;  // whole packs of vector instructions
   std::vector<double> inputs_, root_, orientations_, outputs_;
   ResultBlock<double> results_;
-  Motion shifted_;           // a sample
+  Motion shifted_;  // a sample
   RootByLink root_by_link_;
   std::vector<Load> loads_;  // of the samples
   std::vector<bool> known_;
@@ -159,8 +159,8 @@ class ShiftedLoops : public ShiftedSamples {
   Motion shifted_;
   Load load_;  // of shifted_
   RootByLink root_by_link_;
-  int root_link_ = 0;     // that of the shifts
-  RootMotion link_;       // its motion in the sample
+  int root_link_ = 0;  // that of the shifts
+  RootMotion link_;    // its motion in the sample
   std::vector<double> values_;
   std::vector<bool> known_;
 };

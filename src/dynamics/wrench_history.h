@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -8,11 +9,15 @@
 
 namespace virtual_work_dynamics {
 
-/// A wrench that was measured in the frame of a link of the robot.
+/// A wrench that was measured in the frame of a link of the robot, or in the inertial one.
 struct MeasuredWrench {
+  /// In place of a link: the frame that a root link moves against.
+  static constexpr int kInertial = -1;
+
   std::int64_t stamp_ns = 0;
-  int frame = 0;  ///< link whose axes and origin `value` refers to
-  Wrench value;   ///< N, and N m about the origin of the frame
+  int frame = 0;  ///< link whose axes `value` and `at` have, or kInertial
+  Wrench value;   ///< N, and N m about the point `at`
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();  ///< from the origin of the frame, m
 };
 
 /// The latest measurements of one wrench, by their stamps. Does not allocate after construction.

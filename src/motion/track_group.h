@@ -45,6 +45,11 @@ class TrackGroup {
     return tracks_[coordinate].evaluate(stamp_ns, covariance);
   }
 
+  /// The coordinate in the latest sample up to an instant; to be called unless empty().
+  double before(std::size_t coordinate, std::int64_t stamp_ns) const {
+    return tracks_[coordinate].positionBefore(stamp_ns);
+  }
+
   bool empty() const { return tracks_.front().empty(); }
   /// First and last stamp of the samples that are kept, ns; to be called unless empty().
   std::int64_t first() const { return first_; }

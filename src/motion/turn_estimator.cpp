@@ -46,7 +46,7 @@ bool TurnEstimator::read(std::int64_t stamp_ns, FreeTurn& turn, TurnCovariance* 
   if (covariance) covariance->setZero();
   if (!estimate_) {
     if (empty()) return false;
-    turn = held();
+    turn = newest();
     return true;
   }
   if (!tracks_.knows(stamp_ns, timeout_ns_)) return false;
@@ -63,10 +63,17 @@ bool TurnEstimator::read(std::int64_t stamp_ns, FreeTurn& turn, TurnCovariance* 
   return true;
 }
 
-FreeTurn TurnEstimator::held() const {
+FreeTurn TurnEstimator::heldAt(std::int64_t stamp_ns) const {
+  RootCoordinates coordinates = RootCoordinates::Zero();
+  for (std::size_t i = 0; i < kNumbers; ++i)
+    coordinates(static_cast<Eigen::Index>(kFirst + i), 0) = tracks_.before(i, stamp_ns);
+  return inChildAxes(rootMotionOf(coordinates));
+}
+
+// Where nothing is estimated, it holds with its rates as far as these are given.
+FreeTurn TurnEstimator::newest() const {
   RootCoordinates coordinates = newest_;
-  const bool moves = !estimate_ && coordinates.col(1).tail<4>().allFinite();
-  if (!moves) coordinates.col(1).setZero();
+  if (!coordinates.col(1).tail<4>().allFinite()) coordinates.col(1).setZero();
   coordinates.col(2).setZero();
   FreeTurn turn = inChildAxes(rootMotionOf(coordinates));
   turn.angular_acceleration.setZero();

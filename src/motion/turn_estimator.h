@@ -36,9 +36,9 @@ class TurnEstimator {
   /// Finds the turn at an instant, ns. Returns false, and changes nothing, where it is not known.
   /// @param covariance of the turn, unless null
   bool read(std::int64_t stamp_ns, FreeTurn& turn, TurnCovariance* covariance) const;
-  /// The newest orientation, at rest: for a joint whose samples have ceased. To be called unless
-  /// empty().
-  FreeTurn held() const;
+  /// The latest orientation up to an instant, at rest: for a joint whose samples have ceased, or
+  /// have a gap there. To be called unless empty().
+  FreeTurn heldAt(std::int64_t stamp_ns) const;
   bool empty() const { return tracks_.empty(); }
   /// The latest stamp, ns; to be called unless empty().
   std::int64_t last() const { return tracks_.last(); }
@@ -48,6 +48,8 @@ class TurnEstimator {
   StreamQuality quality() const;
 
  private:
+  FreeTurn newest() const;
+
   const bool estimate_;
   const std::int64_t timeout_ns_;
   TrackGroup tracks_;

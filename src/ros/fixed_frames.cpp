@@ -31,19 +31,25 @@ Rejection unknownFrame(const std::string& text) {
   return Rejection{DropReason::kUnknownFrame, text};
 }
 
+// The link that a frame_id names; refuses others.
+std::optional<Rejection> findLink(const Mechanism& mechanism, const std::string& prefix,
+                                  const std::string& id, int& other) {
+  const bool prefixed = id.compare(0, prefix.size(), prefix) == 0;
+  other = prefixed ? mechanism.linkIndex(id.substr(prefix.size())) : -1;
+  if (other >= 0) return std::nullopt;
+  std::vector<std::string> names;
+  for (const Link& known : mechanism.links()) names.push_back(known.name);
+  return unknownFrame("its frame " + inQuotes(id) + " is not " +
+                      (prefix.empty() ? "" : inQuotes(prefix) + " and ") + "a link of robot " +
+                      inQuotes(mechanism.name()) + nameHelp(id, names));
+}
+
 }  // namespace
 
 std::optional<Rejection> findFixedFrame(const Mechanism& mechanism, const std::string& prefix,
                                         const std::string& id, int link, FixedFrame& frame) {
-  const bool prefixed = id.compare(0, prefix.size(), prefix) == 0;
-  const int other = prefixed ? mechanism.linkIndex(id.substr(prefix.size())) : -1;
-  if (other < 0) {
-    std::vector<std::string> names;
-    for (const Link& known : mechanism.links()) names.push_back(known.name);
-    return unknownFrame("its frame " + inQuotes(id) + " is not " +
-                        (prefix.empty() ? "" : inQuotes(prefix) + " and ") + "a link of robot " +
-                        inQuotes(mechanism.name()) + nameHelp(id, names));
-  }
+  int other = -1;
+  if (auto rejection = findLink(mechanism, prefix, id, other)) return rejection;
   const Hung of_frame = hung(mechanism, other), of_link = hung(mechanism, link);
   if (of_frame.on != of_link.on) {
     const int moving = of_frame.on == 0 ? of_link.on : of_frame.on;
@@ -55,6 +61,17 @@ std::optional<Rejection> findFixedFrame(const Mechanism& mechanism, const std::s
   const Matrix3l to_link = of_link.R.transpose();
   frame.R = (to_link * of_frame.R).cast<double>();
   frame.origin = (to_link * (of_frame.origin - of_link.origin)).cast<double>();
+  return std::nullopt;
+}
+
+std::optional<Rejection> findCarryingLink(const Mechanism& mechanism, const std::string& prefix,
+                                          const std::string& id, int& link, FixedFrame& frame) {
+  int other = -1;
+  if (auto rejection = findLink(mechanism, prefix, id, other)) return rejection;
+  const Hung of_frame = hung(mechanism, other);
+  link = of_frame.on;
+  frame.R = of_frame.R.cast<double>();
+  frame.origin = of_frame.origin.cast<double>();
   return std::nullopt;
 }
 

@@ -23,4 +23,10 @@ struct FixedFrame {
 std::optional<Rejection> findFixedFrame(const Mechanism& mechanism, const std::string& prefix,
                                         const std::string& id, int link, FixedFrame& frame);
 
+/// Finds the link that moves, or is the root, with which the frame of a link hangs together by
+/// fixed joints.
+/// @param frame receives its pose in that link
+std::optional<Rejection> findCarryingLink(const Mechanism& mechanism, const std::string& prefix,
+                                          const std::string& id, int& link, FixedFrame& frame);
+
 }  // namespace virtual_work_dynamics

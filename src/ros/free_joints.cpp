@@ -59,13 +59,15 @@ void FreeJoints::restart(std::int64_t stamp_ns) {
 }
 
 std::optional<std::size_t> FreeJoints::set(std::int64_t stamp_ns, const MotionEstimator& estimator,
-                                           Motion& motion, MotionCovariance* covariance) const {
+                                           const std::vector<bool>& needed, Motion& motion,
+                                           MotionCovariance* covariance) const {
   for (std::size_t i = 0; i < turns_.size(); ++i) {
+    if (!needed[static_cast<std::size_t>(mechanism_.anglesOf(i))]) continue;
     FreeTurn turn;
     TurnCovariance* const own = covariance ? &covariance->turns[i] : nullptr;
     if (!turns_[i].read(stamp_ns, turn, own)) {
       if (turns_[i].empty() || !estimator.held(mechanism_.anglesOf(i))) return i;
-      turn = turns_[i].held();
+      turn = turns_[i].heldAt(stamp_ns);
     }
     setFreeTurn(mechanism_, i, turn, motion);
   }

@@ -36,11 +36,13 @@ class FreeJoints {
   std::string takeDoubt() { return conversion_.takeDoubt(); }
 
   /// Sets orientations and angles of a motion at an instant. Of a joint that the estimator holds it
-  /// is the newest orientation, at rest. Does not allocate.
+  /// is the latest orientation up to the instant, at rest. Does not allocate.
+  /// @param needed by coordinate; joints whose angles are not stay as they are
   /// @param motion has orientations   @param covariance of it, with turns, unless null
   /// @returns the first joint, an index of orientations, whose turn is not known; or nothing
   std::optional<std::size_t> set(std::int64_t stamp_ns, const MotionEstimator& estimator,
-                                 Motion& motion, MotionCovariance* covariance) const;
+                                 const std::vector<bool>& needed, Motion& motion,
+                                 MotionCovariance* covariance) const;
 
   std::size_t size() const { return turns_.size(); }
   /// The first of the three angles of a joint, a coordinate.

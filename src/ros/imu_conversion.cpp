@@ -38,18 +38,33 @@ std::optional<Rejection> ImuConversion::convert(const sensor_msgs::Imu& message,
   if (auto rejection = read(message.linear_acceleration, message.linear_acceleration_covariance[0],
                             "linear_acceleration", force))
     return rejection;
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+  if (auto rejection = readOrientation(message, orientation)) return rejection;
   if (!found_ || message.header.frame_id != frame_) {
     found_ = false;
     const std::string& id = message.header.frame_id;
-    if (auto rejection = findFixedFrame(mechanism_, frame_prefix_, id, 0, placed_))
+    if (auto rejection = findCarryingLink(mechanism_, frame_prefix_, id, link_, placed_))
       return rejection;
     frame_ = id;
     found_ = true;
   }
   sample.angular_velocity = placed_.R * rate;
   sample.specific_force = placed_.R * force;
+  sample.link = link_;
   sample.at = placed_.origin;
+  if (oriented_) sample.orientation = orientation * Eigen::Quaterniond(placed_.R).conjugate();
   return std::nullopt;
+}
+
+std::optional<Rejection> ImuConversion::readOrientation(const sensor_msgs::Imu& message,
+                                                        Eigen::Quaterniond& orientation) {
+  if (!oriented_) return std::nullopt;
+  if (message.orientation_covariance[0] == kNotGiven) {
+    return Rejection{DropReason::kOrientation,
+                     "by its covariance it does not have orientation, without which there are no "
+                     "results in inertial axes"};
+  }
+  return orientations_.readOrientation(message.orientation, "orientation", orientation);
 }
 
 }  // namespace virtual_work_dynamics

@@ -8,30 +8,41 @@
 
 #include "motion/root_imu.h"
 #include "ros/fixed_frames.h"
+#include "ros/pose_reading.h"
 #include "ros/rejection.h"
 #include "virtual_work_dynamics/mechanism.h"
 
 namespace virtual_work_dynamics {
 
-/// Checks messages of an inertial measurement unit, and turns their vectors into the root's axes.
-/// The frame is looked up when a message names another one than the message before.
+/// Checks messages of an inertial measurement unit, and turns their vectors into the axes of the
+/// link that it is on: the root link, or one that joints move. The frame is looked up when a
+/// message names another one than the message before.
 class ImuConversion {
  public:
   /// @param frame_prefix what stands before the names of links in every frame_id
   /// @param mechanism must outlive it
-  ImuConversion(const Mechanism& mechanism, std::string frame_prefix)
-      : mechanism_(mechanism), frame_prefix_(std::move(frame_prefix)) {}
+  /// @param oriented whether messages have to tell the orientation, which otherwise is not read
+  ImuConversion(const Mechanism& mechanism, std::string frame_prefix, bool oriented)
+      : mechanism_(mechanism), frame_prefix_(std::move(frame_prefix)), oriented_(oriented) {}
 
   /// Allocates only for a frame that is new, or a rejection.
   /// @returns why the message is to be dropped, or nothing.
   std::optional<Rejection> convert(const sensor_msgs::Imu& message, ImuSample& sample);
+  /// Of quaternions, see PoseReading.
+  std::string takeDoubt() { return orientations_.takeDoubt(); }
 
  private:
+  std::optional<Rejection> readOrientation(const sensor_msgs::Imu& message,
+                                           Eigen::Quaterniond& orientation);
+
   const Mechanism& mechanism_;
   const std::string frame_prefix_;
+  const bool oriented_;
+  PoseReading orientations_;
   bool found_ = false;
   std::string frame_;  // found last
-  FixedFrame placed_;  // against the root link
+  int link_ = 0;       // that it is on
+  FixedFrame placed_;  // against this link
 };
 
 }  // namespace virtual_work_dynamics

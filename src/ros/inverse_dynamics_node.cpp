@@ -68,7 +68,8 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
                    parameters.diagnostic_period),
       sim_time_(ros::Time::isSimTime()),
       wrench_inputs_(task_.mechanism, parameters.frame_prefix, wrenches_, parameters.wrench_timeout,
-                     counters_, [this](const auto&... what) { drop(what...); }) {
+                     parameters.root, task_.estimator.max_gap, counters_,
+                     [this](const auto&... what) { drop(what...); }) {
   task_.log(parameters);
   joint_states_.measureEfforts(*task_.efforts);
   ros::NodeHandle node;

@@ -106,7 +106,8 @@ void JointStateComputation::evaluate() {
   MotionCovariance* covariance = plan.wantsCovariance() && covariances_ ? &covariance_ : nullptr;
   const std::int64_t stamp_ns = estimator_.evaluate(samples_.motion(), covariance);
   if (estimator_.anyHeld()) counters_.held.add();
-  const auto unknown = free_joints_.set(stamp_ns, estimator_, samples_.motion(), covariance);
+  const auto unknown =
+      free_joints_.set(stamp_ns, estimator_, completer_.needed(), samples_.motion(), covariance);
   if (unknown) {
     unknown_turn_ = *unknown;
     user_.dropSample(Outcome::kNoTurn, plan, stamp_ns);

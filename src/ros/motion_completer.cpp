@@ -1,6 +1,7 @@
 #include "ros/motion_completer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/number_text.h"
 #include "base/printable.h"
@@ -43,7 +44,7 @@ MotionCompleter::MotionCompleter(const Mechanism& mechanism, const Scene& scene,
       all_given_(GivenJoints::givesAll(usual_) || dynamics.closureNames().empty()),
       needed_(usual_.coordinates),
       seen_(needed_.size(), false),
-      motion_(dynamics.coordinates()) {
+      motion_(dynamics.coordinates(), dynamics.orientations()) {
   if (all_given_) needed_.assign(needed_.size(), true);
 }
 
@@ -89,7 +90,7 @@ void MotionCompleter::took(const Motion& motion, const Results& results) {
       relative.begin(), relative.end(),
       [](const auto& one, const auto& other) { return one.position < other.position; });
   if (worst == relative.end() || worst->position <= nearly_closed_) {
-    joint_states_.moveTo(motion.q);
+    joint_states_.moveTo(motion.q, motion.orientations);
     evaluated_ = true;
     return;
   }
@@ -131,16 +132,33 @@ const MotionCompleter::Choice& MotionCompleter::chosenBy(const TrajectoryMotion&
 }
 
 std::optional<Rejection> MotionCompleter::check(const TrajectoryMotion& trajectory) {
-  const std::optional<std::string>& problem = chosenBy(trajectory).problem;
-  if (!problem) return std::nullopt;
-  return Rejection{DropReason::kPassiveJoints, *problem};
+  const Choice& choice = chosenBy(trajectory);
+  if (choice.problem) return Rejection{DropReason::kPassiveJoints, *choice.problem};
+  const auto turn = turnIn(choice.given.coordinates);
+  if (!turn) return std::nullopt;
+  return Rejection{DropReason::kOrientation,
+                   "it gives an angle of " + inQuotes(mechanism_.freeJoint(*turn).name) +
+                       ", a joint that turns freely, whose orientation the closures tell"};
+}
+
+std::optional<std::size_t> MotionCompleter::turnIn(const std::vector<bool>& given) const {
+  for (std::size_t i = 0; i < mechanism_.orientations(); ++i) {
+    const auto first = given.begin() + mechanism_.anglesOf(i);
+    if (std::find(first, first + 3, true) != first + 3) return i;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> MotionCompleter::turnToGive() const {
+  return turnIn(GivenJoints::resting(dynamics_));
 }
 
 void MotionCompleter::setGiven(const Given& given, PassiveJoints& joints) const {
   if (joints.given().coordinates == given.coordinates) return;
   const Eigen::VectorXd position = joints.position();
+  const std::vector<Eigen::Quaterniond> references = joints.references();
   joints = PassiveJoints(mechanism_, dynamics_, given);
-  joints.moveTo(position);
+  joints.moveTo(position, references);
 }
 
 void MotionCompleter::complete(TrajectoryMotion& trajectory, const Dynamics& dynamics,
@@ -166,7 +184,7 @@ void MotionCompleter::startSamples(const TrajectoryMotion& trajectory) {
   samples_follow_ = closures_determine_ || !samples_give_all_;
   if (!samples_follow_) return;
   setGiven(samples_give_all_ ? usual_ : given, samples_);
-  if (evaluated_) samples_.moveTo(joint_states_.position());
+  if (evaluated_) samples_.moveTo(joint_states_.position(), joint_states_.references());
 }
 
 bool MotionCompleter::completeSample(Motion& motion, const Dynamics& dynamics,
@@ -184,9 +202,12 @@ bool MotionCompleter::completeSample(Motion& motion, const Dynamics& dynamics,
 void MotionCompleter::follow(TrajectoryMotion& trajectory, const Dynamics& dynamics,
                              Dynamics::Workspace& workspace) {
   MotionTable& table = trajectory.table;
-  if (evaluated_) trajectories_.moveTo(joint_states_.position());
+  if (evaluated_) trajectories_.moveTo(joint_states_.position(), joint_states_.references());
   latest_ = &trajectories_;
   trajectory.open.assign(trajectory.stamps_ns.size(), false);
+  const auto turns = static_cast<Eigen::Index>(motion_.orientations.size());
+  table.orientations.resize(0, 0);  // all are found
+  Eigen::MatrixXd orientations(table.positions.rows(), 4 * turns);
   for (std::size_t i = 0; i < trajectory.open.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
     takeRow(table, i, motion_);
@@ -201,7 +222,12 @@ void MotionCompleter::follow(TrajectoryMotion& trajectory, const Dynamics& dynam
     table.positions.row(row) = motion_.q;
     table.velocities.row(row) = motion_.qd;
     table.accelerations.row(row) = motion_.qdd;
+    for (Eigen::Index turn = 0; turn < turns; ++turn) {
+      orientations.row(row).segment<4>(4 * turn) =
+          motion_.orientations[static_cast<std::size_t>(turn)].coeffs().transpose();
+    }
   }
+  table.orientations = std::move(orientations);
 }
 
 // Completes velocities and accelerations. Positions stay as they are given; where these are far

@@ -31,6 +31,7 @@ class MotionCompleter {
   MotionCompleter(const Mechanism& mechanism, const Scene& scene, const Dynamics& dynamics,
                   double tolerance = kNearlyClosed);
 
+  const Mechanism& mechanism() const { return mechanism_; }
   /// The coordinates that joint states have to show.
   const std::vector<bool>& needed() const { return needed_; }
   /// Whether joint states give all joints.
@@ -57,6 +58,9 @@ class MotionCompleter {
   /// given and that rest where they were seen last, or by itself.
   /// @returns why the message is to be dropped, or nothing.
   std::optional<Rejection> check(const TrajectoryMotion& trajectory);
+  /// A joint that turns freely whose orientation trajectories would have to give, which they
+  /// cannot: an index of Mechanism::freeJoint(); or nothing.
+  std::optional<std::size_t> turnToGive() const;
   /// Completes the points of a trajectory that does not give all joints. In one that gives them it
   /// completes only the velocities and accelerations that the points do not give. Points that
   /// cannot be completed become TrajectoryMotion::open. check() must have passed it.
@@ -77,6 +81,7 @@ class MotionCompleter {
     std::optional<std::string> problem;
   };
   void startBy(const Motion& motion);
+  std::optional<std::size_t> turnIn(const std::vector<bool>& given) const;
   Choice choose(const std::vector<bool>& named) const;
   const Choice& chosenBy(const TrajectoryMotion& trajectory);
   void setGiven(const Given& given, PassiveJoints& joints) const;

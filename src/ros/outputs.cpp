@@ -181,11 +181,12 @@ class MotionOutput : public Output {
 class ReactionsMessage : public MessageOf<sensor_msgs::MultiDOFJointState> {
  public:
   ReactionsMessage(const Dynamics& plan, const Names& reactions, const std::string& frame,
-                   bool twist, bool inertial)
+                   bool twist, bool inertial, bool placed)
       : names_(reactions),
         places_(placesIn(reactions, plan.request().root_axes)),
-        twist_(twist),
-        inertial_(inertial) {
+        twist_(twist && placed),
+        inertial_(inertial),
+        placed_(placed) {
     message_.header.frame_id = frame;
     message_.joint_names = names_;
     resize(names_.size());
@@ -209,7 +210,8 @@ class ReactionsMessage : public MessageOf<sensor_msgs::MultiDOFJointState> {
       const RootMotion& root = sample.motion.root;
       const Wrench& wrench = sample.results.root_axes[from];
       copyWrench(inertial_ ? inInertialAxes(root, wrench) : wrench, message_.wrench[to]);
-      copyPose(inertial_ ? inInertialFrame(root, pose) : pose, message_.transforms[to]);
+      if (placed_)
+        copyPose(inertial_ ? inInertialFrame(root, pose) : pose, message_.transforms[to]);
       if (twist_) {
         const Twist& twist = sample.results.twists[from];
         copyTwist(inertial_ ? inInertialFrame(root, pose, twist) : twist, message_.twist[to]);
@@ -224,22 +226,24 @@ class ReactionsMessage : public MessageOf<sensor_msgs::MultiDOFJointState> {
   }
   void resize(std::size_t count) {
     message_.wrench.resize(count);
-    message_.transforms.resize(count);
+    message_.transforms.resize(placed_ ? count : 0);
     message_.twist.resize(twist_ ? count : 0);
   }
 
   const Names names_;  // all names; the message has those of existing results
   const std::vector<std::size_t> places_;
   const bool twist_, inertial_;
+  const bool placed_;  // whether the root's position is known where poses depend on it
 };
 
 class ReactionsOutput : public Output {
  public:
-  ReactionsOutput(Names reactions, std::string frame, bool twist, bool inertial)
+  ReactionsOutput(Names reactions, std::string frame, bool twist, bool inertial, bool placed)
       : reactions_(std::move(reactions)),
         frame_(std::move(frame)),
         twist_(twist),
-        inertial_(inertial) {}
+        inertial_(inertial),
+        placed_(placed) {}
 
   std::string topic() const override { return inertial_ ? "reactions_inertial" : "reactions"; }
   ros::AdvertiseOptions options(const std::string& topic, std::uint32_t queue) const override {
@@ -251,13 +255,13 @@ class ReactionsOutput : public Output {
     request.twists = request.twists || twist_;
   }
   std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan, const Scene&) const override {
-    return std::make_unique<ReactionsMessage>(plan, reactions_, frame_, twist_, inertial_);
+    return std::make_unique<ReactionsMessage>(plan, reactions_, frame_, twist_, inertial_, placed_);
   }
 
  private:
   Names reactions_;
   std::string frame_;
-  bool twist_, inertial_;
+  bool twist_, inertial_, placed_;
 };
 
 // --- ~reaction/<name>: the wrench in the child link's or the closure's own frame
@@ -381,12 +385,13 @@ Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
   }
   const RootAxes axes = settings.root.axes;
   if (!settings.reactions.empty() && axes != RootAxes::kInertial) {
-    outputs.push_back(
-        std::make_unique<ReactionsOutput>(settings.reactions, root_frame, settings.twist, false));
+    outputs.push_back(std::make_unique<ReactionsOutput>(settings.reactions, root_frame,
+                                                        settings.twist, false, true));
   }
   if (!settings.reactions.empty() && axes != RootAxes::kRoot) {
     outputs.push_back(std::make_unique<ReactionsOutput>(
-        settings.reactions, settings.root.inertial_frame, settings.twist, true));
+        settings.reactions, settings.root.inertial_frame, settings.twist, true,
+        settings.root.source != RootSource::kImu));
   }
   outputs.push_back(makeTrajectoryOutput());
   Names frames;

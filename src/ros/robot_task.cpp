@@ -75,12 +75,6 @@ Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const s
     throw UrdfError("parameter " + key + ": robot " + inQuotes(mechanism.name()) +
                     " has no joint that moves");
   }
-  if (mechanism.orientations() > 0 && needsClosedLoops(scene)) {
-    throw SceneError("joint " + inQuotes(mechanism.freeJoint(0).name) + ": is " +
-                     nameOf(mechanism.freeJoint(0).type) +
-                     ", which the node does not follow beside closures, springs or passive joints; "
-                     "inverse_dynamics_offline does");
-  }
   Request request;
   request.child_axes = request.root_axes = requestedReactions(mechanism, scene);
   request.child_axes_about_origin = true;  // see requestFor()

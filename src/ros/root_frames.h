@@ -1,11 +1,10 @@
 #pragma once
 
 #include <geometry_msgs/TransformStamped.h>
-#include <tf2/buffer_core.h>
-#include <tf2_msgs/TFMessage.h>
 
-#include <map>
 #include <string>
+
+#include "ros/tf_record.h"
 
 namespace virtual_work_dynamics {
 
@@ -25,12 +24,8 @@ class RootFrames {
   std::string problem() const;
 
  private:
-  void startAnew();
-
   const std::string inertial_frame_, link_;
-  const double max_gap_;
-  tf2::BufferCore buffer_;
-  std::map<std::string, ros::Time> latest_;  // stamps, by child frame
+  TfRecord record_;
   ros::Time found_;
 };
 

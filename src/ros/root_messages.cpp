@@ -20,14 +20,15 @@ RootMessages::RootMessages(const RootSettings& settings, const Mechanism& mechan
       counters_(counters),
       conversion_(settings.inertial_frame,
                   settings.link.empty() ? frame_prefix + mechanism.link(0).name : settings.link),
-      imu_conversion_(mechanism, frame_prefix) {
+      imu_conversion_(mechanism, frame_prefix, settings.axes != RootAxes::kRoot) {
   const auto timeout_ns = static_cast<std::int64_t>(std::llround(settings.timeout * 1e9));
   if (settings.source == RootSource::kNone) return;
   if (settings.source == RootSource::kTrajectory) {
     trajectory_ = std::make_unique<RootTrajectory>(timeout_ns);
     course_ = trajectory_.get();
   } else if (settings.source == RootSource::kImu) {
-    imu_ = std::make_unique<RootImu>(estimator, timeout_ns, gravity);
+    imu_ =
+        std::make_unique<RootImu>(estimator, timeout_ns, gravity, settings.axes != RootAxes::kRoot);
     course_ = imu_.get();
   } else {
     estimator_ = std::make_unique<RootEstimator>(estimator, timeout_ns);

@@ -30,11 +30,6 @@ RootAxes readRootAxes(PrivateParameters& parameters, RootSource source) {
   for (const auto& [name, axes] : kAxes) {
     if (text != name) continue;
     if (axes == RootAxes::kRoot) return axes;
-    if (source == RootSource::kImu) {
-      throw parameterError("root/axes", inQuotes(text) +
-                                            ": an IMU does not tell the orientation of the root "
-                                            "link, without which there are no inertial axes");
-    }
     if (source == RootSource::kNone)
       throw parameterError("root/axes", inQuotes(text) + ": the root link rests");
     return axes;

@@ -18,7 +18,7 @@ enum class RootAxes { kRoot, kInertial, kBoth };
 
 /// Reads ~root/axes.
 /// @throws ParameterError for a word that is none of root, inertial and both, and for inertial axes
-///   where `source` does not tell the orientation of the root link.
+///   where the root link rests.
 RootAxes readRootAxes(PrivateParameters& parameters, RootSource source);
 
 /// How the node learns how the root link moves.

@@ -14,6 +14,7 @@ SampleComputation::SampleComputation(const Dynamics& dynamics, const Scene& scen
       completer_(completer),
       wrenches_(wrenches),
       root_(root),
+      root_by_link_(completer.mechanism()),
       records_(records),
       motion_(dynamics.coordinates(), dynamics.orientations()),
       wrench_covariances_(wrenchCovariances(scene)),
@@ -28,7 +29,7 @@ SampleComputation::SampleComputation(const Dynamics& dynamics, const Scene& scen
 MotionCovariance SampleComputation::makeCovariance() const {
   MotionCovariance covariance;
   covariance.coordinates.resize(static_cast<std::size_t>(motion_.q.size()));
-  covariance.turns.resize(motion_.orientations.size());
+  covariance.turns.assign(motion_.orientations.size(), TurnCovariance::Zero());
   covariance.wrenches = wrench_covariances_;
   return covariance;
 }
@@ -40,6 +41,7 @@ SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan, std::int
   if (!setRoot(stamp_ns, motion_.root, covariance)) return Outcome::kNoRoot;
   const auto start = Clock::now();
   if (!completer_.complete(motion_, plan.dynamics, plan.workspace)) return Outcome::kOpenLoop;
+  placeRoot(motion_);
   const Outcome outcome = computeOne(plan, stamp_ns, start, covariance, true);
   if (outcome == Outcome::kDone) completer_.took(motion_, plan.workspace.results());
   return outcome;
@@ -65,6 +67,7 @@ SampleComputation::Outcome SampleComputation::computeSample(ActivePlan& plan,
   if (!completer_.completeSample(motion_, plan.dynamics, plan.workspace)) {
     return Outcome::kOpenLoop;
   }
+  placeRoot(motion_);
   return computeOne(plan, trajectory.samples->stampNs(sample), start, nullptr);
 }
 
@@ -124,6 +127,10 @@ void SampleComputation::setRoots(TrajectoryMotion& trajectory) {
   trajectory.rootless.assign(points, false);
   for (std::size_t i = 0; i < points; ++i) {
     trajectory.rootless[i] = !setRoot(trajectory.stamps_ns[i], trajectory.table.roots[i]);
+    if (root_->link() == 0 || trajectory.rootless[i]) continue;
+    takeRow(trajectory.table, i, motion_);
+    placeRoot(motion_);
+    trajectory.table.roots[i] = motion_.root;
   }
 }
 
@@ -133,7 +140,15 @@ bool SampleComputation::setRoot(std::int64_t stamp_ns, RootMotion& motion,
   if (!root_) return true;
   if (!root_->read(stamp_ns, motion, covariance ? &covariance->root : nullptr)) return false;
   if (root_->foreseen()) records_.counters.root_foreseen.add();
+  if (covariance) covariance->root_link = root_->link();
   return true;
+}
+
+// Where a sensor on another link tells how the root moves, what was set is that link's motion.
+void SampleComputation::placeRoot(Motion& motion) {
+  if (!root_ || root_->link() == 0) return;
+  root_by_link_.place(motion, root_->link());
+  motion.root = root_by_link_.rootOf(motion.root);
 }
 
 // Sets the load of motion_ at an instant. Returns false where a live wrench is not known.

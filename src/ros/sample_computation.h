@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/live_wrenches.h"
+#include "dynamics/root_by_link.h"
 #include "motion/root_course.h"
 #include "ros/active_plan.h"
 #include "ros/certificate_record.h"
@@ -53,8 +54,8 @@ class SampleComputation {
   Outcome compute(ActivePlan& plan, std::int64_t stamp_ns, MotionCovariance* covariance = nullptr);
   /// A covariance with all entries that samples need.
   MotionCovariance makeCovariance() const;
-  /// Gives the points of a trajectory the motion of the root, as it is known now. Allocates where
-  /// the root moves.
+  /// Gives the points of a trajectory, which are complete, the motion of the root, as it is known
+  /// now. Allocates where the root moves.
   void setRoots(TrajectoryMotion& trajectory);
   /// Computes one point of a trajectory by itself.
   Outcome compute(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t point);
@@ -73,6 +74,7 @@ class SampleComputation {
 
   void takePoint(const TrajectoryMotion& trajectory, std::size_t point);
   bool setRoot(std::int64_t stamp_ns, RootMotion& motion, MotionCovariance* covariance = nullptr);
+  void placeRoot(Motion& motion);
   bool setLoad(std::int64_t stamp_ns, MotionCovariance* covariance = nullptr);
   void computeBlock(ActivePlan& plan, const TrajectoryMotion& trajectory, std::size_t first);
   Outcome computeOne(ActivePlan& plan, std::int64_t stamp_ns, Clock::time_point start,
@@ -86,6 +88,7 @@ class SampleComputation {
   MotionCompleter& completer_;
   LiveWrenches& wrenches_;
   RootCourse* const root_;  // null: it rests
+  RootByLink root_by_link_;
   SampleRecords records_;
   Motion motion_;
   std::vector<WrenchCovariance> wrench_covariances_;  // of applied wrenches, as the scene says

@@ -11,6 +11,7 @@ foreach(file
     diagnostics.cpp
     effort_measurements.cpp
     fixed_frames.cpp
+    foreign_frames.cpp
     free_joint_conversion.cpp
     free_joints.cpp
     imu_conversion.cpp
@@ -50,6 +51,7 @@ foreach(file
     stream_report.cpp
     threshold_record.cpp
     threshold_report.cpp
+    tf_record.cpp
     topic_names.cpp
     trajectory_computation.cpp
     trajectory_conversion.cpp

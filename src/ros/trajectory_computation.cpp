@@ -29,10 +29,10 @@ void TrajectoryComputation::take(const trajectory_msgs::JointTrajectory& message
                          "its stamp is zero, and /clock has not been received yet");
     return;
   }
-  if (mechanism_.orientations() > 0) {
+  if (const auto turn = completer_.turnToGive()) {
     user_.dropTrajectory(
         DropReason::kOrientation,
-        "joint " + inQuotes(mechanism_.freeJoint(0).name) +
+        "joint " + inQuotes(mechanism_.freeJoint(*turn).name) +
             " turns freely, and a trajectory of joints does not tell its orientation");
     return;
   }
@@ -49,8 +49,9 @@ void TrajectoryComputation::take(const trajectory_msgs::JointTrajectory& message
     return;
   }
   const bool of_points = !trajectory_.samples || plan.wantsTrajectories();
-  if (of_points) samples_.setRoots(trajectory_);
+  trajectory_.table.roots.clear();  // of the trajectory before
   if (of_points) completer_.complete(trajectory_, plan.dynamics, plan.workspace);
+  if (of_points) samples_.setRoots(trajectory_);
   user_.noteTrajectory(message, trajectory_);
   respond(plan, message);
 }

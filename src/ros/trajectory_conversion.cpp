@@ -157,7 +157,7 @@ std::optional<Rejection> TrajectoryConversion::convert(const JointTrajectory& me
   if (auto rejection = checkLengths(message)) return rejection;
   if (auto rejection = readTimes(message, start_ns, motion)) return rejection;
 
-  const auto coordinates = static_cast<Eigen::Index>(coordinate_of_.size());
+  const auto coordinates = static_cast<Eigen::Index>(mechanism_.coordinates().size());
   MotionTable& table = motion.table;
   table.joints = mechanism_.coordinateNames();
   table.positions.setZero(static_cast<Eigen::Index>(rows(message)), coordinates);
@@ -206,7 +206,7 @@ std::optional<Rejection> TrajectoryConversion::resolveNames(const JointTrajector
 
 std::optional<Rejection> TrajectoryConversion::holdOthers(const MotionEstimator& joint_states,
                                                           TrajectoryMotion& motion) const {
-  std::vector<char> given(coordinate_of_.size(), 0);
+  std::vector<char> given(mechanism_.coordinates().size(), 0);
   for (const int coordinate : motion.coordinates) given[static_cast<std::size_t>(coordinate)] = 1;
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (given[i] || (!passive_.empty() && passive_[i])) continue;

@@ -45,7 +45,8 @@ WrenchConversion::WrenchConversion(const Mechanism& mechanism, std::string frame
       frames_(wrenches.size()) {}
 
 std::optional<Rejection> WrenchConversion::take(std::size_t i,
-                                                const geometry_msgs::WrenchStamped& message) {
+                                                const geometry_msgs::WrenchStamped& message,
+                                                const MeasuringFrame* foreign) {
   if (message.header.stamp.isZero()) return Rejection{DropReason::kZeroStamp, "its stamp is zero"};
   MeasuredWrench wrench;
   if (const auto wrong = copyFinite(message.wrench, wrench.value)) {
@@ -53,14 +54,19 @@ std::optional<Rejection> WrenchConversion::take(std::size_t i,
                      std::string("its ") + wrong->name + " is " + numberText(wrong->value)};
   }
   const Frame& frame = frameOf(i, message.header.frame_id);
-  if (frame.link < 0) {
+  if (frame.link < 0 && !foreign) {
     return Rejection{DropReason::kUnknownFrame,
                      "its frame " + inQuotes(frame.id) + " is not " +
                          (frame_prefix_.empty() ? "" : inQuotes(frame_prefix_) + " and ") +
                          "a link of robot " + inQuotes(mechanism_.name()) +
                          nameHelp(frame.id, linkNames(mechanism_))};
   }
-  wrench.frame = frame.link;
+  wrench.frame = foreign ? foreign->link : frame.link;
+  if (foreign) {
+    wrench.value.force = (foreign->R * wrench.value.force).eval();
+    wrench.value.torque = (foreign->R * wrench.value.torque).eval();
+    wrench.at = foreign->origin;
+  }
   wrench.stamp_ns = static_cast<std::int64_t>(message.header.stamp.toNSec());
   switch (wrenches_.push(i, wrench)) {
     case WrenchHistory::Verdict::kTaken:

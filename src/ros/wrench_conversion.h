@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dynamics/live_wrenches.h"
+#include "ros/foreign_frames.h"
 #include "ros/rejection.h"
 #include "virtual_work_dynamics/mechanism.h"
 
@@ -22,8 +23,14 @@ class WrenchConversion {
   WrenchConversion(const Mechanism& mechanism, std::string frame_prefix, LiveWrenches& wrenches);
 
   /// Takes a message of live wrench `i`. Allocates only for a frame that is new, or a rejection.
+  /// @param foreign the frame, where it is no link of the robot; null: not known
   /// @returns why the message is to be dropped, or nothing.
-  std::optional<Rejection> take(std::size_t i, const geometry_msgs::WrenchStamped& message);
+  std::optional<Rejection> take(std::size_t i, const geometry_msgs::WrenchStamped& message,
+                                const MeasuringFrame* foreign = nullptr);
+  /// Whether the frame of a message of live wrench `i` is a link of the robot.
+  bool knowsFrame(std::size_t i, const geometry_msgs::WrenchStamped& message) {
+    return frameOf(i, message.header.frame_id).link >= 0;
+  }
 
  private:
   struct Frame {

@@ -2,22 +2,31 @@
 
 #include <geometry_msgs/WrenchStamped.h>
 #include <ros/node_handle.h>
+#include <ros/steady_timer.h>
 #include <ros/subscriber.h>
 
+#include <chrono>
 #include <cstdint>
+#include <deque>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "dynamics/live_wrenches.h"
 #include "ros/counters.h"
+#include "ros/foreign_frames.h"
 #include "ros/rejection.h"
+#include "ros/root_settings.h"
 #include "ros/wrench_conversion.h"
 #include "virtual_work_dynamics/mechanism.h"
 
 namespace virtual_work_dynamics {
 
-/// The subscriptions to the topics of live wrenches.
+/// The subscriptions to the topics of live wrenches. Frames that are no links of the robot are
+/// looked up in tf, which is subscribed to when the first one comes; messages wait for it a little,
+/// in their order, and nothing else does.
 class WrenchInputs {
  public:
   /// Counts, and says to the user, why a message of a topic is dropped.
@@ -25,8 +34,11 @@ class WrenchInputs {
       std::function<void(const std::string& topic, DropReason reason, const std::string& text)>;
 
   /// @param wrenches must outlive it, like mechanism and counters   @param timeout of `wrenches`, s
+  /// @param root how the root is known to move, and against which frame   @param max_gap s by which
+  ///   stamps of tf go back when time does
   WrenchInputs(const Mechanism& mechanism, const std::string& frame_prefix, LiveWrenches& wrenches,
-               double timeout, Counters& counters, Drop drop);
+               double timeout, const RootSettings& root, double max_gap, Counters& counters,
+               Drop drop);
 
   /// Subscribes to `~wrench/<topic>` of each live wrench.
   void subscribe(ros::NodeHandle private_node, const std::vector<std::string>& topics,
@@ -38,14 +50,36 @@ class WrenchInputs {
   std::string problem(std::size_t i) const;
 
  private:
-  void receive(std::size_t i, const geometry_msgs::WrenchStamped& message);
+  using Clock = std::chrono::steady_clock;
+  using Message = geometry_msgs::WrenchStampedConstPtr;
+  // A message whose frame is not known yet.
+  struct Waiting {
+    std::size_t i;
+    Message message;
+    Clock::time_point until;
+  };
 
-  const double timeout_;
+  void receive(std::size_t i, const Message& message);
+  void guard(std::size_t i, const std::function<std::optional<Rejection>()>& take);
+  bool waits(std::size_t i) const;
+  void wait(std::size_t i, const Message& message);
+  void listenToTf();
+  void takeWaiting();
+
+  const Mechanism& mechanism_;
+  const std::string frame_prefix_;
+  const double timeout_, max_gap_;
+  const RootSettings root_;
   const LiveWrenches& wrenches_;
   WrenchConversion conversion_;
   Counters& counters_;
   const Drop drop_;
   std::vector<ros::Subscriber> subscribers_;
+  std::unique_ptr<ForeignFrames> foreign_;  // from the first frame on that is no link
+  Clock::time_point foreign_since_;
+  ros::Subscriber tf_, tf_static_;
+  ros::SteadyTimer patience_;
+  std::deque<Waiting> waiting_;
 };
 
 }  // namespace virtual_work_dynamics

@@ -4,9 +4,11 @@
 
 #include <cmath>
 #include <memory>
+#include <random>
 #include <string>
 #include <vector>
 
+#include "moving_roots.h"
 #include "robot_builder.h"
 #include "virtual_work_dynamics/deviations.h"
 #include "virtual_work_dynamics/error.h"
@@ -111,6 +113,40 @@ TEST(LiveWrenches, OfOtherLinksAreMovedByTheirPoses) {
   }
 }
 
+// A sensor beside the origin of a link, and one that stands in the inertial frame.
+TEST(LiveWrenches, OfPointsAndOfTheInertialFrameAreMovedByThem) {
+  TwoArms arms;
+  const Scene live = arms.live("link_3");
+  std::mt19937 generator(6);
+  for (Motion motion : arms.builder.motions(4)) {
+    motion.root = randomRootMotion(generator);
+    const Pose link = arms.poseOf("joint_3", motion);
+    const Eigen::Quaterniond to_link = link.orientation.conjugate();
+    const Eigen::Vector3d at(0.3, -0.2, 0.6);
+    for (const int frame : {3, 7, MeasuredWrench::kInertial}) {
+      SCOPED_TRACE(frame);
+      // The frame in root axes.
+      Pose sensor;
+      if (frame > 0) sensor = arms.poseOf("joint_" + std::to_string(frame), motion);
+      if (frame < 0) {
+        sensor.orientation = motion.root.orientation.conjugate();
+        sensor.position = -(sensor.orientation * motion.root.position);
+      }
+      LiveWrenches wrenches(*arms.mechanism, live, 0.1);
+      wrenches.push(0, {kStamp, frame, arms.wrench, at});
+      EXPECT_FALSE(wrenches.read(kStamp));
+      Load load(live);
+      wrenches.getLoad(motion, load);
+      const Eigen::Vector3d force = sensor.orientation * arms.wrench.force;
+      const Eigen::Vector3d lever = sensor.position + sensor.orientation * at - link.position;
+      const Eigen::Vector3d moment = sensor.orientation * arms.wrench.torque + lever.cross(force);
+      EXPECT_LE((load.wrenches[0].force - to_link * force).norm(), kRounding * force.norm());
+      EXPECT_LE((load.wrenches[0].torque - to_link * moment).norm(),
+                kRounding * (moment.norm() + lever.norm() * force.norm()));
+    }
+  }
+}
+
 TEST(LiveWrenches, AreInterpolatedAndInverted) {
   TwoArms arms;
   Scene scene = arms.live("link_3");
@@ -195,6 +231,43 @@ TEST(LiveWrenches, OfOtherLinksMakeEffortsUncertain) {
   EXPECT_NEAR(workspace.motion().effort[1], deviation * std::abs(slope), 1e-4 * deviation * 25);
   // The shoulder's lever is fixed on the root.
   EXPECT_NEAR(workspace.motion().effort[0], 0, 1e-9);
+}
+
+// A force F along inertial axes at a point of them: where the root's attitude is uncertain, so are
+// its direction and lever. A hinge at the root's origin, about z.
+TEST(LiveWrenches, OfTheInertialFrameMakeEffortsUncertainByTheAttitude) {
+  RobotBuilder builder(1);
+  builder.add(JointType::kContinuous, 0, Vector3l::UnitZ(), Matrix3l::Identity(), Vector3l::Zero());
+  for (const int link : {0, 1}) builder.removeInertia(link);
+  const Mechanism mechanism = builder.build();
+  Scene scene;
+  scene.root_moves = true;
+  scene.applied_wrenches.resize(1);
+  scene.applied_wrenches[0].name = "push";
+  scene.applied_wrenches[0].link = "link_1";
+  scene.applied_wrenches[0].live = true;
+  LiveWrenches wrenches(mechanism, scene, 0.1);
+  MeasuredWrench measured;
+  measured.stamp_ns = kStamp;
+  measured.frame = MeasuredWrench::kInertial;
+  measured.value.force << 30, -40, 20;
+  measured.value.torque << 3, 5, -4;
+  wrenches.push(0, measured);
+  ASSERT_FALSE(wrenches.read(kStamp));
+  const Deviations deviations(mechanism, scene, Request());
+  Deviations::Workspace workspace = deviations.makeWorkspace();
+  Motion motion(1);
+  motion.root.position << 0.4, -0.7, 0.2;
+  MotionCovariance covariance{{Eigen::Matrix3d::Zero()}};
+  covariance.root.diagonal().head<3>() << 1e-8, 4e-8, 9e-8;
+  const LoadLaw law = [&](const Motion& at, Load& load) { wrenches.getLoad(at, load); };
+  deviations.computeMotion(motion, covariance, law, workspace);
+  // The moment about the root's origin, of which the axis z turns away by (y, -x) per radian.
+  const Eigen::Vector3d moment =
+      measured.value.torque - motion.root.position.cross(measured.value.force);
+  const double expected = std::hypot(1e-4 * moment.y(), 2e-4 * moment.x());
+  ASSERT_GT(expected, 1e-3);
+  EXPECT_NEAR(workspace.motion().effort[0], expected, 1e-3 * expected);
 }
 
 TEST(LiveWrenches, NamesAreChecked) {

@@ -120,9 +120,26 @@ TEST(TurnEstimator, WhatIsNotKnownIsNotMadeUp) {
   EXPECT_TRUE(estimator.read(stampAt(0.29), turn, nullptr));
   EXPECT_FALSE(estimator.read(stampAt(0.2901), turn, nullptr));
   EXPECT_FALSE(estimator.read(stampAt(-0.01), turn, nullptr));
-  const FreeTurn held = estimator.held();
+  const FreeTurn held = estimator.heldAt(stampAt(0.5));
   EXPECT_LT(errorAt(0.19, held).head<3>().norm(), 1e-9);
   EXPECT_EQ(held.angular_velocity.norm() + held.angular_acceleration.norm(), 0);
+}
+
+// As other joints do: what comes after a gap says nothing of the gap.
+TEST(TurnEstimator, HoldsInAGapWhatCameBeforeIt) {
+  EstimatorSettings settings;
+  settings.hold_after = 0.1;
+  TurnEstimator estimator(settings);
+  std::mt19937 generator(5);
+  for (int i = 0; i <= 20; ++i) estimator.push(sampleAt(0.01 * i, 0, -1, generator));
+  for (int i = 0; i < 10; ++i) estimator.push(sampleAt(1 + 0.01 * i, 0, -1, generator));
+  ASSERT_GT(errorAt(1.09, estimator.heldAt(stampAt(0.2))).head<3>().norm(), 0.1);
+  for (const double t : {0.2, 0.5, 0.9999}) {
+    FreeTurn turn;
+    if (t > 0.3) EXPECT_FALSE(estimator.read(stampAt(t), turn, nullptr)) << t;
+    EXPECT_LT(errorAt(0.2, estimator.heldAt(stampAt(t))).head<3>().norm(), 1e-9) << t;
+  }
+  EXPECT_LT(errorAt(1.09, estimator.heldAt(stampAt(2))).head<3>().norm(), 1e-9);
 }
 
 TEST(TurnEstimator, OrientationsAsTheyComeWhereNothingIsEstimated) {

@@ -3,6 +3,7 @@
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -211,8 +212,9 @@ void useRootPoses(Values& values) {
 }
 
 void useImu(Values& values) {
-  ImuConversion conversion(robot(), values.yes() ? "" : "left/");
-  RootImu imu(EstimatorSettings(), 100000000, {0, 0, -9.81});
+  const bool oriented = values.yes();
+  ImuConversion conversion(robot(), values.yes() ? "" : "left/", oriented);
+  RootImu imu(EstimatorSettings(), 100000000, {0, 0, -9.81}, oriented);
   sensor_msgs::Imu message;
   message.header.stamp.sec = values.integer<std::uint32_t>();
   for (std::size_t left = values.count(32); left > 0; --left) {
@@ -224,6 +226,13 @@ void useImu(Values& values) {
     for (double* number : {&rate.x, &rate.y, &rate.z, &force.x, &force.y, &force.z})
       *number = values.number();
     message.linear_acceleration_covariance[0] = values.count(8) == 0 ? -1 : 0;
+    message.orientation_covariance[0] = values.count(8) == 0 ? -1 : 0;
+    geometry_msgs::Quaternion& turn = message.orientation;
+    for (double* number : {&turn.x, &turn.y, &turn.z, &turn.w}) *number = values.number();
+    if (values.yes()) {
+      const double length = std::hypot(std::hypot(turn.x, turn.y), std::hypot(turn.z, turn.w));
+      for (double* number : {&turn.x, &turn.y, &turn.z, &turn.w}) *number /= length;
+    }
     ImuSample sample;
     if (const auto rejection = conversion.convert(message, sample)) {
       requireWord(*rejection);

@@ -48,7 +48,7 @@ class CarriedArm:
     """In closed form, by the stamp in ns."""
 
     def __init__(self, speed=1.0, start=(0.4, 0.2, -0.3), start_ns=EPOCH):
-        self._bodies = RigidBodies(_carried())
+        self.bodies = RigidBodies(_carried())
         self._speed = speed
         self._turns = start
         self._start_ns = start_ns
@@ -80,40 +80,48 @@ class CarriedArm:
         return motion
 
     def root(self, ns):
-        pose, first, second = self._bodies.motion(ROOT, self._carrier(ns))
+        return self._pose(ROOT, self._carrier(ns))
+
+    def link(self, name, ns):
+        """Of a link of the arm, as root() of the root."""
+        return self._pose(name, self.whole(ns))
+
+    def _pose(self, link, state):
+        pose, first, second = self.bodies.motion(link, state)
         turn = pose[:3, :3]
         spin = first[:3, :3] @ turn.T
         change = second[:3, :3] @ turn.T + first[:3, :3] @ first[:3, :3].T
         return Pose(pose[:3, 3], turn, first[:3, 3], _vector_of(spin), second[:3, 3],
                     _vector_of(change))
 
-    def unit(self, ns, at, turn):
-        """Angular velocity and specific force that a unit on the root measures, in its axes.
+    def unit(self, ns, at, turn, link=ROOT):
+        """Angular velocity and specific force that a unit on a link measures, in its axes, and these.
 
-        It has its origin at `at` and its axes in the columns of `turn`, in the root link.
+        It has its origin at `at` and its axes in the columns of `turn`, in the link.
         """
-        pose, _, second = self._bodies.motion(ROOT, self._carrier(ns))
+        pose, _, second = self.bodies.motion(link, self.whole(ns))
         axes = pose[:3, :3] @ turn
         acceleration = (second @ np.append(at, 1))[:3]
-        return (axes.T @ self.root(ns).angular,
-                axes.T @ (acceleration - np.array([0, 0, -9.81])))
+        return (axes.T @ self.link(link, ns).angular,
+                axes.T @ (acceleration - np.array([0, 0, -9.81])), axes)
 
     def efforts(self, ns):
         """Of the arm's joints, in their order."""
-        motion = self._whole(ns)
-        return [self._bodies.effort(name, *motion) for name in JOINTS]
+        motion = self.whole(ns)
+        return [self.bodies.effort(name, *motion) for name in JOINTS]
 
     def ground(self, ns):
         """Force and moment that the carrier exerts on the root, in the root's axes."""
-        reaction = self._bodies.reaction('roll', *self._whole(ns))
+        reaction = self.bodies.reaction('roll', *self.whole(ns))
         turn = reaction.pose[:3, :3].T
         return turn @ reaction.force, turn @ reaction.torque
 
     def whole_reaction(self, name, ns):
         """Of a joint of the carrier or the arm, in inertial axes."""
-        return self._bodies.reaction(name, *self._whole(ns))
+        return self.bodies.reaction(name, *self.whole(ns))
 
-    def _whole(self, ns):
+    def whole(self, ns):
+        """q, q', q'' of carrier and arm as maps by name, for `bodies`."""
         return tuple(dict(one, **other)
                      for one, other in zip(self.joints(ns), self._carrier(ns)))
 

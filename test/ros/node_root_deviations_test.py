@@ -7,7 +7,7 @@ from sensor_msgs.msg import Imu, JointState
 
 from carried_arm import JOINTS, CarriedArm
 from node_under_test import EPOCH, Node, NodeTest, joint_state, ros_time, run
-from root_messages import WITH_UNIT, imu, odometry
+from root_messages import WITH_UNIT, imu, odometry, with_unit
 
 MS = 1000000
 SECONDS = 5  # as many messages as are kept
@@ -20,10 +20,10 @@ RATE_NOISE, FORCE_NOISE = 2e-3, 0.02
 
 
 class RootDeviations(NodeTest):
-    def start(self, source, topic, kind):
+    def start(self, source, topic, kind, robot=WITH_UNIT):
         self.arm = CarriedArm()
         self.noise = np.random.default_rng(21)
-        self.node = Node(self, WITH_UNIT, {
+        self.node = Node(self, robot, {
             'scene': {'root': 'moving', 'reactions': 'none'}, 'root': {'source': source},
             'deviation_warn': 1e-9, 'queue_size': {'input': 100000, 'output': 100000}})
         self.roots = self.node.feed(topic, kind)
@@ -90,6 +90,12 @@ class RootDeviations(NodeTest):
                   if entry.key == 'efforts in doubt'}
         self.assertTrue(any("mostly from the noise of the root's" in text for text in causes),
                         causes)
+
+    def test_imu_on_a_link_that_joints_move(self):
+        self.start('imu', 'imu', Imu, with_unit('upper_arm'))
+        results = self.send(lambda ns: imu(self.arm, ns, self.noise, (RATE_NOISE, FORCE_NOISE),
+                                           link='upper_arm'), 200)
+        self.check(results, 2)
 
     def test_poses(self):
         self.start('odometry', 'odom', Odometry)

@@ -78,18 +78,28 @@ def frames(arm, ns):
 # A unit on a mount that is fixed to the root: its origin and axes in the root link.
 UNIT_AT = np.array([0.2, -0.1, 0.3])
 UNIT_TURN = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
-WITH_UNIT = ARM.replace('</robot>', """<link name="unit"/><joint name="mount" type="fixed">
-    <parent link="base"/><child link="unit"/><origin xyz="0.2 -0.1 0.3" rpy="0 0 %r"/></joint>
-    </robot>""" % (math.pi / 2))
 
 
-def imu(arm, ns, noise=None, sizes=(0.0, 0.0)):
+def with_unit(link):
+    """The arm with such a mount on one of its links."""
+    return ARM.replace('</robot>', """<link name="unit"/><joint name="mount" type="fixed">
+        <parent link="%s"/><child link="unit"/><origin xyz="0.2 -0.1 0.3" rpy="0 0 %r"/></joint>
+        </robot>""" % (link, math.pi / 2))
+
+
+WITH_UNIT = with_unit(ROOT)
+
+
+def imu(arm, ns, noise=None, sizes=(0.0, 0.0), link=ROOT, oriented=False):
     """What the unit measures; deviations in rad/s and m/s^2."""
-    rate, force = arm.unit(ns, UNIT_AT, UNIT_TURN)
+    rate, force, axes = arm.unit(ns, UNIT_AT, UNIT_TURN, link)
     message = Imu()
     message.header.frame_id = 'unit'
     message.header.stamp = ros_time(ns)
-    message.orientation_covariance[0] = -1
+    if oriented:
+        message.orientation = quaternion(axes)
+    else:
+        message.orientation_covariance[0] = -1
     if noise is not None:
         rate = rate + sizes[0] * noise.normal(size=3)
         force = force + sizes[1] * noise.normal(size=3)
