@@ -5,6 +5,7 @@
 #include <ros/callback_queue_interface.h>
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
+#include <std_msgs/Bool.h>
 
 #include <optional>
 #include <string>
@@ -19,8 +20,9 @@
 
 namespace virtual_work_dynamics {
 
-/// The scene of a node whose payloads and gravity change while it runs: by `~payload/<link>`, of
-/// every link, and `~gravity`. It belongs to the thread that compiles plans, whose queue brings the
+/// The scene of a node whose payloads, gravity and contacts change while it runs: by
+/// `~payload/<link>`, of every link, `~gravity`, and `~contact/<name>`, which closes what touches a
+/// plane or lifts it. It belongs to the thread that compiles plans, whose queue brings the
 /// messages, so that the computing thread never waits for a change.
 class SceneInputs {
  public:
@@ -45,7 +47,9 @@ class SceneInputs {
   ros::Subscriber listen(ros::NodeHandle& node, ros::CallbackQueueInterface& queue,
                          const std::string& topic,
                          std::optional<Rejection> (SceneInputs::*take)(int, const Message&),
-                         int link);
+                         int index);
+  void subscribeToContacts(ros::NodeHandle& private_node, ros::CallbackQueueInterface& queue);
+  std::optional<Rejection> takeContact(int closure, const std_msgs::Bool& message);
   std::optional<Rejection> takePayload(int link, const geometry_msgs::InertiaStamped& message);
   std::optional<Rejection> takeGravity(int, const geometry_msgs::Vector3Stamped& message);
   void drop(const std::string& topic, const Rejection& rejection);
