@@ -138,6 +138,13 @@ void ReplayedStates::listen(InputTopics& topics) {
           change(scene_inputs_.takePayload(link, message));
         });
   }
+  for (const auto& entry : scene_inputs_.contactTopics()) {
+    const int closure = entry.second;
+    add<std_msgs::Bool>(topics, "~" + entry.first, "",
+                        [this, closure, change](const std_msgs::Bool& message, ros::Time) {
+                          change(scene_inputs_.takeContact(closure, message));
+                        });
+  }
   add<geometry_msgs::Vector3Stamped>(
       topics, "~gravity", "",
       [this, change](const geometry_msgs::Vector3Stamped& message, ros::Time) {

@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "base/printable.h"
+#include "scene/closure_types.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -33,6 +34,7 @@ tf2_msgs::TFMessage closureFrames(const Mechanism& mechanism, const Scene& scene
   const std::unordered_set<std::string> shown(reactions.begin(), reactions.end());
   for (const Closure& closure : scene.closures) {
     if (shown.count(closure.name) == 0) continue;
+    if (traitsOf(closure.type).touches()) continue;  // a contact moves on its link
     if (mechanism.linkIndex(closure.name) >= 0) {
       throw SceneError("closures: " + inQuotes(closure.name) +
                        " is also the name of a link; a closure's frame in tf needs another name");

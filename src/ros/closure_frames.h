@@ -11,7 +11,8 @@
 namespace virtual_work_dynamics {
 
 /// The child frames of closures in their links, for /tf_static; ~reaction/<closure> refers to them.
-/// @param reactions names of reactions; only closures among them get a frame.
+/// @param reactions names of reactions; only closures among them get a frame, except for
+///   contacts, whose frames move on their links: see movingContacts().
 /// @param frame_prefix put before every frame_id.
 /// @throws SceneError when a closure has the name of a link, so that two frames would have it.
 tf2_msgs::TFMessage closureFrames(const Mechanism& mechanism, const Scene& scene,

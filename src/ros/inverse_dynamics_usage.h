@@ -17,6 +17,7 @@ subscribes
   ~wrench/<name>     geometry_msgs/WrenchStamped      each live applied wrench of the scene
   ~payload/<link>    geometry_msgs/InertiaStamped     what a link carries from now on; mass 0: nothing
   ~gravity           geometry_msgs/Vector3Stamped     gravity from now on
+  ~contact/<name>    std_msgs/Bool                    whether a wheel, blade or contact touches from now on
 
 publishes (each only while somebody subscribes)
   ~effort            sensor_msgs/JointState           positions and velocities used, efforts
@@ -32,7 +33,7 @@ publishes (each only while somebody subscribes)
   ~determinacy       diagnostic_msgs/DiagnosticArray  closed loops: what mechanics determines; latched
   /diagnostics       diagnostic_msgs/DiagnosticArray  rates, run times, drops, checks
 A wrench is what the parent link exerts on the child link, moment about the joint's origin. With closed
-loops /tf_static has a frame for each closure, that of ~reaction/<closure>.
+loops /tf_static has a frame for each closure, that of ~reaction/<closure>, and /tf one for each contact.
 
 parameters
   robot_description          URDF text; searched from the private namespace upwards

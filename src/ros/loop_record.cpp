@@ -26,17 +26,23 @@ std::vector<std::size_t> takeMarks(std::vector<std::atomic<bool>>& marks) {
 }  // namespace
 
 constexpr std::size_t LoopRecord::kLevels;
+constexpr std::size_t LoopRecord::kHolds;
 
 LoopRecord::LoopRecord(const Dynamics& dynamics, std::size_t reactions, const LoopLimits& limits)
     : closed_(dynamics.closed()),
       limits_(limits),
       closures_(dynamics.closureNames().size()),
+      holds_(dynamics.oneSided().size()),
       efforts_(dynamics.effortNames().size()),
       reactions_(reactions) {}
 
 void LoopRecord::record(const Results& results, const ActivePlan& plan) {
   if (!closed_) return;
   recordResiduals(results);
+  for (std::size_t i = 0; i < holds_.size(); ++i) {
+    const auto hold = static_cast<std::size_t>(results.loops.holds[i]);
+    holds_[i][hold].fetch_add(1, std::memory_order_relaxed);
+  }
   const Determinacy& found = results.loops.determinacy;
   rank_.store(found.rank, std::memory_order_relaxed);
   redundant_constraints_.store(found.redundant_constraints, std::memory_order_relaxed);
@@ -98,6 +104,12 @@ LoopRecord::Report LoopRecord::take() {
     for (std::size_t i = 0; i < kLevels; ++i) {
       report.residuals.back()[i] = closure.largest[i].exchange(0, std::memory_order_relaxed);
       report.relative.back()[i] = closure.relative[i].exchange(0, std::memory_order_relaxed);
+    }
+  }
+  for (auto& counts : holds_) {
+    report.holds.emplace_back();
+    for (std::size_t i = 0; i < kHolds; ++i) {
+      report.holds.back()[i] = counts[i].exchange(0, std::memory_order_relaxed);
     }
   }
   report.efforts = takeMarks(efforts_);

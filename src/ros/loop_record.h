@@ -19,6 +19,7 @@ namespace virtual_work_dynamics {
 class LoopRecord {
  public:
   static constexpr std::size_t kLevels = 3;  // positions, velocities, accelerations
+  static constexpr std::size_t kHolds = 4;   // values of Hold
   /// One value for each level.
   using Levels = std::array<double, kLevels>;
 
@@ -41,7 +42,9 @@ class LoopRecord {
     std::uint64_t undirected = 0;                 ///< samples, ever, in which a spring's ends meet
     std::uint64_t violations = 0;                 ///< samples, ever
     std::uint64_t close_to_singular = 0;          ///< samples, ever, without singular ones
-    Determinacy determinacy;                      ///< of the latest sample
+    /// By Dynamics::oneSided(): how many samples were found to be so, by Hold.
+    std::vector<std::array<std::uint64_t, kHolds>> holds;
+    Determinacy determinacy;  ///< of the latest sample
     bool passive_given = false;
   };
   /// What was recorded since the call before. Allocates.
@@ -59,6 +62,7 @@ class LoopRecord {
   const bool closed_;
   const LoopLimits limits_;
   std::vector<OfClosure> closures_;
+  std::vector<std::array<std::atomic<std::uint64_t>, kHolds>> holds_;
   std::vector<std::atomic<bool>> efforts_;    // left out
   std::vector<std::atomic<bool>> reactions_;  // left out
   std::atomic<int> rank_{0}, redundant_constraints_{0}, redundancy_{0}, free_motions_{0};

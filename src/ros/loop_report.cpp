@@ -86,6 +86,7 @@ LoopReport::LoopReport(const Dynamics& dynamics, Names reactions, LoopRecord& re
                        const LoopLimits& limits)
     : closures_(dynamics.closureNames()),
       labels_(labelsOf(dynamics)),
+      one_sided_(dynamics.oneSided()),
       efforts_(dynamics.effortNames()),
       reactions_(std::move(reactions)),
       closed_(dynamics.closed()),
@@ -103,6 +104,7 @@ void LoopReport::add(DiagnosticStatusWrapper& status) {
   if (latest_.news) addResiduals(status, latest_);
   if (report.violations > violations_) addViolations(status, report);
   if (report.news) addConditions(status, report.conditions);
+  if (report.news) addHolds(status, report);
   if (report.singular > singular_) {
     addLeftOut(status, report,
                count(report.singular - singular_, "sample", "samples") +
@@ -138,6 +140,27 @@ void LoopReport::addResiduals(DiagnosticStatusWrapper& status,
     }
   }
   status.add("residual, largest (relative)", shortNumber(largest));
+}
+
+// Says of each force that can act one way only how many samples are at odds with that.
+void LoopReport::addHolds(DiagnosticStatusWrapper& status, const LoopRecord::Report& report) const {
+  static const char* const kWrong[LoopRecord::kHolds] = {
+      nullptr, "would have to act the other way", "is outside its friction cone",
+      "is not determined, so that nothing can be said of it"};
+  for (std::size_t i = 0; i < one_sided_.size(); ++i) {
+    std::string found;
+    for (std::size_t hold = 1; hold < LoopRecord::kHolds; ++hold) {
+      const std::uint64_t samples = report.holds[i][hold];
+      if (samples == 0) continue;
+      const std::string text =
+          std::string(kWrong[hold]) + " in " + count(samples, "sample", "samples");
+      found += (found.empty() ? "" : "; ") + text;
+      if (static_cast<Hold>(hold) == Hold::kNotDecidable) continue;
+      status.mergeSummary(DiagnosticStatus::WARN,
+                          "the force of " + inQuotes(one_sided_[i]) + " " + text);
+    }
+    status.add("holds." + shortened(one_sided_[i]), found.empty() ? "yes" : found);
+  }
 }
 
 void LoopReport::addViolations(DiagnosticStatusWrapper& status,

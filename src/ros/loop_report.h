@@ -37,10 +37,12 @@ class LoopReport {
                      const LoopRecord::Report& report) const;
   void addConditions(diagnostic_updater::DiagnosticStatusWrapper& status,
                      const std::vector<double>& conditions) const;
+  void addHolds(diagnostic_updater::DiagnosticStatusWrapper& status,
+                const LoopRecord::Report& report) const;
   void addLeftOut(diagnostic_updater::DiagnosticStatusWrapper& status,
                   const LoopRecord::Report& report, const std::string& why) const;
 
-  std::vector<std::string> closures_, labels_, efforts_, reactions_;
+  std::vector<std::string> closures_, labels_, one_sided_, efforts_, reactions_;
   bool closed_;
   LoopRecord& record_;
   LoopLimits limits_;

@@ -13,6 +13,7 @@
 
 #include "dynamics/inertial_axes.h"
 #include "ros/closure_frames.h"
+#include "ros/contact_frames.h"
 #include "ros/delivered_efforts.h"
 #include "ros/determinacy_message.h"
 #include "ros/deviation_output.h"
@@ -403,6 +404,10 @@ Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
   }
   if (!settings.reactions.empty()) {
     outputs.push_back(makeMarkerOutput(mechanism, settings, frames, root_frame));
+  }
+  const Names contacts = movingContacts(settings.scene, settings.reactions);
+  if (!contacts.empty()) {
+    outputs.push_back(makeContactFrames(contacts, root_frame, settings.frame_prefix));
   }
   if (everything.closed()) {
     outputs.push_back(std::make_unique<DeterminacyOutput>(mechanism, everything, settings));

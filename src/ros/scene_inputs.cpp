@@ -11,6 +11,7 @@
 #include "base/printable.h"
 #include "ros/fixed_frames.h"
 #include "ros/topic_names.h"
+#include "scene/closure_types.h"
 #include "scene/payloads.h"
 
 namespace virtual_work_dynamics {
@@ -42,14 +43,14 @@ SceneInputs::SceneInputs(const Mechanism& mechanism, const Scene& scene, std::st
 template <typename Message>
 ros::Subscriber SceneInputs::listen(
     ros::NodeHandle& node, ros::CallbackQueueInterface& queue, const std::string& topic,
-    std::optional<Rejection> (SceneInputs::*take)(int, const Message&), int link) {
+    std::optional<Rejection> (SceneInputs::*take)(int, const Message&), int index) {
   const std::string name = node.resolveName(topic);
   ros::SubscribeOptions options;
   options.init<Message>(topic, kQueue,
-                        [this, name, take, link](const boost::shared_ptr<const Message>& message) {
+                        [this, name, take, index](const boost::shared_ptr<const Message>& message) {
                           counters_.payloads.add();
                           try {
-                            if (const auto rejection = (this->*take)(link, *message))
+                            if (const auto rejection = (this->*take)(index, *message))
                               drop(name, *rejection);
                           } catch (const std::exception& error) {
                             drop(name, {DropReason::kInternal, printable(error.what())});
@@ -61,6 +62,18 @@ ros::Subscriber SceneInputs::listen(
 
 void SceneInputs::subscribe(ros::NodeHandle private_node, ros::CallbackQueueInterface& queue) {
   subscribers_.push_back(listen(private_node, queue, "gravity", &SceneInputs::takeGravity, 0));
+  const std::map<std::string, int> contacts = contactTopics();
+  for (std::size_t i = 0; i < scene_.closures.size(); ++i) {
+    const auto closure = static_cast<int>(i);
+    if (!traitsOf(scene_.closures[i].type).touches()) continue;
+    const std::string topic = contactTopic(closure);
+    if (contacts.at(topic) != closure) {
+      ROS_INFO("%s has no contact topic, as another one's has the same name",
+               inQuotes(scene_.closures[i].name).c_str());
+      continue;
+    }
+    subscribers_.push_back(listen(private_node, queue, topic, &SceneInputs::takeContact, closure));
+  }
   const std::map<std::string, int> topics = payloadTopics();
   for (std::size_t i = 0; i < mechanism_.links().size(); ++i) {
     const auto link = static_cast<int>(i);
@@ -92,6 +105,28 @@ std::map<std::string, int> SceneInputs::payloadTopics() const {
     if (isDescribed(link)) topics.emplace(payloadTopic(link), link);
   }
   return topics;
+}
+
+std::string SceneInputs::contactTopic(int closure) const {
+  return "contact/" + legalTopicName(scene_.closures[static_cast<std::size_t>(closure)].name);
+}
+
+std::map<std::string, int> SceneInputs::contactTopics() const {
+  std::map<std::string, int> topics;
+  for (std::size_t i = 0; i < scene_.closures.size(); ++i) {
+    const auto closure = static_cast<int>(i);
+    if (traitsOf(scene_.closures[i].type).touches()) topics.emplace(contactTopic(closure), closure);
+  }
+  return topics;
+}
+
+std::optional<Rejection> SceneInputs::takeContact(int closure, const std_msgs::Bool& message) {
+  Closure& contact = scene_.closures[static_cast<std::size_t>(closure)];
+  const bool closed = message.data != 0;
+  if (contact.touch.closed == closed) return std::nullopt;
+  contact.touch.closed = closed;
+  changes_.push_back(inQuotes(contact.name) + (closed ? " touches" : " is lifted"));
+  return std::nullopt;
 }
 
 std::optional<Rejection> SceneInputs::takePayload(int link,
@@ -194,8 +229,9 @@ void SceneInputs::takeBackQuietly() {
 
 void SceneInputs::takeBack(const std::string& why) {
   takeBackQuietly();
-  ROS_ERROR("the change of payload or gravity failed, and what is computed stays as it is: %s",
-            printable(why).c_str());
+  ROS_ERROR(
+      "the change of payload, gravity or contact failed, and what is computed stays as it is: %s",
+      printable(why).c_str());
 }
 
 void SceneInputs::drop(const std::string& topic, const Rejection& rejection) {

@@ -5,6 +5,7 @@
 #include <ros/callback_queue_interface.h>
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
+#include <std_msgs/Bool.h>
 
 #include <map>
 #include <optional>
@@ -20,8 +21,9 @@
 
 namespace virtual_work_dynamics {
 
-/// The scene of a node whose payloads and gravity change while it runs: by `~payload/<link>`, of
-/// every link, and `~gravity`. It belongs to the thread that compiles plans, whose queue brings the
+/// The scene of a node whose payloads, gravity and contacts change while it runs: by
+/// `~payload/<link>`, of every link, `~gravity`, and `~contact/<name>`, which closes what touches a
+/// plane or lifts it. It belongs to the thread that compiles plans, whose queue brings the
 /// messages, so that the computing thread never waits for a change.
 class SceneInputs {
  public:
@@ -52,17 +54,23 @@ class SceneInputs {
   std::optional<Rejection> takePayload(int link, const geometry_msgs::InertiaStamped& message);
   std::optional<Rejection> takeGravity(int, const geometry_msgs::Vector3Stamped& message);
 
+  /// @param closure index of the contact, wheel or blade whose topic it came by
+  std::optional<Rejection> takeContact(int closure, const std_msgs::Bool& message);
+
   /// The links that have a topic of payloads, by topic below the node's own.
   std::map<std::string, int> payloadTopics() const;
+  /// The closures that have a topic, in the same way.
+  std::map<std::string, int> contactTopics() const;
 
  private:
   template <typename Message>
   ros::Subscriber listen(ros::NodeHandle& node, ros::CallbackQueueInterface& queue,
                          const std::string& topic,
                          std::optional<Rejection> (SceneInputs::*take)(int, const Message&),
-                         int link);
+                         int index);
   bool isDescribed(int link) const;
   std::string payloadTopic(int link) const;
+  std::string contactTopic(int closure) const;
   void drop(const std::string& topic, const Rejection& rejection);
 
   const Mechanism& mechanism_;

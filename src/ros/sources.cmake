@@ -2,6 +2,7 @@ set(ros_files)
 foreach(file
     active_plan.cpp
     closure_frames.cpp
+    contact_frames.cpp
     counters.cpp
     cross_check.cpp
     described_robot.cpp

@@ -4,10 +4,12 @@ import math
 
 from geometry_msgs.msg import InertiaStamped, Vector3Stamped
 from sensor_msgs.msg import JointState
+from std_msgs.msg import Bool
+from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import JointTrajectory
 
-from node_under_test import (EPOCH, Node, NodeTest, joint_state, ros_time, run, trajectory_point,
-                             wait_until)
+from node_under_test import (EPOCH, Node, NodeTest, Recorder, joint_state, ros_time, rotated, run,
+                             trajectory_point, wait_until)
 
 G = 9.81
 # 1 kg at 1 m below the axis y: its effort is G sin q while it rests. The flange hangs together with it, its
@@ -102,6 +104,52 @@ class SceneChanges(NodeTest):
         values = self.node.wait_for_count('payloads and gravity received', 6)
         self.assertEqual(values['dropped'], '0')
         self.assertIn("link 'bob' carries 2 kg at [0, 0, -0.5] m", self.node.output())
+
+    def test_contacts_are_lifted_and_closed(self):
+        # The bob leans on a wall without friction, which holds it as the motor would have to.
+        wall = {'link': 'base', 'point': [-math.sin(ANGLE), 0, 0], 'normal': [-1, 0, 0]}
+        self.start({'contacts': [{'name': 'rest', 'link': 'bob', 'at': [0, 0, -1], 'slip': 'all',
+                                  'plane': wall}],
+                    'assembly': [{'name': 'wheel', 'position': ANGLE}]})
+        bob = G * math.sin(ANGLE)
+        self.assertChanges('contact/rest', Bool(False), 0, bob)
+        self.assertChanges('contact/rest', Bool(True), bob, 0)
+        self.assertIn("'rest' is lifted", self.node.output())
+        # Either of motor and wall could hold the bob.
+        self.effort()
+        self.node.diagnostics(
+            lambda values: 'not determined' in values.get('holds.rest', ''), 'holds.rest')
+
+    def test_contacts_that_would_pull_are_warned_of(self):
+        # On the other side of the bob a wall would have to pull.
+        for normal, found in ((1, 'other way'), (-1, 'yes')):
+            wall = {'link': 'base', 'point': [-math.sin(ANGLE), 0, 0], 'normal': [normal, 0, 0]}
+            self.start({'contacts': [{'name': 'rest', 'link': 'bob', 'at': [0, 0, -1], 'slip': 'all',
+                                      'plane': wall}], 'actuated': [], 'given': ['wheel'],
+                        'assembly': [{'name': 'wheel', 'position': ANGLE}]})
+            self.assertClose([self.effort()], [0], EXACT, 'effort')
+            self.node.diagnostics(
+                lambda values: found in values.get('holds.rest', ''), 'holds.rest ' + found)
+
+    def test_tf_has_the_frames_of_contacts(self):
+        # A wheel of 0.2 m at the bob's end rolls on the inside of a wall, where it touches it.
+        wall = {'link': 'base', 'point': [-math.sin(ANGLE) - 0.2, 0, 0], 'normal': [1, 0, 0]}
+        self.start({'rolling': [{'name': 'roller', 'link': 'bob', 'centre': [0, 0, -1],
+                                 'axis': [0, 1, 0], 'radius': 0.2, 'slip': 'all', 'plane': wall}],
+                    'assembly': [{'name': 'wheel', 'position': ANGLE}]})
+        frames = Recorder('/tf', TFMessage)
+        self.addCleanup(frames.stop)
+        self.node.diagnostics(
+            lambda values: '/tf' in values['subscribed outputs'].split(', '), 'a plan with /tf')
+        self.effort()
+        transform = frames.wait(1)[-1].transforms[0]
+        self.assertEqual((transform.header.frame_id, transform.child_frame_id), ('base', 'roller'))
+        self.assertEqual(transform.header.stamp.to_nsec(), EPOCH + (self.sent - 1) * STEP)
+        place, turn = transform.transform.translation, transform.transform.rotation
+        self.assertClose([place.x, place.y, place.z],
+                         [-math.sin(ANGLE) - 0.2, 0, -math.cos(ANGLE)], EXACT, 'contact')
+        self.assertClose(rotated(turn, 2), [1, 0, 0], EXACT, 'normal')
+        self.assertClose(rotated(turn, 1), [0, 1, 0], EXACT, 'axle')
 
     def test_payloads_of_the_scene_are_replaced(self):
         self.start({'payload': [{'link': 'bob', 'mass': 1, 'at': [0, 0, -1]}]})
