@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/printable.h"
+#include "loops/gear_conditions.h"
 #include "scene/lookup.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -84,7 +85,11 @@ std::shared_ptr<const ConditionSet> makeSet(const Mechanism& mechanism, const Cl
     throw SceneError(placeOf(closure) + ": no joint moves " + inQuotes(closure.child.link) +
                      " relative to " + inQuotes(closure.parent.link));
   }
-  return std::make_shared<ClosureConditions>(mechanism, closure, parent, child, path, coordinates);
+  if (traitsOf(closure.type).meshes()) {
+    return std::make_shared<GearConditions>(mechanism, closure, parent, child, path, coordinates);
+  }
+  return std::make_shared<ClosureConditions>(mechanism, closure, rowsOf(closure), parent, child,
+                                             path, coordinates);
 }
 
 FrameShape shapeOf(const Frame& frame) {
@@ -120,9 +125,10 @@ std::vector<StepShape> stepsOf(const Mechanism& mechanism, const std::vector<Pat
 }  // namespace
 
 ClosureConditions::ClosureConditions(const Mechanism& mechanism, const Closure& closure,
-                                     const Frame& parent, const Frame& child,
-                                     std::vector<PathStep> path, std::vector<int> coordinates)
-    : ConditionSet(placeOf(closure), rowsOf(closure), std::move(coordinates)),
+                                     std::vector<Condition> rows, const Frame& parent,
+                                     const Frame& child, std::vector<PathStep> path,
+                                     std::vector<int> coordinates)
+    : ConditionSet(placeOf(closure), std::move(rows), std::move(coordinates)),
       traits_(traitsOf(closure.type)),
       kernel_(&loopKernelFor(chosenInstructionSet()).one),
       parent_(parent),

@@ -21,13 +21,15 @@ class ClosureConditions : public ConditionSet {
 
   /// @param path the joints from the parent's link to the child's
   /// @param coordinates those that move these joints, ascending
-  ClosureConditions(const Mechanism& mechanism, const Closure& closure, const Frame& parent,
-                    const Frame& child, std::vector<PathStep> path, std::vector<int> coordinates);
+  ClosureConditions(const Mechanism& mechanism, const Closure& closure, std::vector<Condition> rows,
+                    const Frame& parent, const Frame& child, std::vector<PathStep> path,
+                    std::vector<int> coordinates);
 
   void setPosition(const LoopState& state, ConditionRows rows) const override;
   void setMotion(const LoopState& state, ConditionRows rows) const override;
 
   ClosureType type() const { return traits_.type; }
+  const ClosureTypeTraits& traits() const { return traits_; }
   /// Length of a rod, m; empty where the assembly tells it, and for other types.
   const std::optional<double>& length() const { return given_length_; }
   const Frame& parent() const { return parent_; }

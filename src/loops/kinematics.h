@@ -29,6 +29,9 @@ class LoopKinematics {
   const ConditionSet& set(std::size_t set) const { return *sets_[set]; }
   const ClosureConditions& closure(std::size_t closure) const { return *closures_[closure]; }
 
+  /// The closures of teeth that mesh.
+  const std::vector<std::size_t>& meshing() const { return meshing_; }
+
   /// Number of conditions in all sets.
   Eigen::Index conditions() const { return values_.phi.size(); }
   const Condition& condition(Eigen::Index i) const {
@@ -164,6 +167,7 @@ class LoopKinematics {
   const LoopFunctions* kernel_;
   ConditionSets sets_;
   std::vector<const ClosureConditions*> closures_;  // the first of sets_
+  std::vector<std::size_t> meshing_;
   std::vector<const Condition*> conditions_;
   std::vector<Eigen::Index> first_;
   std::vector<RowsShape> rows_;  // by set; they point to coordinates of sets_

@@ -12,6 +12,7 @@ vwd_core(
   cut_tree.cpp
   driven_conditions.cpp
   forces.cpp
+  gear_conditions.cpp
   given_loops.cpp
   groups.cpp
   kernel/baseline.cpp
@@ -27,6 +28,7 @@ vwd_core(
   residuals.cpp
   sample_pack.cpp
   spring_reach.cpp
+  tooth_forces.cpp
   unborne_loads.cpp
   unknowns.cpp
   zero_rows.cpp)

@@ -16,6 +16,7 @@ constexpr ClosureDemand kXz{Kind::kNormal, 0, 2}, kYz{Kind::kNormal, 1, 2};
 constexpr ClosureDemand kXy{Kind::kNormal, 0, 1};
 constexpr ClosureDemand kZx{Kind::kNormal, 2, 0};
 constexpr ClosureDemand kRod{Kind::kDistance, 0, 0};
+constexpr ClosureDemand kTooth{Kind::kTeeth, 0, 0};
 
 constexpr auto kNone = std::nullopt;
 
@@ -37,7 +38,9 @@ const std::vector<ClosureTypeTraits>& closureTypes() {
       {Type::kUniversal, "universal", kNone, 4, {kX, kY, kZ, kZx}},
       {Type::kSpherical, "spherical", kNone, 3, {kX, kY, kZ}},
       {Type::kPlanar, "planar", kNone, 3, {kZ, kXz, kYz}},
-      {Type::kDistance, "distance", kNone, 1, {kRod}}};
+      {Type::kDistance, "distance", kNone, 1, {kRod}},
+      {Type::kGear, "gear", kNone, 1, {kTooth}},
+      {Type::kRack, "rack", kNone, 1, {kTooth}}};
   return types;
 }
 

@@ -12,9 +12,10 @@ namespace virtual_work_dynamics {
 /// What a closure demands of its parent frame P and its child frame C.
 struct ClosureDemand {
   enum class Kind {
-    kAlong,    ///< the origins coincide along axis a of P
-    kNormal,   ///< axis a of P stays normal to axis b of C
-    kDistance  ///< the origins keep their distance
+    kAlong,     ///< the origins coincide along axis a of P
+    kNormal,    ///< axis a of P stays normal to axis b of C
+    kDistance,  ///< the origins keep their distance
+    kTeeth      ///< wheels, or a wheel and a rack, roll on each other: see GearConditions
   };
   Kind kind = Kind::kDistance;
   int a = 0, b = 0;
@@ -32,6 +33,8 @@ struct ClosureTypeTraits {
 
   int count(ClosureDemand::Kind kind) const;
   bool hasLength() const { return count(ClosureDemand::Kind::kDistance) > 0; }
+  /// Whether it is of teeth that mesh, between bodies that joints hold.
+  bool meshes() const { return count(ClosureDemand::Kind::kTeeth) > 0; }
   bool canTurn() const { return count(ClosureDemand::Kind::kNormal) < 3; }
 };
 

@@ -27,6 +27,7 @@ set(core_test_files
   test/core/compound_joints_test.cpp
   test/core/couplings_random_test.cpp
   test/core/couplings_refusals_test.cpp
+  test/core/couplings_rules_test.cpp
   test/core/couplings_test.cpp
   test/core/description_deviations_test.cpp
   test/core/description_messages_test.cpp
@@ -46,6 +47,8 @@ set(core_test_files
   test/core/existence_test.cpp
   test/core/expression_graph_test.cpp
   test/core/free_motion_test.cpp
+  test/core/gear_reader_test.cpp
+  test/core/gears_test.cpp
   test/core/generated_code_test.cpp
   test/core/given_motions_test.cpp
   test/core/instruction_set_test.cpp
