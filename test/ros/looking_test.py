@@ -37,6 +37,8 @@ EXAMPLES = {
     'planar_3rrr': None,
     'stewart_gough': None,
     'spatial_parallelogram': None,
+    'coupled_wrist': None,
+    'planetary_gear': None,
     'arm_on_a_ship': ['ground'] + ['joint_%d' % i for i in range(1, 7)],
     'balance_board': ['ground', 'ankle', 'knee', 'hip', 'waist'],
     'quadruped': ['ground'],
