@@ -157,7 +157,7 @@ def motion_of(trajectory):
     return times[-1], make_interp_spline(times, positions, k=5, bc_type=(rest, rest))
 
 
-def compute(tool, name, trajectory, folder):
+def compute(tool, name, trajectory, folder, options=()):
     duration, law = motion_of(trajectory)
     t = np.linspace(0, duration, ROWS + 1)
     table = np.column_stack([t, law(t), law(t, 1), law(t, 2)])
@@ -167,7 +167,8 @@ def compute(tool, name, trajectory, folder):
     np.savetxt(path, table, delimiter=',', header=','.join(header), comments='', fmt='%.17g')
     config = os.path.join(PACKAGE, 'config', name + '_scene.yaml')
     done = subprocess.run([tool, '--urdf', os.path.join(PACKAGE, 'urdf', name + '.urdf'), '--scene',
-                           config, '--motion', path], stdout=subprocess.PIPE, check=True, text=True)
+                           config, '--motion', path, *options], stdout=subprocess.PIPE, check=True,
+                          text=True)
     rows = list(csv.reader(done.stdout.splitlines()))
     values = np.array([[float(cell or 'nan') for cell in row] for row in rows[1:]])
     return t, law, {column: values[:, i] for i, column in enumerate(rows[0])}

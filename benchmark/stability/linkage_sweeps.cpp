@@ -66,7 +66,6 @@ StabilityCase sphericalFourBar(double angle) {
                      ClosureType::kRevolute,
                      arc(FourBar::kCoupler).frame("link_2"),
                      arc(FourBar::kRocker).frame("link_3"),
-                     {},
                      {}}};
   scene.actuated = std::vector<std::string>{"joint_1"};
   const auto in_plane = [plane](const FourBar::Turning& crank_turning) {
@@ -111,7 +110,6 @@ StabilityCase gimbals(double angle) {
                      ClosureType::kCylindrical,
                      {"link_2", at, Eigen::Vector3d::Zero()},
                      {"link_3", at, Eigen::Vector3d::Zero()},
-                     {},
                      {}}};
   scene.actuated = std::vector<std::string>{"joint_3"};
   scene.assembly = {{"joint_2", 1}, {"joint_3", 1}};
@@ -147,7 +145,6 @@ StabilityCase ladder(double couplers) {
                                 ClosureType::kRevolute,
                                 {"link_" + std::to_string(rod - 1), far_end, unturned},
                                 {name, tip, unturned},
-                                {},
                                 {}});
     }
     if (i == count) break;

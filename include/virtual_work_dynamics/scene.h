@@ -115,7 +115,10 @@ enum class ClosureType {
   kRolling,    ///< a wheel on a plane: its centre is the child frame's origin, z its axle
   kKnifeEdge,  ///< a blade on a plane: its point is the child frame's origin, x goes along it
   kContact,    ///< a point of the child, its frame's origin, on a plane
-  kCylinder    ///< a massless actuator along the line between the origins
+  kCylinder,   ///< a massless actuator along the line between the origins
+  // Teeth, which bear a force at the pitch point; see Teeth. Joints hold the axes of the wheels.
+  kGear,  ///< two wheels: frames at their centres, z along their axes
+  kRack   ///< a wheel, the parent, and a rack, whose pitch line is x of the child frame
 };
 
 /// Which of its two motions in the plane a wheel or a point is free to make.
@@ -139,6 +142,18 @@ struct Touch {
   bool closed = true;              ///< false: what touches is lifted and bears nothing
 };
 
+/// What wheels with teeth have besides their frames. The pitch point lies where circles or lines of
+/// these radii touch, at the height of the child frame.
+struct Teeth {
+  double parent_radius = 0;  ///< of the parent's pitch circle, m; negative: its teeth are inside
+  double child_radius = 0;   ///< of the child's, of kGear
+  double pressure_angle =
+      0.3490658503988659;  ///< normal to the tooth, rad, from 0; as a rule 20 deg
+  /// Of helical teeth, rad. Positive: what pushes the child along the parent's turn about z pushes
+  /// it along z, too.
+  double helix_angle = 0;
+};
+
 /// A joint that closes a loop of the mechanism: two frames on two links.
 struct Closure {
   std::string name;
@@ -147,8 +162,9 @@ struct Closure {
   LinkFrame child;
   /// Distance of the origins of kDistance, m; none: their distance in the assembly.
   std::optional<double> length;
-  Touch touch;              ///< of kRolling, kKnifeEdge and kContact
+  Touch touch = {};         ///< of kRolling, kKnifeEdge and kContact
   bool pulls_only = false;  ///< of kCylinder: a cable, which is flagged when it would push
+  Teeth teeth = {};         ///< of kGear and kRack
 };
 
 /// A massless spring and damper between two points of the mechanism, which pulls them together by

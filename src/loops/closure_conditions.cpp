@@ -8,6 +8,7 @@
 
 #include "base/printable.h"
 #include "loops/cylinder_conditions.h"
+#include "loops/gear_conditions.h"
 #include "loops/touch_conditions.h"
 #include "scene/lookup.h"
 #include "virtual_work_dynamics/error.h"
@@ -92,6 +93,9 @@ std::shared_ptr<const ConditionSet> makeSet(const Mechanism& mechanism, const Cl
   if (closure.type == ClosureType::kCylinder) {
     return std::make_shared<CylinderConditions>(mechanism, closure, parent, child, path,
                                                 coordinates);
+  }
+  if (traitsOf(closure.type).meshes()) {
+    return std::make_shared<GearConditions>(mechanism, closure, parent, child, path, coordinates);
   }
   return std::make_shared<ClosureConditions>(mechanism, closure, rowsOf(closure), parent, child,
                                              path, coordinates);

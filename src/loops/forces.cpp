@@ -379,6 +379,7 @@ void LoopForces::setClosures(State& state) const {
     activePart(kinematics_.closure(own.set).freeUnit(), sum) +=
         effort * kinematics_.freeAxis(own.set);
   }
+  if (!kinematics_.meshing().empty()) setTeeth(state);
 }
 
 ClosureWrench LoopForces::jointWrench(const LoopGroup::CrossedJoint& crossed,

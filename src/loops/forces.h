@@ -133,6 +133,7 @@ class LoopForces {
                 Eigen::Ref<Eigen::VectorXd> costs) const;
   void touchAll(State& state) const;
   void setClosures(State& state) const;
+  void setTeeth(State& state) const;
 
   const LoopKinematics& kinematics_;
   LoopGroup group_;

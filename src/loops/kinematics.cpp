@@ -31,6 +31,7 @@ LoopKinematics::LoopKinematics(const Mechanism& mechanism, ConditionSets sets)
   for (const auto& set : sets_) {
     if (const auto* closure = dynamic_cast<const ClosureConditions*>(set.get())) {
       if (closure->traits().touches()) touching_.push_back(closures_.size());
+      if (closure->traits().meshes()) meshing_.push_back(closures_.size());
       closures_.push_back(closure);
     }
     first_.push_back(static_cast<Eigen::Index>(conditions_.size()));

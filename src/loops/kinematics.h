@@ -31,6 +31,9 @@ class LoopKinematics {
   /// The closures that touch: their child origins are not fixed on the child's link.
   const std::vector<std::size_t>& touching() const { return touching_; }
 
+  /// The closures of teeth that mesh.
+  const std::vector<std::size_t>& meshing() const { return meshing_; }
+
   /// Number of conditions in all sets.
   Eigen::Index conditions() const { return values_.phi.size(); }
   const Condition& condition(Eigen::Index i) const {
@@ -170,7 +173,7 @@ class LoopKinematics {
   const LoopFunctions* kernel_;
   ConditionSets sets_;
   std::vector<const ClosureConditions*> closures_;  // the first of sets_
-  std::vector<std::size_t> touching_;
+  std::vector<std::size_t> touching_, meshing_;
   std::vector<const Condition*> conditions_;
   std::vector<Eigen::Index> first_;
   std::vector<RowsShape> rows_;  // by set; they point to coordinates of sets_

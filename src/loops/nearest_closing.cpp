@@ -167,7 +167,8 @@ void NearestClosing::setSystem(const LoopGroup& group, const std::vector<int>& m
                                System& system) const {
   system.clear();
   for (const std::size_t s : group.sets) {
-    if (s < kinematics_.closures() && !kinematics_.closure(s).traits().touches()) {
+    if (s < kinematics_.closures() && !kinematics_.closure(s).traits().touches() &&
+        !kinematics_.closure(s).traits().meshes()) {
       addClosure(s, system);
       continue;
     }

@@ -48,7 +48,8 @@ bool SamplePack::serves(const ClosedLoopDynamics::Impl& plan) {
   return plan.closures > 0 && plan.springs.size() == 0 && plan.actuated_closures.empty() &&
          !plan.weighed_pass && plan.loops.policy == RedundancyPolicy::kMinimumNorm &&
          plan.kinematics.sets() == plan.closures && !plan.kinematics.drives() &&
-         plan.kinematics.touching().empty() && plan.mechanism.orientations() == 0;
+         plan.kinematics.touching().empty() && plan.kinematics.meshing().empty() &&
+         plan.mechanism.orientations() == 0;
 }
 
 SamplePack::SamplePack(const ClosedLoopDynamics::Impl& plan, const LoopSolvers& solvers)

@@ -13,6 +13,7 @@ vwd_core(
   cylinder_conditions.cpp
   driven_conditions.cpp
   forces.cpp
+  gear_conditions.cpp
   given_loops.cpp
   groups.cpp
   holds.cpp
@@ -29,6 +30,7 @@ vwd_core(
   residuals.cpp
   sample_pack.cpp
   spring_reach.cpp
+  tooth_forces.cpp
   touch_conditions.cpp
   unborne_loads.cpp
   unknowns.cpp

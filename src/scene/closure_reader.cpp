@@ -9,7 +9,8 @@ namespace virtual_work_dynamics {
 namespace {
 
 const Names kFrameKeys = {"link", "xyz", "rpy"};
-const Names kClosureKeys = {"name", "type", "parent", "child", "length"};
+const Names kClosureKeys = {"name",  "type",   "parent",         "child",      "length",
+                            "radii", "radius", "pressure_angle", "helix_angle"};
 const Names kSpringKeys = {"name", "link_a",    "at_a",        "link_b",
                            "at_b", "stiffness", "rest_length", "damping"};
 const Names kCouplingKeys = {"name", "terms", "offset", "rate_only"};
@@ -42,9 +43,33 @@ LinkFrame readFrame(const YAML::Node& node, const std::string& where) {
   return frame;
 }
 
+// Radii of two wheels.
+void readRadii(const YAML::Node& node, const std::string& where, Teeth& teeth) {
+  if (!node.IsSequence() || node.size() != 2) failAt(where, "expected a list of two numbers");
+  teeth.parent_radius = readNumber(node[0], where);
+  teeth.child_radius = readNumber(node[1], where);
+}
+
+// Refuses what belongs to another type and would have no effect.
+void checkType(const Closure& closure, const Names& given, const std::string& where) {
+  if (closure.length && !traitsOf(closure.type).hasLength()) {
+    failAt(where + ".length", "only a closure of type distance has a length");
+  }
+  const bool gear = closure.type == ClosureType::kGear, rack = closure.type == ClosureType::kRack;
+  for (const std::string& key : given) {
+    if (key == "radii" ? gear : key == "radius" ? rack : gear || rack) continue;
+    failAt(where + "." + key, key == "radii"    ? "only a closure of type gear has radii"
+                              : key == "radius" ? "only a closure of type rack has a radius"
+                                                : "only closures of type gear and rack have teeth");
+  }
+  require(!gear || contains(given, "radii"), where, "radii");
+  require(!rack || contains(given, "radius"), where, "radius");
+}
+
 Closure readClosure(const YAML::Node& node, const std::string& where) {
   Closure closure;
   bool has_type = false;
+  Names teeth;
   readMap(node, where, kClosureKeys, [&](const auto& key, const auto& value, const auto& path) {
     if (key == "name") closure.name = scalarText(value, path, "a name");
     if (key == "type") {
@@ -54,14 +79,19 @@ Closure readClosure(const YAML::Node& node, const std::string& where) {
     if (key == "parent") closure.parent = readFrame(value, path);
     if (key == "child") closure.child = readFrame(value, path);
     if (key == "length") closure.length = readNumber(value, path);
+    if (key == "radii") readRadii(value, path, closure.teeth);
+    if (key == "radius") closure.teeth.parent_radius = readNumber(value, path);
+    if (key == "pressure_angle") closure.teeth.pressure_angle = readNumber(value, path);
+    if (key == "helix_angle") closure.teeth.helix_angle = readNumber(value, path);
+    for (const char* of_teeth : {"radii", "radius", "pressure_angle", "helix_angle"}) {
+      if (key == of_teeth) teeth.push_back(key);
+    }
   });
   require(!closure.name.empty(), where, "name");
   require(has_type, where, "type");
   require(!closure.parent.link.empty(), where, "parent");
   require(!closure.child.link.empty(), where, "child");
-  if (closure.length && !traitsOf(closure.type).hasLength()) {
-    failAt(where + ".length", "only a closure of type distance has a length");
-  }
+  checkType(closure, teeth, where);
   return closure;
 }
 

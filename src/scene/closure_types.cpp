@@ -17,6 +17,7 @@ constexpr ClosureDemand kXy{Kind::kNormal, 0, 1};
 constexpr ClosureDemand kZx{Kind::kNormal, 2, 0};
 constexpr ClosureDemand kRod{Kind::kDistance, 0, 0};
 constexpr ClosureDemand kForce{Kind::kTouch, 0, 0};
+constexpr ClosureDemand kTooth{Kind::kTeeth, 0, 0};
 
 constexpr auto kNone = std::nullopt;
 
@@ -39,6 +40,8 @@ const std::vector<ClosureTypeTraits>& closureTypes() {
       {Type::kSpherical, "closures", "spherical", kNone, 3, {kX, kY, kZ}},
       {Type::kPlanar, "closures", "planar", kNone, 3, {kZ, kXz, kYz}},
       {Type::kDistance, "closures", "distance", kNone, 1, {kRod}},
+      {Type::kGear, "closures", "gear", kNone, 1, {kTooth}},
+      {Type::kRack, "closures", "rack", kNone, 1, {kTooth}},
       {Type::kCylinder, "cylinders", "cylinder", Unit::kMetre, 0, {}},
       {Type::kRolling, "rolling", "rolling", kNone, 3, {kForce, kForce, kForce}},
       {Type::kKnifeEdge, "knife_edges", "knife_edge", kNone, 2, {kForce, kForce}},

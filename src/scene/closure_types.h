@@ -15,7 +15,8 @@ struct ClosureDemand {
     kAlong,     ///< the origins coincide along axis a of P
     kNormal,    ///< axis a of P stays normal to axis b of C
     kDistance,  ///< the origins keep their distance
-    kTouch      ///< what touches a plane does not move along a direction: see TouchConditions
+    kTouch,     ///< what touches a plane does not move along a direction: see TouchConditions
+    kTeeth      ///< wheels, or a wheel and a rack, roll on each other: see GearConditions
   };
   Kind kind = Kind::kDistance;
   int a = 0, b = 0;
@@ -36,6 +37,8 @@ struct ClosureTypeTraits {
   bool hasLength() const { return count(ClosureDemand::Kind::kDistance) > 0; }
   /// Whether it joins a plane and what touches it in a point.
   bool touches() const { return count(ClosureDemand::Kind::kTouch) > 0; }
+  /// Whether it is of teeth that mesh, between bodies that joints hold.
+  bool meshes() const { return count(ClosureDemand::Kind::kTeeth) > 0; }
   bool canTurn() const { return count(ClosureDemand::Kind::kNormal) < 3; }
 };
 

@@ -1,5 +1,6 @@
 #include "scene/resolved_loops.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <unordered_map>
@@ -25,8 +26,38 @@ void requireOnce(const std::string& list, std::set<std::string>& seen, const std
   if (!seen.insert(name).second) throw SceneError(list + ": " + inQuotes(name) + " is given twice");
 }
 
+constexpr double kRightAngle = 1.5707963267948966;
+
 // How the name of what gives the pose of a link begins.
 const std::string kPose = "pose.";
+
+void requireSoundTeeth(const std::string& what, const Closure& closure) {
+  const Teeth& teeth = closure.teeth;
+  const auto fail = [&](const std::string& why) { throw SceneError(what + ": " + why); };
+  if (closure.type == ClosureType::kRack) {
+    requirePositive(what + ": radius", teeth.parent_radius);
+  } else {
+    const double a = teeth.parent_radius, b = teeth.child_radius;
+    if (!std::isfinite(a) || !std::isfinite(b) || a == 0 || b == 0) {
+      fail("radii are finite numbers other than zero");
+    }
+    if (a + b == 0 || (a < 0 && b < 0)) {
+      fail("radii = [" + numberText(a) + ", " + numberText(b) +
+           "]: one of two wheels may have its teeth inside, and the other one is smaller");
+    }
+    if (std::min(a, b) < 0 && a + b > 0) {
+      fail("radii = [" + numberText(a) + ", " + numberText(b) +
+           "]: a wheel inside of another is smaller than that");
+    }
+  }
+  if (!(teeth.pressure_angle >= 0) || !(teeth.pressure_angle < kRightAngle)) {
+    fail("pressure_angle = " + numberText(teeth.pressure_angle) +
+         " is not from 0 to below a right angle");
+  }
+  if (!(std::abs(teeth.helix_angle) < kRightAngle)) {
+    fail("helix_angle = " + numberText(teeth.helix_angle) + " is not below a right angle");
+  }
+}
 
 class Resolver {
  public:
@@ -86,6 +117,7 @@ class Resolver {
       if (closure.pulls_only && closure.type != ClosureType::kCylinder) {
         throw SceneError(what + ": only a cylinder is one that pulls only");
       }
+      if (traitsOf(closure.type).meshes()) requireSoundTeeth(what, closure);
     }
   }
 

@@ -25,10 +25,12 @@ set(core_test_files
   test/core/compound_joints_refusals_test.cpp
   test/core/compound_joints_sdfast_test.cpp
   test/core/compound_joints_test.cpp
+  test/core/coupled_examples_test.cpp
   test/core/contacts_test.cpp
   test/core/cylinder_test.cpp
   test/core/couplings_random_test.cpp
   test/core/couplings_refusals_test.cpp
+  test/core/couplings_rules_test.cpp
   test/core/couplings_test.cpp
   test/core/description_deviations_test.cpp
   test/core/description_messages_test.cpp
@@ -50,6 +52,8 @@ set(core_test_files
   test/core/exudyn_robot_test.cpp
   test/core/free_bodies_published_test.cpp
   test/core/free_motion_test.cpp
+  test/core/gear_reader_test.cpp
+  test/core/gears_test.cpp
   test/core/generated_code_test.cpp
   test/core/generated_compilers_test.cpp
   test/core/given_motions_test.cpp

@@ -38,6 +38,8 @@ EXAMPLES = {
     'stewart_gough': None,
     'spatial_parallelogram': None,
     'excavator': ['boom_joint', 'stick_joint', 'bucket_joint', 'boom_ram', 'stick_ram', 'bucket_ram'],
+    'coupled_wrist': None,
+    'planetary_gear': None,
     'arm_on_a_ship': ['ground'] + ['joint_%d' % i for i in range(1, 7)],
     'balance_board': ['ground', 'ankle', 'knee', 'hip', 'waist'],
     'quadruped': ['ground'],
