@@ -45,6 +45,7 @@ struct Arguments {
   bool copy_input = false;                 ///< to a bag that is written
   std::string node = "/inverse_dynamics";  ///< whose topics a bag that is written has
   Method method = Method::kVirtualWork;
+  bool compiled = false;  ///< whether rows are computed by code that is generated and compiled
   bool certificates = false;
   std::string regressor;                ///< folder to write the regressor to; empty: none
   std::vector<std::string> parameters;  ///< of the regressor: joints, links or names of links

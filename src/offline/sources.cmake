@@ -3,8 +3,10 @@ foreach(file
     argument_checks.cpp
     arguments.cpp
     bag_topic.cpp
+    built_library.cpp
     certified_rows.cpp
     check_report.cpp
+    compiled_rows.cpp
     completed_motion.cpp
     computation.cpp
     deviation_rows.cpp
