@@ -54,8 +54,8 @@ measure() {
   local pattern=$1 code stack
   shift
   (cd "$work" && gcc -std=c99 -w "$@" -fstack-usage -c robot.c -o robot.o)
-  code=$(nm -S --defined-only "$work/robot.o" | awk -v pattern="$pattern" '
-    $4 ~ pattern { sum += strtonum("0x" $2) } END { print sum + 0 }')
+  code=$(nm -S -t d --defined-only "$work/robot.o" | awk -v pattern="$pattern" '
+    $4 ~ pattern { sum += $2 } END { print sum + 0 }')
   stack=$(awk -F'[:\t]' -v pattern="$pattern" '
     $4 !~ pattern { next }
     $4 ~ /part_|library/ { if ($5 > part) part = $5; next }
