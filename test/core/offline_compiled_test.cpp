@@ -169,9 +169,6 @@ TEST_F(OfflineCompiled, WorksInAFolderOfItsOwnWithoutAShell) {
 }
 
 TEST_F(OfflineCompiled, FallsBackWithOneNote) {
-  write(
-      "loop.yaml",
-      "closures:\n  - {name: brace, type: spherical, parent: {link: base}, child: {link: jib}}\n");
   const auto expectNote = [&](const std::string& note, const std::string& before) {
     const std::string arguments = "--urdf crane.urdf --motion m.csv";
     const Run plain = run(arguments), compiled = run(arguments + " --compiled", before);
