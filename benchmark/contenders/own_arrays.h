@@ -8,8 +8,8 @@
 
 namespace virtual_work_dynamics {
 
-/// Arrays of a block stay in a core's second-level cache: fewer samples for long chains, down to the
-/// widest vector's. Counts are odd multiples of the states: see BlockLayout on powers of two.
+/// Arrays of a block stay in a core's second-level cache: fewer samples for long chains, down to
+/// the widest vector's. Counts are odd multiples of the states: see BlockLayout on powers of two.
 inline constexpr std::size_t kMostRounds = 63;
 inline constexpr std::size_t kCacheBytes = std::size_t(1) << 20;
 /// Starting threads takes microseconds: they are for long blocks.

@@ -91,8 +91,8 @@ class GeneratedBlock : public Contender {
  private:
   using Efforts = void (*)(std::size_t, std::size_t, const double*, const double*, const double*,
                            double*);
-  using Everything = void (*)(std::size_t, std::size_t, const double*, const double*,
-                              const double*, double*, double*);
+  using Everything = void (*)(std::size_t, std::size_t, const double*, const double*, const double*,
+                              double*, double*);
   static constexpr BlockLayout kLayout = BlockLayout::kStructureOfArrays;
 
   GeneratedBlock(const BenchmarkScene& scene, const Request& request)
