@@ -11,6 +11,7 @@ add_library(benchmark_contenders STATIC
   ../test/core/loop_geometry.cpp
   ../test/core/maximal_coordinates_oracle.cpp
   ../test/core/newton_euler_oracle.cpp
+  ../src/offline/built_library.cpp
   contenders/check.cpp
   contenders/closed_scenes.cpp
   contenders/kdl.cpp
@@ -20,6 +21,7 @@ add_library(benchmark_contenders STATIC
   contenders/loop_formalisms.cpp
   contenders/offers.cpp
   contenders/own_block.cpp
+  contenders/own_generated.cpp
   contenders/own_lagrange.cpp
   contenders/own_loops.cpp
   contenders/own_long_double.cpp
@@ -35,7 +37,7 @@ target_compile_definitions(benchmark_contenders PRIVATE
   VWD_SHARED_DATA="${VWD_SHARED_DATA}")
 target_link_libraries(benchmark_contenders
   PUBLIC ${PROJECT_NAME} ${VWD_REAL113_LIBRARIES}
-  PRIVATE ${orocos_kdl_LIBRARIES} ${PROJECT_NAME}_warnings)
+  PRIVATE ${orocos_kdl_LIBRARIES} ${CMAKE_DL_LIBS} ${PROJECT_NAME}_warnings)
 if(VWD_KDL_TREE_SOLVER)
   target_compile_definitions(benchmark_contenders PRIVATE VWD_WITH_KDL_TREE)
 endif()

@@ -130,6 +130,10 @@ int main(int argc, char** argv) {
   using namespace virtual_work_dynamics;
   WorkPrecisionOptions options;
   return runProgram("work_precision", kWorkPrecisionHelp, argc, argv, commandLine(options), [&] {
+    if (!options.description.empty()) {
+      std::printf("%s", sceneUrdf(options.description).c_str());
+      return 0;
+    }
     checkMethods(options.methods);
     if (options.list) return list(options);
     return options.list_loops ? listLoops(options) : run(options);

@@ -27,6 +27,7 @@ const char kWorkPrecisionHelp[] =
   --method NAME    only this method, as "virtual_work"; may be repeated
   --rounds N       how often every contender is timed (default: 15, with --quick: 5)
   --list           say what would be timed
+  --description N  print the description of a scene without closed loops
   --list-loops     say what the scenes with closed loops consist of, as CSV
   --help           this text
 
@@ -53,6 +54,8 @@ Methods
                     Mode "single" is one sample a call; "block_<layout>_<instruction set>" up to
                     1008 samples, fewer where their arrays would exceed 1 MiB but at least 16; four
                     times that for each of several threads. Errors of float include those of its rounded input
+  generated         straight-line C of the robot by this package (--generate of the offline tool),
+                    compiled by cc with the same instructions; not of robots with more than 60 joints
   lagrange          this package's witness: Lagrange's equations, differentiated automatically; not
                     of robots with more than 100 joints, for its cost grows with their square. With
                     closed loops the tests' own, with multipliers, set up for each sample
@@ -73,6 +76,7 @@ std::vector<Option> commandLine(WorkPrecisionOptions& options) {
           texts("--method", options.methods),
           count("--rounds", 4, options.rounds),
           flag("--quick", options.quick),
+          text("--description", options.description),
           flag("--list", options.list),
           flag("--list-loops", options.list_loops)};
 }

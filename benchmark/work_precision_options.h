@@ -13,6 +13,7 @@ struct WorkPrecisionOptions {
   std::vector<std::string> methods;  ///< empty: all
   int rounds = 0;                    ///< 0: as many as usual
   bool quick = false;
+  std::string description;  ///< scene whose description is printed; empty: none
   bool list = false;
   bool list_loops = false;
 };

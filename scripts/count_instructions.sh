@@ -10,7 +10,7 @@ Prints as CSV how many instructions a sample takes, for the package's own ways o
 KDL's solvers. Unlike times, they do not depend on what else the machine does. Builds with AVX-512 are
 left out, as Valgrind does not know it.
   --samples   number of samples to count at least (64)
-  --method    only this method; may be repeated (virtual_work, kdl_chain, kdl_tree)
+  --method    only this method; may be repeated (virtual_work, generated, kdl_chain, kdl_tree)
   --program   path of callgrind_sample when it is built already; otherwise it is built, without ROS,
               in build/benchmark
   SCENE       a name that work_precision --list prints: six_axis_arm, chain_100, ...
@@ -20,8 +20,10 @@ END2
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 samples=64
 methods=()
-program=
+program=count_instructions.sh
+binary=
 scenes=()
+source "$repository/scripts/counting.sh"
 while [[ $# -gt 0 ]]; do
   case "$1" in
     -h | --help) usage; exit 0 ;;
@@ -30,7 +32,7 @@ while [[ $# -gt 0 ]]; do
       case "$1" in
         --samples) samples=$2 ;;
         --method) methods+=("$2") ;;
-        --program) program=$2 ;;
+        --program) binary=$2 ;;
       esac
       shift ;;
     -*) echo "count_instructions.sh: unknown option $1" >&2; usage >&2; exit 2 ;;
@@ -47,26 +49,13 @@ if [[ ! "$samples" =~ ^[1-9][0-9]*$ ]]; then
   echo "count_instructions.sh: --samples: '$samples' is not a positive number" >&2
   exit 2
 fi
-if [[ ${#methods[@]} -eq 0 ]]; then methods=(virtual_work kdl_chain kdl_tree); fi
-if ! command -v valgrind >/dev/null; then
-  echo "count_instructions.sh: valgrind is missing; see scripts/install_dependencies.sh --benchmark" >&2
-  exit 1
-fi
+if [[ ${#methods[@]} -eq 0 ]]; then methods=(virtual_work generated kdl_chain kdl_tree); fi
+need valgrind
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-if [[ -z "$program" ]]; then
-  build=$repository/build/benchmark
-  if ! { cmake -S "$repository" -B "$build" -DVWD_CORE_ONLY=ON -DVWD_BUILD_BENCHMARKS=ON \
-           -DBUILD_TESTING=OFF && cmake --build "$build" --target callgrind_sample -- \
-           -j"${JOBS:-$(nproc)}"; } >"$work/build.log" 2>&1; then
-    tail -n 40 "$work/build.log" >&2
-    echo "count_instructions.sh: building failed" >&2
-    exit 1
-  fi
-  program=$build/benchmark/callgrind_sample
-fi
+if [[ -z "$binary" ]]; then binary=$(built callgrind_sample); fi
 
 # wanted <contender>: whether the contender uses one of the methods, and valgrind can run it.
 wanted() {
@@ -85,22 +74,15 @@ show() {
 
 echo "scene,method,precision,mode,outputs,samples,instructions_per_sample"
 for scene in "${scenes[@]}"; do
-  "$program" "$scene" >"$work/contenders"
+  "$binary" "$scene" >"$work/contenders"
   while IFS= read -r contender; do
     wanted "$contender" || continue
     show "$scene: $contender"
-    if ! counted=$(valgrind --tool=callgrind --callgrind-out-file=/dev/null \
-        --collect-atstart=no --toggle-collect=countedRun \
-        "$program" "$scene" "$contender" "$samples" 2>"$work/valgrind.log" </dev/null); then
-      tail -n 20 "$work/valgrind.log" >&2
+    if ! instructions=$(counted_by "$binary" "$scene" "$contender" "$samples"); then
       echo "count_instructions.sh: $scene: $contender: failed under valgrind" >&2
       exit 1
     fi
-    instructions=$(sed -n 's/^.*Collected : \([0-9]*\)$/\1/p' "$work/valgrind.log")
-    if [[ -z "$instructions" || "$instructions" == 0 ]]; then
-      echo "count_instructions.sh: $scene: $contender: valgrind counted nothing" >&2
-      exit 1
-    fi
+    counted=$(<"$work/output")
     echo "$scene,$contender,$counted,$(((instructions + counted / 2) / counted))"
   done <"$work/contenders"
 done

@@ -10,7 +10,8 @@ Installs what is needed, builds in build/benchmark (without ROS), measures, and 
   report.md            results with plots, to be read first
   estimator.md         error of efforts from estimated motions
   closed_loops.md      mechanisms with closed loops
-  work_precision.csv, closed_loops.csv, leave_out.csv, estimator.csv, instructions.csv
+  work_precision.csv, closed_loops.csv, leave_out.csv, estimator.csv, instructions.csv,
+  generated_size.csv
                        the measurements
 Nothing else should run on the machine meanwhile.
   --quick       fewer and shorter rounds, no more than 20 closed loops, and no count of instructions:
@@ -42,14 +43,14 @@ output=$(realpath "$output")
 cd "$repository"
 counted_scenes=(six_axis_arm seven_axis_arm chain_100)
 program=report.sh
-steps=7
+steps=8
 source scripts/measuring.sh
 read -r load _ </proc/loadavg
 
 end_well report.sh "measurements that are complete are in $output"
 prepare "$install"
 announce "Building in ${build#"$repository"/}, output in ${log#"$repository"/} ..."
-build_programs work_precision leave_out estimator_error callgrind_sample
+build_programs work_precision leave_out estimator_error callgrind_sample inverse_dynamics_offline
 
 # measure PROGRAM RESULT [OPTION]...: leaves RESULT in the output folder.
 measure() {
@@ -65,7 +66,8 @@ if [[ ! -f "$output/work_precision.csv" ]]; then
   echo "report.sh: work_precision has failed" >&2
   exit 1
 fi
-temporary+=("$output/closed_loops.csv.part" "$output/instructions.csv.part")
+temporary+=("$output/closed_loops.csv.part" "$output/instructions.csv.part"
+  "$output/generated_size.csv.part")
 "$build/benchmark/work_precision" "${quick[@]}" --list-loops >"$output/closed_loops.csv.part"
 mv "$output/closed_loops.csv.part" "$output/closed_loops.csv"
 announce "What leaving out saves"
@@ -86,6 +88,14 @@ else
     "${counted_scenes[@]}" >"$output/instructions.csv.part"
   mv "$output/instructions.csv.part" "$output/instructions.csv"
 fi
+announce "Size of generated code"
+sized=(six_axis_arm seven_axis_arm chain_10)
+for robot in ur5 tiago_no_hand hyq; do
+  if "$build/benchmark/work_precision" --description "$robot" >/dev/null 2>&1; then sized+=("$robot"); fi
+done
+run scripts/generated_size.sh --tool "$build/inverse_dynamics_offline" \
+  --program "$build/benchmark/work_precision" "${sized[@]}" >"$output/generated_size.csv.part"
+mv "$output/generated_size.csv.part" "$output/generated_size.csv"
 announce "Plots and tables"
 run /usr/bin/python3 benchmark/report/closed_loops_page.py "$output"
 run /usr/bin/python3 benchmark/report/report.py "${quick[@]}" --build "$build" --load "$load" "$output"

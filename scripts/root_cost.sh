@@ -16,52 +16,37 @@ END2
 }
 
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+program=root_cost.sh
 options=()
-program=
+binary=
+source "$repository/scripts/counting.sh"
 while [[ $# -gt 0 ]]; do
   case "$1" in
     -h | --help) usage; exit 0 ;;
     --reactions) options+=(--reactions) ;;
     --program)
       [[ $# -ge 2 ]] || { echo "root_cost.sh: $1 needs a value" >&2; exit 2; }
-      program=$2
+      binary=$2
       shift ;;
     *) echo "root_cost.sh: unknown option $1" >&2; usage >&2; exit 2 ;;
   esac
   shift
 done
-if ! command -v valgrind >/dev/null; then
-  echo "root_cost.sh: valgrind is missing; see scripts/install_dependencies.sh --benchmark" >&2
-  exit 1
-fi
+need valgrind
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-if [[ -z "$program" ]]; then
-  build=$repository/build/benchmark
-  if ! { cmake -S "$repository" -B "$build" -DVWD_CORE_ONLY=ON -DVWD_BUILD_BENCHMARKS=ON \
-           -DBUILD_TESTING=OFF && cmake --build "$build" --target root_cost -- \
-           -j"${JOBS:-$(nproc)}"; } >"$work/build.log" 2>&1; then
-    tail -n 40 "$work/build.log" >&2
-    echo "root_cost.sh: building failed" >&2
-    exit 1
-  fi
-  program=$build/benchmark/root_cost
-fi
+if [[ -z "$binary" ]]; then binary=$(built root_cost); fi
 
 # count LINKS ROOT: prints the instructions of a sample.
 count() {
-  if ! valgrind --tool=callgrind --callgrind-out-file=/dev/null --collect-atstart=no \
-      --toggle-collect=countedRun "$program" --links "$1" "--$2" "${options[@]}" \
-      2>"$work/valgrind.log" >/dev/null </dev/null; then
-    tail -n 20 "$work/valgrind.log" >&2
+  counted_by "$binary" --links "$1" "--$2" "${options[@]}" || {
     echo "root_cost.sh: $1 links, $2: failed under valgrind" >&2
     exit 1
-  fi
-  sed -n 's/^.*Collected : \([0-9]*\)$/\1/p' "$work/valgrind.log"
+  }
 }
 
-"$program" "${options[@]}" >"$work/times"
+"$binary" "${options[@]}" >"$work/times"
 links=(4 8 16 32)
 for i in "${links[@]}"; do
   for root in resting moving; do

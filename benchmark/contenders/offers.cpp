@@ -19,6 +19,7 @@ std::vector<Offer> offersFor(const BenchmarkScene& scene) {
   offerOwnSingle(scene, offers);
   offerOwnLongDouble(scene, offers);
   offerOwnBlocks(scene, offers);
+  offerGenerated(scene, offers);
   offerOwnLagrange(scene, offers);
   return offers;
 }

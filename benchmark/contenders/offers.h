@@ -16,6 +16,9 @@ void offerOwnLongDouble(const BenchmarkScene& scene, std::vector<Offer>& offers)
 /// Appends blocks of samples by BlockInverseDynamics: in each layout, by each build that this
 /// machine runs, by one thread and by two.
 void offerOwnBlocks(const BenchmarkScene& scene, std::vector<Offer>& offers);
+/// Appends code that is generated for the scene and compiled now, one sample after another and in
+/// blocks, for robots of up to 60 joints.
+void offerGenerated(const BenchmarkScene& scene, std::vector<Offer>& offers);
 /// Appends Lagrange's equations, in double and in long double, for robots of up to 100 joints.
 void offerOwnLagrange(const BenchmarkScene& scene, std::vector<Offer>& offers);
 /// Appends KDL's solvers: ChainIdSolver_RNE for the chain that kdl_parser would build and for the

@@ -3,7 +3,7 @@ import re
 import statistics
 
 from plot_style import method_name, mode_name
-from report_data import ALL, EFFORTS, LAGRANGE, OWN, SINGLE, SINGLE_EFFORTS, Way
+from report_data import ALL, EFFORTS, GENERATED, LAGRANGE, OWN, SINGLE, SINGLE_EFFORTS, Way
 
 SAME = 0.05  # medians that differ by less are called equal
 INSTRUCTION_SETS = ('baseline', 'avx2', 'avx512')
@@ -86,6 +86,14 @@ def _of_own_ways(data):
                              way._replace(outputs=ALL))
 
 
+def _of_generated(data):
+    for way in data.ways:
+        if way.method == GENERATED:
+            yield Comparison(data, 'generated code against the library (%s, %s)' % (
+                mode_name(way.mode), 'efforts' if way.outputs == EFFORTS else 'all'), way,
+                             way._replace(method=OWN))
+
+
 def own_comparisons(data):
     """What the package's own ways gain over one another; efforts and all reactions, double and one
     thread unless named otherwise."""
@@ -97,6 +105,7 @@ def own_comparisons(data):
     found += _of_blocks(data, layouts)
     found += _of_layouts(data, layouts)
     found += _of_own_ways(data)
+    found += _of_generated(data)
     found.append(Comparison(data, 'long double against double (one sample)',
                             SINGLE._replace(precision='long_double'), SINGLE, meant_to_win=False))
     for precision in ('double', 'long_double'):

@@ -20,13 +20,14 @@ FAINT = '#767676'  # for remarks; dark enough to be read on white
 # light for lines on white.
 BLUE, VERMILLION, GREEN, ORANGE = '#0072B2', '#D55E00', '#009E73', '#E69F00'
 PURPLE, SKY, BLACK, BROWN = '#CC79A7', '#56B4E9', '#000000', '#7A4A1E'
-INDIGO = '#332288'
+INDIGO, WINE = '#332288', '#882255'
 # For series that are neither methods nor modes, in this order.
 SERIES_COLORS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY, BLACK, BROWN)
 SERIES_MARKERS = ('o', 's', '^', 'D', 'v', 'P', 'X', '*')
 
 METHODS = {  # name in the CSV: (name for readers, colour)
     'virtual_work': ('virtual work', BLUE),
+    'generated': ('generated code', WINE),
     'lagrange': ('Lagrange', INDIGO),
     'kdl_chain': ('KDL chain', VERMILLION),
     'kdl_chain_lumped': ('KDL chain, lumped', ORANGE),

@@ -1,7 +1,7 @@
 """Makes report.md and its plots from what the benchmark programs measured, for scripts/report.sh.
 
 FOLDER holds work_precision.csv, closed_loops.csv and leave_out.csv; instructions.csv if
-instructions were counted, estimator.md if the estimator was measured.
+instructions were counted, generated_size.csv if generated code was measured, estimator.md if the estimator was measured.
 """
 import concurrent.futures
 import datetime
@@ -17,8 +17,9 @@ from page_program import progress, run
 from plot_joints import plot_joints
 from plot_leave_out import plot_leave_out
 from plot_work_precision import plot_work_precision
-from report_data import (CLOSED_LOOPS, INSTRUCTIONS, LEAVE_OUT, WORK_PRECISION, ClosedLoops,
-                         Instructions, JointCounts, LeaveOut, WorkPrecision)
+from report_data import (CLOSED_LOOPS, GENERATED_SIZES, INSTRUCTIONS, LEAVE_OUT, WORK_PRECISION,
+                         ClosedLoops, GeneratedSizes, Instructions, JointCounts, LeaveOut,
+                         WorkPrecision)
 
 REPOSITORY = pathlib.Path(__file__).resolve().parent.parent.parent
 REPORT = 'report.md'
@@ -50,6 +51,12 @@ def instructions_section(folder, data):
             + pages.instructions_table(Instructions(folder / INSTRUCTIONS), data))
 
 
+def generated_section(folder):
+    if not (folder / GENERATED_SIZES).is_file():
+        return 'It was not measured in this run.\n'
+    return pages.generated_sizes_table(GeneratedSizes(folder / GENERATED_SIZES))
+
+
 def leave_out_tables(omissions):
     return '\n'.join('**%s**\n\n%s' % (pages.scene_title(scene),
                                        pages.leave_out_table(omissions, scene))
@@ -78,6 +85,7 @@ def text(folder, data, omissions, joints, build, arguments):
         joints_plot=md.image('Run time over number of joints', JOINTS_PLOT),
         joint_costs=pages.joint_costs_table(data, joints),
         instructions=instructions_section(folder, data),
+        generated=generated_section(folder),
         leave_out_plot=md.image('Operations and run time of plans that leave something out',
                                 LEAVE_OUT_PLOT),
         leave_out=leave_out_tables(omissions),

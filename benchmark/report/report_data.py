@@ -10,8 +10,10 @@ import xml.etree.ElementTree as ElementTree
 WORK_PRECISION = 'work_precision.csv'
 LEAVE_OUT = 'leave_out.csv'
 INSTRUCTIONS = 'instructions.csv'
+GENERATED_SIZES = 'generated_size.csv'
 CLOSED_LOOPS = 'closed_loops.csv'
 OWN = 'virtual_work'
+GENERATED = 'generated'  # the package's, too: code for one robot
 LAGRANGE = 'lagrange'  # the package's, too: the other route, which is no rival
 # Peers that work_precision knows. A method that is not listed here is reported all the same.
 KNOWN_PEERS = ('kdl_chain', 'kdl_tree', 'mujoco', 'dart', 'pinocchio', 'rbdl')
@@ -149,7 +151,7 @@ class WorkPrecision:
         return None
 
     def peers(self):
-        return [method for method in self.methods if method not in (OWN, LAGRANGE)]
+        return [method for method in self.methods if method not in (OWN, GENERATED, LAGRANGE)]
 
     def missing_peers(self):
         return [peer for peer in KNOWN_PEERS if peer not in self.methods]
@@ -196,6 +198,19 @@ class Instructions:
                 row, 'instructions_per_sample')
         self.scenes = list(dict.fromkeys(scene for scene, _ in self.counts))
         self.ways = list(dict.fromkeys(way for _, way in self.counts))
+
+
+class GeneratedSizes:
+    """How large generated code is, row by row."""
+
+    COUNTS = ('multiplications', 'additions', 'sines_and_cosines', 'code', 'stack', 'block_code',
+              'block_stack', 'small_code', 'small_stack')
+
+    def __init__(self, path):
+        table = Table(path, ('scene', 'outputs') + self.COUNTS)
+        self.rows = [(table.name(row, 'scene'), table.name(row, 'outputs', (EFFORTS, ALL)),
+                      [table.count(row, column) for column in self.COUNTS])
+                     for row in table.rows]
 
 
 class ClosedLoops:

@@ -3,7 +3,7 @@ import comparisons
 import markdown_text as md
 from comparisons import way_name
 from plot_style import method_name, mode_name
-from report_data import ALL, BASES, KNOWN_PEERS, LAGRANGE, OWN, PRECISIONS, SINGLE
+from report_data import (ALL, BASES, GENERATED, KNOWN_PEERS, LAGRANGE, OWN, PRECISIONS, SINGLE)
 
 SHORT = 50  # moving joints: errors of robots up to this size are stated apart from longer chains
 SCENES = {
@@ -112,6 +112,12 @@ def not_measured(data):
         if scenes:
             lines.append('%s was not measured on: %s.' % (
                 method_name(method), md.listed(scene_title(scene) for scene in scenes)))
+    without = [scene for scene in data.scenes if GENERATED in data.methods
+               and not any(row.way.method == GENERATED for row in data.of_scene(scene))]
+    if without:
+        lines.append('Code was not generated where a robot has more than 60 moving joints, for it '
+                     'no longer stays in the caches: %s.' % (
+                         md.listed(scene_title(s) for s in without)))
     left_out = [scene for scene in data.scenes if LAGRANGE in data.methods
                 and not any(row.way.method == LAGRANGE for row in data.of_scene(scene))]
     if left_out:
@@ -240,6 +246,13 @@ def instructions_table(instructions, data):
     for scene in instructions.scenes:
         header += [scene_title(scene) + ': instructions', 'ns']
     return md.table(header, rows, left=4)
+
+
+def generated_sizes_table(sizes):
+    rows = [[scene_title(scene), 'all' if outputs == ALL else 'efforts']
+            + ['{:,}'.format(count) for count in counts] for scene, outputs, counts in sizes.rows]
+    return md.table(['scene', 'outputs', 'multiplications', 'additions', 'sines and cosines',
+                     'code', 'stack', 'block: code', 'stack', 'small: code', 'stack'], rows, left=2)
 
 
 def spread(data):

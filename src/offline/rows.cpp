@@ -89,6 +89,12 @@ void Rows::take(std::size_t row, const Motion& motion, const Results& results) {
                         return wrench.force.allFinite() && wrench.torque.allFinite();
                       });
   if (!finite && ++overflowed_ == 1) first_row_ = row;
+  // A zero has no sign, whatever products with zeros it comes from.
+  effort_.array() += 0.0;
+  for (Wrench& wrench : reactions_) {
+    wrench.force.array() += 0.0;
+    wrench.torque.array() += 0.0;
+  }
 }
 
 // Of components in root axes: turned into inertial axes, each has a share of all of its vector.

@@ -1,0 +1,134 @@
+#include "contenders/offers.h"
+#include "contenders/own_arrays.h"
+#include "contenders/own_request.h"
+#include "offline/built_library.h"
+#include "virtual_work_dynamics/generated_code.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+constexpr char kName[] = "generated";
+// Of more joints the code is so long that a sample takes longer than by the plan.
+constexpr std::size_t kMostJoints = 60;
+
+BuiltLibrary build(const BenchmarkScene& scene, const Request& request, InstructionSet set) {
+  GeneratedCodeOptions options;
+  options.name = kName;
+  const GeneratedCode code = generateCode(scene.mechanism, ownScene(scene), request, options);
+  return BuiltLibrary(kName, code.header, code.source, optionsFor(set, kName));
+}
+
+// The reactions are an argument where they are asked for.
+template <typename Function>
+Function functionOf(const BuiltLibrary& library, const char* name) {
+  return reinterpret_cast<Function>(library.function(name));
+}
+
+class GeneratedSingle : public Contender {
+ public:
+  GeneratedSingle(const BenchmarkScene& scene, const std::string& outputs)
+      : motions_(scene.motions),
+        request_(ownRequest(scene, outputs)),
+        library_(build(scene, request_, chosenInstructionSet())),
+        efforts_(functionOf<Efforts>(library_, "generated_compute")),
+        everything_(functionOf<Everything>(library_, "generated_compute")),
+        effort_(Eigen::VectorXd::Zero(motions_[0].q.size())),
+        reactions_(request_.child_axes.size()) {}
+
+  void run(std::size_t calls) override {
+    if (reactions_.empty()) {
+      for (; calls > 0; --calls) {
+        const Motion& motion = motions_[cycle_.next()];
+        efforts_(motion.q.data(), motion.qd.data(), motion.qdd.data(), effort_.data());
+      }
+    } else {
+      for (; calls > 0; --calls) {
+        const Motion& motion = motions_[cycle_.next()];
+        everything_(motion.q.data(), motion.qd.data(), motion.qdd.data(), effort_.data(),
+                    reactions_[0].force.data());
+      }
+    }
+  }
+
+  SampleResults results(std::size_t) const override { return plainResults(effort_, reactions_); }
+
+ private:
+  using Efforts = void (*)(const double*, const double*, const double*, double*);
+  using Everything = void (*)(const double*, const double*, const double*, double*, double*);
+
+  const std::vector<Motion>& motions_;
+  const Request request_;
+  BuiltLibrary library_;
+  const Efforts efforts_;
+  const Everything everything_;
+  Eigen::VectorXd effort_;
+  std::vector<Wrench> reactions_;
+  StateCycle cycle_;
+};
+
+class GeneratedBlock : public Contender {
+ public:
+  GeneratedBlock(const BenchmarkScene& scene, const std::string& outputs)
+      : GeneratedBlock(scene, ownRequest(scene, outputs)) {}
+
+  std::size_t samplesPerCall() const override { return samples_; }
+
+  void run(std::size_t calls) override {
+    for (; calls > 0; --calls) {
+      if (reactions_.width() == 0) {
+        efforts_(samples_, samples_, q_.data(), qd_.data(), qdd_.data(), effort_.data());
+      } else {
+        everything_(samples_, samples_, q_.data(), qd_.data(), qdd_.data(), effort_.data(),
+                    reactions_.data());
+      }
+    }
+  }
+
+  SampleResults results(std::size_t sample) const override {
+    return resultsOf(effort_, reactions_, sample);
+  }
+
+ private:
+  using Efforts = void (*)(std::size_t, std::size_t, const double*, const double*, const double*,
+                           double*);
+  using Everything = void (*)(std::size_t, std::size_t, const double*, const double*, const double*,
+                              double*, double*);
+  static constexpr BlockLayout kLayout = BlockLayout::kStructureOfArrays;
+
+  GeneratedBlock(const BenchmarkScene& scene, const Request& request)
+      : samples_(samplesOf<double>(
+            4 * scene.mechanism.coordinates().size() + 6 * request.child_axes.size(), 1)),
+        library_(build(scene, request, chosenInstructionSet())),
+        efforts_(functionOf<Efforts>(library_, "generated_compute_block")),
+        everything_(functionOf<Everything>(library_, "generated_compute_block")),
+        q_(arrayOf<double>(scene, &Motion::q, kLayout, samples_)),
+        qd_(arrayOf<double>(scene, &Motion::qd, kLayout, samples_)),
+        qdd_(arrayOf<double>(scene, &Motion::qdd, kLayout, samples_)),
+        effort_(kLayout, samples_, scene.mechanism.coordinates().size()),
+        reactions_(kLayout, samples_, 6 * request.child_axes.size()) {}
+
+  const std::size_t samples_;
+  BuiltLibrary library_;
+  const Efforts efforts_;
+  const Everything everything_;
+  Array<double> q_, qd_, qdd_, effort_, reactions_;
+};
+
+}  // namespace
+
+void offerGenerated(const BenchmarkScene& scene, std::vector<Offer>& offers) {
+  if (scene.mechanism.coordinates().size() > kMostJoints) return;
+  for (const char* outputs : {kEfforts, kEffortsAndReactions}) {
+    const Label label{"generated", "double", "single", outputs, 1};
+    offers.push_back(
+        {label, [&scene, outputs] { return std::make_unique<GeneratedSingle>(scene, outputs); }});
+  }
+  const std::string mode = "block_soa_" + toString(chosenInstructionSet());
+  for (const char* outputs : {kEfforts, kEffortsAndReactions}) {
+    const Label label{"generated", "double", mode, outputs, 1};
+    offers.push_back(
+        {label, [&scene, outputs] { return std::make_unique<GeneratedBlock>(scene, outputs); }});
+  }
+}
+
+}  // namespace virtual_work_dynamics
