@@ -42,14 +42,6 @@ class CompoundJoints(NodeTest):
         self.assertClose(vector(wrench.force), [0, 0, -12 * GRAVITY[2]], ROUNDING, 'force')
         self.assertClose(vector(wrench.torque), [0, 2 * 0.5 * GRAVITY[2], 0], ROUNDING, 'moment')
 
-    def test_joints_that_turn_freely_are_refused_beside_loops(self):
-        node = Node(self, CART.replace('"planar"', '"floating"'), {'scene': {
-            'actuated': ['wheels.x'], 'free_motion': True}})
-        self.assertEqual(node.wait(), 1)
-        line, = node.lines('FATAL')
-        self.assertIn("'wheels'", line)
-        self.assertIn('inverse_dynamics_offline does', line)
-
 
 if __name__ == '__main__':
     run(CompoundJoints)
