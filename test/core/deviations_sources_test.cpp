@@ -235,6 +235,7 @@ TEST(DeviationsOfRoots, BySensorsOnOtherLinksMatchDrawnMotions) {
     scene.reactions = ReactionSelection::kNamed;
     scene.reaction_names = {kGround, "joint_1"};
     sources.ofRoot();
+    sources.covariance.root *= 1e-4;  // so that what the joints do to it counts
     sources.ofCoordinates(motion.q.size(), 1);
     sources.covariance.root_link = static_cast<int>(mechanism.links().size()) - 1;
     expectDrawn(mechanism, scene, motion, sources);
@@ -246,6 +247,7 @@ TEST(DeviationsOfRoots, BySensorsOnOtherLinksMatchDrawnMotions) {
   motion.root = randomRootMotion(sources.generator);
   cut.scene.root_moves = true;
   sources.ofRoot();
+  sources.covariance.root *= 1e-6;
   sources.ofCoordinates(motion.q.size(), 0.1);
   sources.covariance.root_link = 1;
   expectDrawn(cut.mechanism, cut.scene, motion, sources);
