@@ -2,11 +2,9 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <geometry_msgs/WrenchStamped.h>
-#include <sensor_msgs/JointState.h>
 #include <sensor_msgs/MultiDOFJointState.h>
 
 #include <algorithm>
-#include <limits>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -14,9 +12,9 @@
 #include "dynamics/inertial_axes.h"
 #include "ros/closure_frames.h"
 #include "ros/contact_frames.h"
-#include "ros/delivered_efforts.h"
 #include "ros/determinacy_message.h"
 #include "ros/deviation_output.h"
+#include "ros/effort_output.h"
 #include "ros/marker_output.h"
 #include "ros/message_copies.h"
 #include "ros/residual_output.h"
@@ -50,86 +48,6 @@ template <typename Message>
 ros::AdvertiseOptions advertised(const std::string& topic, std::uint32_t queue) {
   return ros::AdvertiseOptions::create<Message>(topic, queue, {}, {}, ros::VoidConstPtr(), nullptr);
 }
-
-// --- ~effort: names, the positions and velocities used, efforts
-
-class EffortMessage : public MessageOf<sensor_msgs::JointState> {
- public:
-  EffortMessage(const Dynamics& plan, const std::string& frame,
-                std::shared_ptr<ThresholdRecord> limits)
-      : names_(plan.effortNames()),
-        limits_(std::move(limits)),
-        values_(static_cast<std::size_t>(plan.coordinates())),
-        delivered_(deliveredEfforts(plan)) {
-    message_.header.frame_id = frame;
-    message_.name = names_;
-    for (auto* values : {&message_.position, &message_.velocity, &message_.effort}) {
-      values->resize(names_.size());
-    }
-  }
-
-  void fill(const OutputSample& sample) override {
-    message_.header.stamp = timeOf(sample.stamp_ns);
-    const bool as_before = allExist(sample.results) && message_.name.size() == names_.size();
-    if (!as_before) message_.name.clear();
-    message_.position.clear();
-    message_.velocity.clear();
-    message_.effort.clear();
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      if (!sample.results.effortExists(i)) continue;
-      if (!as_before) message_.name.push_back(names_[i]);
-      const auto index = static_cast<Eigen::Index>(i);
-      const Eigen::Index closure = index - sample.motion.q.size();
-      const LoopResults& loops = sample.results.loops;
-      message_.position.push_back(closure < 0 ? sample.motion.q[index]
-                                              : loops.actuated_positions[closure]);
-      message_.velocity.push_back(closure < 0 ? sample.motion.qd[index]
-                                              : loops.actuated_velocities[closure]);
-      message_.effort.push_back(sample.results.effort[index]);
-    }
-    if (limits_) recordLimits(sample);
-  }
-
- private:
-  bool allExist(const Results& results) const {
-    const std::vector<bool>& exists = results.loops.effort_exists;
-    return std::find(exists.begin(), exists.end(), false) == exists.end();
-  }
-
-  void recordLimits(const OutputSample& sample) {
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-      values_[i] = delivered_[i] && sample.results.effortExists(i)
-                       ? sample.results.effort[static_cast<Eigen::Index>(i)]
-                       : std::numeric_limits<double>::quiet_NaN();
-    }
-    limits_->record(sample.stamp_ns, values_);
-  }
-
-  const Names names_;  // all names; the message has those of existing results
-  const std::shared_ptr<ThresholdRecord> limits_;
-  std::vector<double> values_;  // of the coordinates
-  const std::vector<bool> delivered_;
-};
-
-class EffortOutput : public Output {
- public:
-  EffortOutput(std::string frame, std::shared_ptr<ThresholdRecord> limits)
-      : frame_(std::move(frame)), limits_(std::move(limits)) {}
-
-  std::string topic() const override { return "effort"; }
-  ros::AdvertiseOptions options(const std::string& topic, std::uint32_t queue) const override {
-    return advertised<sensor_msgs::JointState>(topic, queue);
-  }
-  void addTo(Request& request) const override { request.efforts = true; }
-  std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan, const Scene&) const override {
-    return std::make_unique<EffortMessage>(plan, frame_, limits_);
-  }
-  bool isAlwaysComputed() const override { return limits_ != nullptr; }
-
- private:
-  std::string frame_;
-  std::shared_ptr<ThresholdRecord> limits_;
-};
 
 // --- ~motion: the positions, velocities and accelerations used
 
@@ -367,7 +285,7 @@ Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
                     const OutputSettings& settings) {
   const std::string root_frame = settings.frame_prefix + mechanism.links().front().name;
   Outputs outputs;
-  outputs.push_back(std::make_unique<EffortOutput>(root_frame, settings.limits));
+  outputs.push_back(makeEffortOutput(root_frame, settings.limits));
   outputs.push_back(std::make_unique<MotionOutput>(mechanism.coordinateNames(), root_frame));
   if (settings.deviations) {
     outputs.push_back(makeDeviationOutput(mechanism, root_frame, settings.deviations));

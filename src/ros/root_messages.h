@@ -56,9 +56,7 @@ class RootMessages {
   /// Once for each gap and restart.
   News takeNews();
   /// What is doubtful about the latest message; empty: nothing.
-  std::string takeDoubt() {
-    return imu_ ? imu_conversion_.takeDoubt() : conversion_.takeDoubt();
-  }
+  std::string takeDoubt() { return imu_ ? imu_conversion_.takeDoubt() : conversion_.takeDoubt(); }
   std::string gapText() const;
   std::string restartText() const;
 

@@ -11,6 +11,7 @@ foreach(file
     deviation_report.cpp
     diagnostics.cpp
     effort_measurements.cpp
+    effort_output.cpp
     fixed_frames.cpp
     foreign_frames.cpp
     free_joint_conversion.cpp
