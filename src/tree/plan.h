@@ -10,7 +10,7 @@
 namespace virtual_work_dynamics {
 
 /// What was left out of a plan, by names of joints.
-struct LeftOut {
+struct OmittedWork {
   std::vector<std::string> merged;    ///< fixed joints, welded into their parents
   std::vector<std::string> unneeded;  ///< joints whose bodies reach no requested result
   std::vector<std::string> massless;  ///< joints whose wrench is zero
@@ -38,7 +38,7 @@ struct PlanUse {
   std::vector<Carry> carries;
   std::vector<PointStep> point_steps;
   std::vector<int> zero_efforts;  ///< coordinates that no wrench reaches
-  LeftOut left_out;
+  OmittedWork left_out;
   double gravity[3] = {};  ///< m/s^2, inertial axes
 };
 

@@ -61,7 +61,7 @@ std::string listed(const char* what, const std::vector<std::string>& names) {
 }
 
 std::vector<std::string> linesOf(const Plan<double>& plan) {
-  const LeftOut& out = plan.left_out;
+  const OmittedWork& out = plan.left_out;
   std::vector<std::string> lines;
   const auto list = [&](const char* what, const std::vector<std::string>& names) {
     if (!names.empty()) lines.push_back(listed(what, names));
