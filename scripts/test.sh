@@ -215,7 +215,7 @@ if check build_without_warnings build; then
   check sanitized_core_tests sanitized_core_tests || true
   check scripts scripts_tests &  # takes one processor, as fuzzing does
   scripts_check=$!
-  trap 'kill "$scripts_check" 2>/dev/null; stop_sanitized' EXIT
+  trap 'kill "$scripts_check" 2>/dev/null || true; stop_sanitized' EXIT
   check fuzz fuzz || true
   check contenders_agree contenders_agree || true
   check installs_core test/downstream/check.sh core || true
@@ -223,6 +223,7 @@ if check build_without_warnings build; then
   check exports_install_space test/downstream/check.sh install || true
   check examples examples || true
   wait "$scripts_check" || true
+  trap stop_sanitized EXIT
 else
   check scripts scripts_tests || true
 fi

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "contenders/linkages.h"
+#include "scene/touch_rows.h"
 #include "stability/random_numbers.h"
 #include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/error.h"
@@ -99,25 +100,6 @@ std::vector<Motion> completedMotions(const std::string& name, const Linkage& lin
   return motions;
 }
 
-int conditionsOf(ClosureType type) {
-  switch (type) {
-    case ClosureType::kFixed:
-      return 6;
-    case ClosureType::kRevolute:
-    case ClosureType::kPrismatic:
-      return 5;
-    case ClosureType::kCylindrical:
-    case ClosureType::kUniversal:
-      return 4;
-    case ClosureType::kSpherical:
-    case ClosureType::kPlanar:
-      return 3;
-    case ClosureType::kDistance:
-      return 1;
-  }
-  return 0;
-}
-
 }  // namespace
 
 std::vector<std::string> closedSceneNames() {
@@ -155,7 +137,7 @@ LoopCounts countLoops(const BenchmarkScene& scene) {
   for (const bool actuated : dynamics.actuated()) counts.actuated += actuated ? 1 : 0;
   counts.closures = scene.loops->closures.size();
   for (const Closure& closure : scene.loops->closures) {
-    counts.conditions += conditionsOf(closure.type);
+    counts.conditions += conditionCount(closure);
   }
   for (std::size_t n = 0; n < scene.motions.size(); ++n) {
     dynamics.compute(scene.motions[n], workspace);

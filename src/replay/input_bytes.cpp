@@ -75,6 +75,11 @@ bool areBytesOf(ByteCursor bytes, const sensor_msgs::MultiDOFJointState&) {
   return areTaken(bytes);
 }
 
+bool areBytesOf(ByteCursor bytes, const std_msgs::Bool&) {
+  bytes.bytes(1);
+  return areTaken(bytes);
+}
+
 bool areBytesOf(ByteCursor bytes, const tf2_msgs::TFMessage&) {
   takeEach(bytes, [&] {
     takeHeader(bytes);

@@ -7,6 +7,7 @@
 #include <ros/serialization.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/MultiDOFJointState.h>
+#include <std_msgs/Bool.h>
 #include <tf2_msgs/TFMessage.h>
 #include <trajectory_msgs/JointTrajectory.h>
 #include <trajectory_msgs/MultiDOFJointTrajectory.h>
@@ -26,6 +27,7 @@ bool areBytesOf(ByteCursor bytes, const geometry_msgs::WrenchStamped&);
 bool areBytesOf(ByteCursor bytes, const nav_msgs::Odometry&);
 bool areBytesOf(ByteCursor bytes, const sensor_msgs::Imu&);
 bool areBytesOf(ByteCursor bytes, const sensor_msgs::MultiDOFJointState&);
+bool areBytesOf(ByteCursor bytes, const std_msgs::Bool&);
 bool areBytesOf(ByteCursor bytes, const tf2_msgs::TFMessage&);
 bool areBytesOf(ByteCursor bytes, const trajectory_msgs::JointTrajectory&);
 bool areBytesOf(ByteCursor bytes, const trajectory_msgs::MultiDOFJointTrajectory&);
