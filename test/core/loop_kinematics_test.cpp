@@ -147,8 +147,8 @@ std::vector<Jet> conditionsOf(const Closure& closure, const Frame& P, const Fram
       return {p[0], p[1], p[2]};
     case ClosureType::kPlanar:
       return {p[2], R(0, 2), R(1, 2)};
-    case ClosureType::kDistance:
-      break;
+    default:  // a rod; other types have tests of their own
+      EXPECT_EQ(closure.type, ClosureType::kDistance);
   }
   return {root(dot(p, p)) - Jet{*closure.length, 0, 0}};
 }
