@@ -245,10 +245,10 @@ TEST_F(OfflineGiven, AMotionSaysWhereLoopsStartThatTheSceneCannotClose) {
 
 // The rocker turns as the crank does, and the pin at its foot has the encoder.
 TEST_F(OfflineGiven, TheAxisOfAClosureMovesTheRest) {
-  const State states[] = {{0.1, 0.4, 0}, {0.3, -1.2, 2.5}, {-0.8, 3, -1}, {1.2, 0.5, 7}};
+  const LinkageState states[] = {{0.1, 0.4, 0}, {0.3, -1.2, 2.5}, {-0.8, 3, -1}, {1.2, 0.5, 7}};
   std::string of_pin = "time,position.pin,velocity.pin,acceleration.pin\n", all = kAllColumns;
   double time = 0;
-  for (const State& state : states) {
+  for (const LinkageState& state : states) {
     // A driver that wraps makes no difference to a pin.
     of_pin += numberText(time) + "," + numberText(state.q + 6.283185307179586) + "," +
               numberText(state.qd) + "," + numberText(state.qdd) + "\n";

@@ -35,7 +35,7 @@ inline std::string pinned(const std::string& distance, const std::string& actuat
          actuated + "]\n";
 }
 
-struct State {
+struct LinkageState {
   double q, qd, qdd;
 };
 
@@ -45,7 +45,7 @@ constexpr char kAllColumns[] =
 
 /// A line of these columns. The coupler does not turn, the rocker turns like the crank; the elbow
 /// may be off by an angle.
-inline std::string row(double time, const State& state, double off = 0) {
+inline std::string row(double time, const LinkageState& state, double off = 0) {
   const auto joints = [&](double value) {
     return "," + numberText(value) + "," + numberText(-value) + "," + numberText(value);
   };

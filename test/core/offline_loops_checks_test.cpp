@@ -19,10 +19,10 @@ constexpr char kPoints[] =
     "moments_about: [{name: wrist, frame: parent, at: [0, 0, 0.1]}, "
     "{name: pin, link: base, at: [0.1, 0, 0.2]}]\n";
 
-std::string motionOfAll(std::initializer_list<State> states) {
+std::string motionOfAll(std::initializer_list<LinkageState> states) {
   std::string text = kAllColumns;
   double time = 0;
-  for (const State& state : states) text += row(time += 0.1, state);
+  for (const LinkageState& state : states) text += row(time += 0.1, state);
   return text;
 }
 

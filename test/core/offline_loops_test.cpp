@@ -38,12 +38,12 @@ struct LinkageTruth {
   double effort, fx, fz;
 };
 
-constexpr State kStates[] = {{0, 0, 0}, {0.3, -1.2, 2.5}, {-0.8, 3, -1}, {1.2, 0.5, 7}};
+constexpr LinkageState kStates[] = {{0, 0, 0}, {0.3, -1.2, 2.5}, {-0.8, 3, -1}, {1.2, 0.5, 7}};
 
 std::string driveMotion() {
   std::string text = "time,position.drive,velocity.drive,acceleration.drive\n";
   double time = 0;
-  for (const State& state : kStates) {
+  for (const LinkageState& state : kStates) {
     text += numberText(time) + "," + numberText(state.q) + "," + numberText(state.qd) + "," +
             numberText(state.qdd) + "\n";
     time += 0.1;
@@ -139,7 +139,7 @@ TEST_F(OfflineLoops, TheLargestConditionIsToldWithItsTime) {
 TEST_F(OfflineLoops, AMotionOfAllJointsGivesTheSame) {
   write("m.csv", driveMotion());
   std::string text = kAllColumns;
-  for (const State& state : kStates) text += row(0.1 * (&state - kStates), state);
+  for (const LinkageState& state : kStates) text += row(0.1 * (&state - kStates), state);
   write("all.csv", text);
   const NumberTable all = table("--scene s.yaml --motion all.csv", "");
   const NumberTable completed = table("--scene s.yaml --motion m.csv", kFollow);
@@ -157,9 +157,9 @@ TEST_F(OfflineLoops, TheMechanismStaysOnItsBranch) {
   // closed from the row before in one step would turn inside out.
   std::string far = "time,position.drive,velocity.drive,acceleration.drive\n";
   std::string all = kAllColumns;
-  const State states[] = {{1.3, 1, 2}, {-1.4, -2, 3}, {1.2, 0, 0}, {-0.2, 4, 1}};
+  const LinkageState states[] = {{1.3, 1, 2}, {-1.4, -2, 3}, {1.2, 0, 0}, {-0.2, 4, 1}};
   double time = 0;
-  for (const State& state : states) {
+  for (const LinkageState& state : states) {
     far += numberText(time) + "," + numberText(state.q + 6283.185307179586 * (1 + time)) + "," +
            numberText(state.qd) + "," + numberText(state.qdd) + "\n";
     all += row(time, state);
@@ -232,7 +232,7 @@ bool isOutOfPlane(const std::string& column) {
 // What is redundant in every position has the policy's value in singular ones, too.
 TEST_F(OfflineLoops, SingularPositionsLeaveOutWhatTheyLeaveOpen) {
   // Crank, coupler and rocker in one line: the coupler could go on turning either way.
-  const State dead{1.5707963267948966, 0, 0};
+  const LinkageState dead{1.5707963267948966, 0, 0};
   write("all.csv", kAllColumns + row(0, kStates[1]) + row(0.1, dead) + row(0.2, kStates[3]));
   const NumberTable results =
       table("--scene s.yaml --motion all.csv",
@@ -264,7 +264,7 @@ TEST_F(OfflineLoops, AnActuatedClosureHasAnEffort) {
   write("m.csv", driveMotion());
   write("s.yaml", pinned("0.5", "pin"));
   std::string text = kAllColumns;
-  for (const State& state : kStates) text += row(0.1 * (&state - kStates), state);
+  for (const LinkageState& state : kStates) text += row(0.1 * (&state - kStates), state);
   write("all.csv", text);
   const NumberTable results = table("--scene s.yaml --motion all.csv", "");
   ASSERT_GE(results.column("effort.pin"), 0);

@@ -13,7 +13,7 @@ namespace {
 // Several blocks of rows for each of the threads, and a part of one.
 constexpr int kRows = 700;
 
-State swing(int i) {
+LinkageState swing(int i) {
   const double t = 0.01 * i;
   return {0.9 * std::sin(2 * t), 1.8 * std::cos(2 * t), -3.6 * std::sin(2 * t)};
 }

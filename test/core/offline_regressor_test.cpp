@@ -93,7 +93,7 @@ TEST_F(OfflineRegressor, HasTheParametersThatAreAskedFor) {
 TEST_F(OfflineRegressor, HasNoNumbersWhereThereAreNoEfforts) {
   write("l.urdf", kLinkage);
   write("l.yaml", pinned("0.5"));
-  const State moving{0.3, 1, -2}, dead{1.5707963267948966, 0, 0};
+  const LinkageState moving{0.3, 1, -2}, dead{1.5707963267948966, 0, 0};
   write("l.csv", kAllColumns + row(0, moving) + row(0.1, dead));
   const std::string input = "--urdf l.urdf --scene l.yaml --motion l.csv ";
   const NumberTable efforts = parseTable(run(input + "--reactions none").out);
