@@ -26,14 +26,14 @@ class LinkBalance {
   Vector3l centre(int link) const { return origin(link) + valueOf(arm(link)); }
 
   /// The wrench that a link needs, about its centre of mass.
-  MeasuredWrench needed(int link) const {
+  LongWrench needed(int link) const {
     const LinkMotion<Rated>& move = moves_[link];
     const Link& body = made_.mechanism.links()[link];
     const V3<Rated> v_C = move.v + crossed<Rated>(move.w, arm(link));
     const V3<Rated> w_link = move.R.transpose() * move.w;
     const V3<Rated> spin = constant<Rated>(body.inertia_Cm_K) * w_link;
     const V3<Rated> angular_momentum = move.R * spin;
-    MeasuredWrench sum;
+    LongWrench sum;
     sum.force = body.mass * (rateOf(v_C) - made_.scene.gravity.cast<long double>());
     sum.torque = rateOf(angular_momentum);
     for (const AppliedWrench& applied : made_.scene.applied_wrenches) {
@@ -44,10 +44,10 @@ class LinkBalance {
 
   /// The wrench that the joints exert on a link by the published reactions: that of the joint which
   /// carries the link, less those of the joints that it carries.
-  MeasuredWrench published(int link, const Outcome& outcome) const {
+  LongWrench published(int link, const Outcome& outcome) const {
     const std::vector<Joint>& joints = made_.mechanism.joints();
     const std::string own = link == 0 ? std::string(kGround) : joints[link - 1].name;
-    MeasuredWrench sum = outcome.root(own).about(centre(link) - origin(link));
+    LongWrench sum = outcome.root(own).about(centre(link) - origin(link));
     for (const Joint& joint : joints) {
       if (joint.parent_link != link) continue;
       sum = sum - outcome.root(joint.name).about(centre(link) - origin(joint.child_link));
@@ -60,12 +60,11 @@ class LinkBalance {
     return moves_[link].R * constant<Rated>(made_.mechanism.links()[link].p_KoCm_K);
   }
 
-  MeasuredWrench appliedTo(int link, const AppliedWrench& applied) const {
+  LongWrench appliedTo(int link, const AppliedWrench& applied) const {
     Matrix3l R;
     for (int i = 0; i < 3; ++i) R.col(i) = valueOf(moves_[link].R.col(i));
     const Vector3l at = origin(link) + R * applied.at.cast<long double>();
-    MeasuredWrench wrench{applied.force.cast<long double>(), applied.torque.cast<long double>(), 0,
-                          0};
+    LongWrench wrench{applied.force.cast<long double>(), applied.torque.cast<long double>(), 0, 0};
     if (applied.axes == Axes::kLink) wrench = wrench.turned(R);
     return wrench.about(centre(link) - at);
   }
