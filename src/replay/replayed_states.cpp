@@ -9,6 +9,7 @@
 #include "base/number_text.h"
 #include "base/printable.h"
 #include "replay/input_bytes.h"
+#include "ros/contact_places.h"
 #include "ros/free_joint_conversion.h"
 #include "ros/message_copies.h"
 #include "ros/message_text.h"
@@ -165,14 +166,20 @@ void ReplayedStates::setAudience(const Audience& audience) {
 
 void ReplayedStates::adaptPlan() {
   if (!scene_inputs_.changed()) return;
-  try {
-    setAudience(audience_);
-    here().change(scene_inputs_.changes());
-    scene_inputs_.keepQuietly();
-  } catch (const std::exception& error) {
-    scene_inputs_.takeBackQuietly();
+  const SceneInputs::News news = scene_inputs_.adapt(
+      [this](const Scene& scene) {
+        plan_ = std::make_unique<ActivePlan>(task_.mechanism, scene, task_.outputs, task_.reactions,
+                                             audience_, PlanChecks());
+      },
+      [this](Scene& scene, const std::vector<std::size_t>& contacts) {
+        if (latest_) placeContacts(task_.mechanism, *latest_, contacts, scene);
+      });
+  if (!news.changes.empty()) here().change(news.changes);
+  if (!news.refused.empty()) {
     here().drop(DropReason::kNoBody,
-                std::string("what is computed stays as it is: ") + error.what());
+                "what is computed stays as it is, and the change is tried "
+                "again with the next one: " +
+                    news.refused);
   }
 }
 

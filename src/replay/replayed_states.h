@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,7 +73,10 @@ class ReplayedStates : private JointStateUser, private TrajectoryUser {
   using Outcome = SampleComputation::Outcome;
 
   ActivePlan& plan() override { return *plan_; }
-  void publish(const ActivePlan& plan) override { publishPoint(plan); }
+  void publish(const ActivePlan& plan) override {
+    latest_ = samples_.motion();
+    publishPoint(plan);
+  }
   void dropJointState(DropReason reason, const std::string& text) override;
   void dropFreeJoints(DropReason reason, const std::string& text) override;
   void leaveForeign(const std::string& text) override;
@@ -120,6 +124,7 @@ class ReplayedStates : private JointStateUser, private TrajectoryUser {
   TrajectoryComputation trajectories_;
   WrenchConversion wrench_conversion_;
   SceneInputs scene_inputs_;
+  std::optional<Motion> latest_;  // of joint states
   Audience audience_;
   std::unique_ptr<ActivePlan> plan_;
   std::multimap<std::string, Take> inputs_;  // by topic

@@ -34,11 +34,11 @@ tf2_msgs::TFMessage closureFrames(const Mechanism& mechanism, const Scene& scene
   const std::unordered_set<std::string> shown(reactions.begin(), reactions.end());
   for (const Closure& closure : scene.closures) {
     if (shown.count(closure.name) == 0) continue;
-    if (traitsOf(closure.type).touches()) continue;  // a contact moves on its link
     if (mechanism.linkIndex(closure.name) >= 0) {
       throw SceneError("closures: " + inQuotes(closure.name) +
                        " is also the name of a link; a closure's frame in tf needs another name");
     }
+    if (traitsOf(closure.type).touches()) continue;  // a contact moves on its link
     message.transforms.emplace_back();
     message.transforms.back().header.frame_id = frame_prefix + closure.child.link;
     message.transforms.back().child_frame_id = frame_prefix + closure.name;

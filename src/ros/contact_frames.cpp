@@ -3,6 +3,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "ros/message_copies.h"
@@ -14,7 +15,10 @@ namespace {
 class ContactFramesMessage : public MessageOf<tf2_msgs::TFMessage> {
  public:
   ContactFramesMessage(const Dynamics& plan, const std::vector<std::string>& contacts,
-                       const std::string& root_frame, const std::string& frame_prefix) {
+                       const std::string& root_frame, const std::string& frame_prefix, double rate)
+      : period_(
+            std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / rate))) {
+    exists_ = false;
     const std::vector<std::string>& all = plan.request().root_axes;
     for (const std::string& contact : contacts) {
       places_.push_back(
@@ -25,7 +29,14 @@ class ContactFramesMessage : public MessageOf<tf2_msgs::TFMessage> {
     }
   }
 
+  // What is planned is not where the robot is, and tf would take it for that.
   void fill(const OutputSample& sample) override {
+    exists_ = false;
+    if (!sample.measured) return;
+    const Clock::time_point now = Clock::now();
+    if (now < due_) return;
+    exists_ = true;
+    due_ = now + period_;
     for (std::size_t i = 0; i < places_.size(); ++i) {
       message_.transforms[i].header.stamp = timeOf(sample.stamp_ns);
       copyPose(sample.results.poses[places_[i]], message_.transforms[i].transform);
@@ -33,16 +44,21 @@ class ContactFramesMessage : public MessageOf<tf2_msgs::TFMessage> {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  const Clock::duration period_;
+  Clock::time_point due_;
   std::vector<std::size_t> places_;
 };
 
 class ContactFramesOutput : public Output {
  public:
   ContactFramesOutput(std::vector<std::string> contacts, std::string root_frame,
-                      std::string frame_prefix)
+                      std::string frame_prefix, double rate)
       : contacts_(std::move(contacts)),
         root_frame_(std::move(root_frame)),
-        frame_prefix_(std::move(frame_prefix)) {}
+        frame_prefix_(std::move(frame_prefix)),
+        rate_(rate) {}
 
   std::string topic() const override { return "/tf"; }
   ros::AdvertiseOptions options(const std::string& topic, std::uint32_t queue) const override {
@@ -58,12 +74,14 @@ class ContactFramesOutput : public Output {
     request.poses = true;
   }
   std::unique_ptr<OutputMessage> makeMessage(const Dynamics& plan, const Scene&) const override {
-    return std::make_unique<ContactFramesMessage>(plan, contacts_, root_frame_, frame_prefix_);
+    return std::make_unique<ContactFramesMessage>(plan, contacts_, root_frame_, frame_prefix_,
+                                                  rate_);
   }
 
  private:
   const std::vector<std::string> contacts_;
   const std::string root_frame_, frame_prefix_;
+  const double rate_;
 };
 
 }  // namespace
@@ -84,8 +102,8 @@ std::vector<std::string> movingContacts(const Scene& scene,
 
 std::unique_ptr<Output> makeContactFrames(std::vector<std::string> contacts,
                                           const std::string& root_frame,
-                                          const std::string& frame_prefix) {
-  return std::make_unique<ContactFramesOutput>(std::move(contacts), root_frame, frame_prefix);
+                                          const std::string& frame_prefix, double rate) {
+  return std::make_unique<ContactFramesOutput>(std::move(contacts), root_frame, frame_prefix, rate);
 }
 
 }  // namespace virtual_work_dynamics

@@ -14,9 +14,10 @@ std::vector<std::string> movingContacts(const Scene& scene,
                                         const std::vector<std::string>& reactions);
 
 /// Makes the output of these frames in the root link's, on /tf, which ~reaction/<contact> refers
-/// to.
+/// to: where they are measured to be, not where a trajectory is planned to lead.
+/// @param rate largest one of its messages, Hz
 std::unique_ptr<Output> makeContactFrames(std::vector<std::string> contacts,
                                           const std::string& root_frame,
-                                          const std::string& frame_prefix);
+                                          const std::string& frame_prefix, double rate);
 
 }  // namespace virtual_work_dynamics

@@ -59,6 +59,27 @@ std::optional<MeasuringFrame> ForeignFrames::find(const std::string& id,
   return place(0, frame_prefix_ + mechanism_.link(0).name, id, stamp);
 }
 
+ForeignFrames::Known ForeignFrames::known(const std::string& id, std::int64_t stamp_ns) const {
+  std::string at = id, parent;
+  for (int frames = 0; frames < kMostFrames; ++frames) {
+    if (at != id && (linkOf(at) >= 0 || at == inertial_frame_)) return Known::kOnRobot;
+    const auto first = record_.firstOf(at);
+    if (first && stamp_ns < *first) return Known::kLater;
+    if (!record_.buffer()._getParent(at, ros::Time(), parent)) break;
+    at = parent;
+  }
+  return Known::kThen;
+}
+
+bool ForeignFrames::isPast(const std::string& id, std::int64_t stamp_ns) const {
+  const Known frame = known(id, stamp_ns);
+  if (frame != Known::kThen) return frame == Known::kLater;
+  // What the robot hangs on has to be known, too.
+  const auto later = [&](const std::string& on) { return known(on, stamp_ns) == Known::kLater; };
+  return later(frame_prefix_ + mechanism_.link(0).name) &&
+         (inertial_frame_.empty() || later(inertial_frame_));
+}
+
 std::optional<MeasuringFrame> ForeignFrames::place(int link, const std::string& on,
                                                    const std::string& id,
                                                    const ros::Time& stamp) const {

@@ -36,8 +36,14 @@ class ForeignFrames {
   void take(const tf2_msgs::TFMessage& message, bool is_static);
   /// The frame at an instant; nothing where tf does not tell, or not yet.
   std::optional<MeasuringFrame> find(const std::string& id, std::int64_t stamp_ns) const;
+  /// Whether an instant lies before all that tf tells of the frame, so that waiting is in vain.
+  bool isPast(const std::string& id, std::int64_t stamp_ns) const;
 
  private:
+  // Of a frame at an instant: tf begins later; it does not; it does not, and the frame hangs on the
+  // robot.
+  enum class Known { kLater, kThen, kOnRobot };
+  Known known(const std::string& id, std::int64_t stamp_ns) const;
   std::optional<MeasuringFrame> place(int link, const std::string& on, const std::string& id,
                                       const ros::Time& stamp) const;
   int linkOf(const std::string& id) const;

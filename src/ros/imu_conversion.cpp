@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/number_text.h"
+#include "base/printable.h"
 #include "motion/largest_motion.h"
 
 namespace virtual_work_dynamics {
@@ -40,14 +41,24 @@ std::optional<Rejection> ImuConversion::convert(const sensor_msgs::Imu& message,
     return rejection;
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   if (auto rejection = readOrientation(message, orientation)) return rejection;
-  if (!found_ || message.header.frame_id != frame_) {
-    found_ = false;
-    const std::string& id = message.header.frame_id;
-    if (auto rejection = findCarryingLink(mechanism_, frame_prefix_, id, link_, placed_))
+  const std::string& id = message.header.frame_id;
+  if (!found_ || id != frame_) {
+    int link = 0;
+    FixedFrame placed;
+    if (auto rejection = findCarryingLink(mechanism_, frame_prefix_, id, link, placed))
       return rejection;
+    // Two units by turns would tell of nothing, as each begins anew.
+    if (found_ && static_cast<double>(sample.stamp_ns - stamp_ns_) / 1e9 <= max_gap_) {
+      return Rejection{DropReason::kUnknownFrame, "its frame " + inQuotes(id) +
+                                                      " is another one than " + inQuotes(frame_) +
+                                                      " of the unit that is listened to"};
+    }
+    link_ = link;
+    placed_ = placed;
     frame_ = id;
     found_ = true;
   }
+  stamp_ns_ = sample.stamp_ns;
   sample.angular_velocity = placed_.R * rate;
   sample.specific_force = placed_.R * force;
   sample.link = link_;

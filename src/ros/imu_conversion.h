@@ -2,6 +2,7 @@
 
 #include <sensor_msgs/Imu.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,15 +16,19 @@
 namespace virtual_work_dynamics {
 
 /// Checks messages of an inertial measurement unit, and turns their vectors into the axes of the
-/// link that it is on: the root link, or one that joints move. The frame is looked up when a
-/// message names another one than the message before.
+/// link that it is on: the root link, or one that joints move. Messages are those of one unit, by
+/// its frame; another one takes over when that has been silent.
 class ImuConversion {
  public:
   /// @param frame_prefix what stands before the names of links in every frame_id
   /// @param mechanism must outlive it
   /// @param oriented whether messages have to tell the orientation, which otherwise is not read
-  ImuConversion(const Mechanism& mechanism, std::string frame_prefix, bool oriented)
-      : mechanism_(mechanism), frame_prefix_(std::move(frame_prefix)), oriented_(oriented) {}
+  /// @param max_gap s for which a unit has to be silent before another one is believed
+  ImuConversion(const Mechanism& mechanism, std::string frame_prefix, bool oriented, double max_gap)
+      : mechanism_(mechanism),
+        frame_prefix_(std::move(frame_prefix)),
+        oriented_(oriented),
+        max_gap_(max_gap) {}
 
   /// Allocates only for a frame that is new, or a rejection.
   /// @returns why the message is to be dropped, or nothing.
@@ -38,11 +43,13 @@ class ImuConversion {
   const Mechanism& mechanism_;
   const std::string frame_prefix_;
   const bool oriented_;
+  const double max_gap_;
   PoseReading orientations_;
   bool found_ = false;
-  std::string frame_;  // found last
-  int link_ = 0;       // that it is on
-  FixedFrame placed_;  // against this link
+  std::string frame_;          // found last
+  std::int64_t stamp_ns_ = 0;  // of its latest message
+  int link_ = 0;               // that it is on
+  FixedFrame placed_;          // against this link
 };
 
 }  // namespace virtual_work_dynamics

@@ -14,12 +14,15 @@
 #include "base/printable.h"
 #include "ros/message_text.h"
 #include "ros/private_name.h"
+#include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
 namespace {
 
 // How soon the node's own thread sees that it is to stop, or that a report is due.
 constexpr double kManageWait = 0.05;  // s
+// How long a sample may take to tell where a contact is.
+constexpr double kPlaceWait = 0.5;  // s
 // How often a gap of a joint is logged: those of a slow gripper come with each of its samples.
 constexpr std::chrono::seconds kGapPeriod{60};
 
@@ -53,7 +56,8 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       joint_watch_(task_.mechanism.coordinateNames(), task_.waitedFor(completer_.needed())),
       scene_inputs_(task_.mechanism, task_.scene, parameters.frame_prefix, parameters.root,
                     counters_),
-      plans_(compile(Audience())),
+      place_(Motion(task_.everything.coordinates(), task_.everything.orientations())),
+      plans_(compile(Audience(), task_.scene)),
       cross_check_(checks_.cross_check
                        ? std::make_unique<CrossCheck>(parameters.self_check.cross_check_rate)
                        : nullptr),
@@ -145,6 +149,7 @@ void InverseDynamicsNode::updateStreams() {
 }
 
 void InverseDynamicsNode::publish(const ActivePlan& plan) {
+  place_.offer(samples_.motion());
   publishPoint(plan);
   if (!sim_time_ && ros::Time::now() - receipt_ > late_threshold_) counters_.late.add();
 }
@@ -302,39 +307,73 @@ void InverseDynamicsNode::manage() {
     manage_queue_.callAvailable(ros::WallDuration(kManageWait));
     const Clock::time_point now = Clock::now();
     joint_watch_.setTime(now);
-    if (audience_changed_ || scene_inputs_.changed()) adaptPlan();
+    if (audience_changed_) adaptPlan();
+    const bool news =
+        scene_inputs_.changed() ? !waitsForPlace(now) : lacks_place_ && place_.motion();
+    if (news) adaptScene();
     plans_.collect();
     watchJoints(now);
     diagnostics_.update(now);
   }
 }
 
-std::unique_ptr<ActivePlan> InverseDynamicsNode::compile(const Audience& audience) const {
-  return std::make_unique<ActivePlan>(task_.mechanism, scene_inputs_.scene(), task_.outputs,
-                                      task_.reactions, audience, checks_);
+std::unique_ptr<ActivePlan> InverseDynamicsNode::compile(const Audience& audience,
+                                                         const Scene& scene) const {
+  return std::make_unique<ActivePlan>(task_.mechanism, scene, task_.outputs, task_.reactions,
+                                      audience, checks_);
+}
+
+void InverseDynamicsNode::offerPlan(std::unique_ptr<ActivePlan> plan) {
+  diagnostics_.setPlan(describe(*plan), operationsOf(*plan));
+  if (cross_check_) cross_check_->watch(plan->cross_check);
+  plans_.offer(std::move(plan));
 }
 
 void InverseDynamicsNode::adaptPlan() {
   audience_changed_ = false;
   const Audience audience = outputs_.audience();
   diagnostics_.setOutputs(outputs_.names(audience));
-  if (audience == audience_ && !scene_inputs_.changed()) return;
+  if (audience == audience_) return;
   try {
-    std::unique_ptr<ActivePlan> plan = compile(audience);
-    diagnostics_.setPlan(describe(*plan), operationsOf(*plan));
-    if (cross_check_) cross_check_->watch(plan->cross_check);
-    plans_.offer(std::move(plan));
+    offerPlan(compile(audience, scene_inputs_.scene()));
     audience_ = audience;
-    scene_inputs_.keep();
   } catch (const std::exception& error) {
-    if (scene_inputs_.changed()) {
-      audience_changed_ = audience != audience_;
-      scene_inputs_.takeBack(error.what());
-      return;
-    }
     ROS_ERROR("the change of subscribers failed, and what is computed stays as it is: %s",
               printable(error.what()).c_str());
   }
+}
+
+void InverseDynamicsNode::adaptScene() {
+  const Motion* const place = place_.motion();
+  const bool lacks_place = !place && counters_.accepted_joint_states.value() > 0;
+  std::unique_ptr<ActivePlan> plan;
+  scene_inputs_.say(scene_inputs_.adapt(
+      [&](const Scene& scene) { plan = compile(audience_, scene); },
+      [&](Scene& scene, const std::vector<std::size_t>& contacts) {
+        if (lacks_place) {
+          throw SceneError("where it is, is not known: no sample of joint states is computed");
+        }
+        // Of trajectories alone, there is nothing but the assembly.
+        if (place) placeContacts(task_.mechanism, *place, contacts, scene);
+      }));
+  if (plan) offerPlan(std::move(plan));
+  if (place) place_.clear();
+  closed_since_ = Clock::time_point();
+  lacks_place_ = lacks_place && scene_inputs_.closesSticking();
+}
+
+// Whether something sticks from now on, of which it is not known yet where: results are of instants
+// that lie behind.
+bool InverseDynamicsNode::waitsForPlace(Clock::time_point now) {
+  if (!scene_inputs_.closesSticking()) return false;
+  if (closed_since_ == Clock::time_point()) closed_since_ = now;
+  const std::chrono::duration<double> age = now - closed_since_;
+  if (age.count() < task_.estimator.lag) {
+    place_.clear();
+    return true;
+  }
+  place_.ask();
+  return !place_.motion() && age.count() < task_.estimator.lag + kPlaceWait;
 }
 
 void InverseDynamicsNode::watchJoints(Clock::time_point now) {

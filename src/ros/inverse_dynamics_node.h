@@ -21,6 +21,7 @@
 
 #include "dynamics/live_wrenches.h"
 #include "ros/certificate_record.h"
+#include "ros/contact_places.h"
 #include "ros/counters.h"
 #include "ros/cross_check.h"
 #include "ros/diagnostics.h"
@@ -98,8 +99,11 @@ class InverseDynamicsNode : private JointStateUser, private TrajectoryUser {
   // The node's own thread.
   void manage();
   void adaptPlan();
+  void adaptScene();
+  bool waitsForPlace(Clock::time_point now);
+  void offerPlan(std::unique_ptr<ActivePlan> plan);
   void watchJoints(Clock::time_point now);
-  std::unique_ptr<ActivePlan> compile(const Audience& audience) const;
+  std::unique_ptr<ActivePlan> compile(const Audience& audience, const Scene& scene) const;
 
   const RobotTask task_;
   const int output_queue_;
@@ -132,6 +136,9 @@ class InverseDynamicsNode : private JointStateUser, private TrajectoryUser {
   JointWatch joint_watch_;
   ros::CallbackQueue manage_queue_;  // of the node's own thread
   SceneInputs scene_inputs_;
+  MotionSlot place_;                  // of contacts that are to be closed where they are
+  Clock::time_point closed_since_{};  // when the first one came; zero: none did
+  bool lacks_place_ = false;          // so that one was refused
   PlanSwitch plans_;
   std::unique_ptr<CrossCheck> cross_check_;  // null when off
 

@@ -325,7 +325,8 @@ Outputs makeOutputs(const Mechanism& mechanism, const Dynamics& everything,
   }
   const Names contacts = movingContacts(settings.scene, settings.reactions);
   if (!contacts.empty()) {
-    outputs.push_back(makeContactFrames(contacts, root_frame, settings.frame_prefix));
+    outputs.push_back(
+        makeContactFrames(contacts, root_frame, settings.frame_prefix, settings.marker_rate));
   }
   if (everything.closed()) {
     outputs.push_back(std::make_unique<DeterminacyOutput>(mechanism, everything, settings));

@@ -114,7 +114,7 @@ struct OutputSettings {
   double condition_warn = kCloseToSingular;  ///< a larger condition is close to a singular position
   Scene scene;                               ///< whose closures and springs are shown
   std::shared_ptr<DeviationRecord> deviations;  ///< what they are recorded in; null: no deviations
-  double marker_rate = 20;                      ///< largest rate of ~markers, Hz
+  double marker_rate = 20;                      ///< largest one of ~markers and /tf, Hz
   RootSettings root{};                          ///< in which axes reactions are
   std::shared_ptr<EffortMeasurements> efforts{};  ///< null: nothing is measured
   std::shared_ptr<ThresholdRecord> external{};    ///< of external efforts; null: no thresholds

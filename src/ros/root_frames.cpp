@@ -12,9 +12,7 @@ RootFrames::RootFrames(std::string inertial_frame, std::string link, double max_
     : inertial_frame_(std::move(inertial_frame)), link_(std::move(link)), record_(max_gap) {}
 
 void RootFrames::take(const geometry_msgs::TransformStamped& transform, bool is_static) {
-  const std::uint64_t restarts = record_.restarts();
   record_.take(transform, is_static);
-  if (record_.restarts() != restarts) found_ = ros::Time();
 }
 
 bool RootFrames::findNew(geometry_msgs::TransformStamped& found) {

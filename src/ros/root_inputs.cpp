@@ -75,9 +75,13 @@ void RootInputs::receive(const ros::MessageEvent<const Message>& event) {
 }
 
 void RootInputs::takeStatic(const tf2_msgs::TFMessage& message) {
-  messages_.takeStatic(message, [this](const Rejection& rejection) {
-    drop_(static_subscriber_.getTopic(), rejection.reason, rejection.text);
-  });
+  try {
+    messages_.takeStatic(message, [this](const Rejection& rejection) {
+      drop_(static_subscriber_.getTopic(), rejection.reason, rejection.text);
+    });
+  } catch (const std::exception& error) {
+    drop_(static_subscriber_.getTopic(), DropReason::kInternal, printable(error.what()));
+  }
 }
 
 }  // namespace virtual_work_dynamics

@@ -20,7 +20,7 @@ RootMessages::RootMessages(const RootSettings& settings, const Mechanism& mechan
       counters_(counters),
       conversion_(settings.inertial_frame,
                   settings.link.empty() ? frame_prefix + mechanism.link(0).name : settings.link),
-      imu_conversion_(mechanism, frame_prefix, settings.axes != RootAxes::kRoot) {
+      imu_conversion_(mechanism, frame_prefix, settings.axes != RootAxes::kRoot, max_gap_) {
   const auto timeout_ns = static_cast<std::int64_t>(std::llround(settings.timeout * 1e9));
   if (settings.source == RootSource::kNone) return;
   if (settings.source == RootSource::kTrajectory) {

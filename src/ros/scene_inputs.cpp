@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <exception>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "ros/topic_names.h"
 #include "scene/closure_types.h"
 #include "scene/payloads.h"
+#include "scene/touch_rows.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -23,6 +25,10 @@ constexpr std::uint32_t kQueue = 10;
 std::string textOf(const Eigen::Vector3d& vector) {
   return "[" + numberText(vector.x()) + ", " + numberText(vector.y()) + ", " +
          numberText(vector.z()) + "]";
+}
+
+void addSentence(std::string& sentences, const std::string& sentence) {
+  sentences += (sentences.empty() ? "" : "; ") + sentence;
 }
 
 bool sameBody(const Payload& one, const Payload& other) {
@@ -38,7 +44,7 @@ SceneInputs::SceneInputs(const Mechanism& mechanism, const Scene& scene, std::st
       root_(root),
       counters_(counters),
       scene_(scene),
-      kept_(scene) {}
+      wanted_(scene) {}
 
 template <typename Message>
 ros::Subscriber SceneInputs::listen(
@@ -121,11 +127,21 @@ std::map<std::string, int> SceneInputs::contactTopics() const {
 }
 
 std::optional<Rejection> SceneInputs::takeContact(int closure, const std_msgs::Bool& message) {
-  Closure& contact = scene_.closures[static_cast<std::size_t>(closure)];
+  const auto index = static_cast<std::size_t>(closure);
+  Closure contact = wanted_.closures[index];
   const bool closed = message.data != 0;
   if (contact.touch.closed == closed) return std::nullopt;
   contact.touch.closed = closed;
-  changes_.push_back(inQuotes(contact.name) + (closed ? " touches" : " is lifted"));
+  Change change;
+  change.of = contactTopic(closure);
+  change.text = inQuotes(contact.name) + (closed ? " touches" : " is lifted");
+  change.apply = [index, closed](Scene& scene) { scene.closures[index].touch.closed = closed; };
+  const std::vector<TouchRow> rows = touchRows(contact);
+  if (std::any_of(rows.begin(), rows.end(),
+                  [](const TouchRow& row) { return row.adopts_constant; })) {
+    change.sticks = index;
+  }
+  want(std::move(change));
   return std::nullopt;
 }
 
@@ -156,22 +172,26 @@ std::optional<Rejection> SceneInputs::takePayload(int link,
     const std::string problem = payloadProblem(payload);
     if (!problem.empty()) return Rejection{DropReason::kNoBody, problem};
   }
-  std::vector<Payload> payloads;
-  bool is_there = false;
-  for (const Payload& other : scene_.payloads) {
-    if (other.link != payload.link) {
-      payloads.push_back(other);
-    } else {
-      is_there = is_there || removed || sameBody(other, payload);
-    }
+  const auto of_link = [&](const Payload& other) { return other.link == payload.link; };
+  const auto& payloads = wanted_.payloads;
+  const auto there = std::find_if(payloads.begin(), payloads.end(), of_link);
+  if (removed ? there == payloads.end() : there != payloads.end() && sameBody(*there, payload)) {
+    return std::nullopt;  // as before
   }
-  if (removed != is_there) return std::nullopt;  // as before
-  if (!removed) payloads.push_back(payload);
-  scene_.payloads = std::move(payloads);
-  changes_.push_back(
+  Change change;
+  change.of = payloadTopic(link);
+  change.text =
       "link " + inQuotes(payload.link) +
       (removed ? " carries nothing"
-               : " carries " + numberText(payload.mass) + " kg at " + textOf(payload.at) + " m"));
+               : " carries " + numberText(payload.mass) + " kg at " + textOf(payload.at) + " m");
+  change.apply = [payload, removed](Scene& scene) {
+    auto& all = scene.payloads;
+    all.erase(std::remove_if(all.begin(), all.end(),
+                             [&](const Payload& other) { return other.link == payload.link; }),
+              all.end());
+    if (!removed) all.push_back(payload);
+  };
+  want(std::move(change));
   return std::nullopt;
 }
 
@@ -197,41 +217,91 @@ std::optional<Rejection> SceneInputs::takeGravity(int,
     if (auto rejection = findFixedFrame(mechanism_, frame_prefix_, id, 0, frame)) return rejection;
     gravity = frame.R * gravity;
   }
-  if (gravity == scene_.gravity) return std::nullopt;
-  scene_.gravity = gravity;
-  changes_.push_back("gravity is " + textOf(gravity) + " m/s^2");
+  if (gravity == wanted_.gravity) return std::nullopt;
+  Change change;
+  change.of = "gravity";
+  change.text = "gravity is " + textOf(gravity) + " m/s^2";
+  change.apply = [gravity](Scene& scene) { scene.gravity = gravity; };
+  want(std::move(change));
   return std::nullopt;
 }
 
-std::string SceneInputs::changes() const {
-  std::string text;
-  for (const std::string& change : changes_) text += (text.empty() ? "" : "; ") + change;
-  return text;
+void SceneInputs::want(Change change) {
+  change.apply(wanted_);
+  const auto replaced = [&](const Change& other) { return other.of == change.of; };
+  changes_.erase(std::remove_if(changes_.begin(), changes_.end(), replaced), changes_.end());
+  changes_.push_back(std::move(change));
+  changed_ = true;
 }
 
-void SceneInputs::keep() {
-  // What comes at a rate, as gravity from a sensor, is said now and then.
-  if (!changes_.empty() && change_throttle_.open()) {
-    ROS_INFO("The scene has changed: %s", changes().c_str());
+bool SceneInputs::closesSticking() const {
+  return std::any_of(changes_.begin(), changes_.end(),
+                     [](const Change& change) { return change.sticks.has_value(); });
+}
+
+void SceneInputs::attempt(const std::vector<Change>& changes, const Compile& compile,
+                          const Place& place) {
+  Scene scene = scene_;
+  std::vector<std::size_t> sticking;
+  for (const Change& change : changes) {
+    change.apply(scene);
+    if (change.sticks) sticking.push_back(*change.sticks);
   }
-  keepQuietly();
+  if (!sticking.empty()) place(scene, sticking);
+  compile(scene);
+  scene_ = std::move(scene);
 }
 
-void SceneInputs::keepQuietly() {
-  kept_ = scene_;
-  changes_.clear();
+SceneInputs::News SceneInputs::adapt(const Compile& compile, const Place& place) {
+  changed_ = false;
+  News news;
+  // Tries changes, which are then no longer wanted. Returns why not.
+  const auto refusal = [&](const std::vector<Change>& changes) -> std::string {
+    try {
+      attempt(changes, compile, place);
+    } catch (const std::exception& error) {
+      return printable(error.what());
+    }
+    for (const Change& change : changes) addSentence(news.changes, change.text);
+    return "";
+  };
+  // One foot may be lifted when the other one stands: all at once, then each as often as needed.
+  const std::string why_not = refusal(changes_);
+  if (why_not.empty()) {
+    changes_.clear();
+    return news;
+  }
+  std::vector<std::string> why(changes_.size(), why_not);
+  for (bool again = changes_.size() > 1; again;) {
+    again = false;
+    for (std::size_t i = 0; i < changes_.size();) {
+      why[i] = refusal({changes_[i]});
+      if (!why[i].empty()) {
+        ++i;
+        continue;
+      }
+      changes_.erase(changes_.begin() + static_cast<std::ptrdiff_t>(i));
+      why.erase(why.begin() + static_cast<std::ptrdiff_t>(i));
+      again = true;
+    }
+  }
+  for (std::size_t i = 0; i < changes_.size(); ++i) {
+    if (changes_[i].why_not != why[i])
+      addSentence(news.refused, changes_[i].text + " (" + why[i] + ")");
+    changes_[i].why_not = why[i];
+  }
+  return news;
 }
 
-void SceneInputs::takeBackQuietly() {
-  scene_ = kept_;
-  changes_.clear();
-}
-
-void SceneInputs::takeBack(const std::string& why) {
-  takeBackQuietly();
-  ROS_ERROR(
-      "the change of payload, gravity or contact failed, and what is computed stays as it is: %s",
-      printable(why).c_str());
+void SceneInputs::say(const News& news) {
+  // What comes at a rate, as gravity from a sensor, is said now and then.
+  if (!news.changes.empty() && change_throttle_.open()) {
+    ROS_INFO("The scene has changed: %s", news.changes.c_str());
+  }
+  if (!news.refused.empty()) {
+    ROS_ERROR("A change of the scene is refused, and is tried again with the next one: %s",
+              news.refused.c_str());
+  }
 }
 
 void SceneInputs::drop(const std::string& topic, const Rejection& rejection) {

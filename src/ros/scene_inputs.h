@@ -7,6 +7,8 @@
 #include <ros/subscriber.h>
 #include <std_msgs/Bool.h>
 
+#include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -35,18 +37,29 @@ class SceneInputs {
 
   void subscribe(ros::NodeHandle private_node, ros::CallbackQueueInterface& queue);
 
+  /// The scene that is computed with, of all that was wanted and not refused.
   const Scene& scene() const { return scene_; }
-  /// Whether the scene is another one than that of the last keep() or takeBack().
-  bool changed() const { return !changes_.empty(); }
-  /// What has changed since then, as sentences say it.
-  std::string changes() const;
-  /// The scene was compiled: says what has changed.
-  void keep();
-  /// The scene was refused: goes back to that of the last keep(), and says why.
-  void takeBack(const std::string& why);
-  /// As keep() and takeBack(), without a word.
-  void keepQuietly();
-  void takeBackQuietly();
+  /// Whether something is wanted that adapt() has not tried yet.
+  bool changed() const { return changed_; }
+  /// Whether something that sticks where it touches is to be closed.
+  bool closesSticking() const;
+
+  /// Compiles a scene; throws where it is refused.
+  using Compile = std::function<void(const Scene& scene)>;
+  /// Has contacts that are to be closed stick where they are, by their indices among the scene's
+  /// closures; throws where that cannot be.
+  using Place = std::function<void(Scene& scene, const std::vector<std::size_t>& contacts)>;
+  /// What became of what was wanted, as sentences say it.
+  struct News {
+    std::string changes;
+    std::string refused;  ///< what was not refused before for the same reason, with the reason
+  };
+  /// Compiles the scene that is wanted; where it is refused, with as many of the changes as can be,
+  /// of which the last one compiled is scene(). What is refused stays wanted, and is tried again
+  /// with all that comes later.
+  News adapt(const Compile& compile, const Place& place);
+  /// Says the news to the user.
+  void say(const News& news);
 
   // Each take() takes a message, and returns why it is to be dropped, or nothing.
 
@@ -68,6 +81,17 @@ class SceneInputs {
                          const std::string& topic,
                          std::optional<Rejection> (SceneInputs::*take)(int, const Message&),
                          int index);
+  // A change of the scene that has not been compiled.
+  struct Change {
+    std::string of;    // what it replaces a change of
+    std::string text;  // as a sentence says it
+    std::function<void(Scene& scene)> apply;
+    std::optional<std::size_t> sticks;  // the closure that it closes
+    std::string why_not;                // it was refused; empty: not yet
+  };
+
+  void want(Change change);
+  void attempt(const std::vector<Change>& changes, const Compile& compile, const Place& place);
   bool isDescribed(int link) const;
   std::string payloadTopic(int link) const;
   std::string contactTopic(int closure) const;
@@ -77,8 +101,9 @@ class SceneInputs {
   const std::string frame_prefix_;
   const RootSettings root_;
   Counters& counters_;
-  Scene scene_, kept_;
-  std::vector<std::string> changes_;  // since it was kept, as sentences say them
+  Scene scene_, wanted_;
+  std::vector<Change> changes_;  // from the one to the other
+  bool changed_ = false;         // since they were tried
   Throttle drop_throttle_, change_throttle_;
   std::vector<ros::Subscriber> subscribers_;
 };

@@ -3,6 +3,7 @@ foreach(file
     active_plan.cpp
     closure_frames.cpp
     contact_frames.cpp
+    contact_places.cpp
     counters.cpp
     cross_check.cpp
     described_robot.cpp

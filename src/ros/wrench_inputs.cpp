@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <iterator>
 #include <utility>
 
 #include "base/number_text.h"
@@ -57,7 +58,7 @@ void WrenchInputs::subscribe(ros::NodeHandle private_node, const std::vector<std
 
 void WrenchInputs::receive(std::size_t i, const Message& message) {
   counters_.wrenches.add();
-  guard(i, [&]() -> std::optional<Rejection> {
+  guard(subscribers_[i].getTopic(), [&]() -> std::optional<Rejection> {
     const bool foreign = !message->header.frame_id.empty() && !message->header.stamp.isZero() &&
                          !conversion_.knowsFrame(i, *message);
     if (foreign && root_.source == RootSource::kImu &&
@@ -67,27 +68,20 @@ void WrenchInputs::receive(std::size_t i, const Message& message) {
                            " is the inertial one, and an IMU does not tell where the root link is "
                            "in it"};
     }
-    if (!foreign && !waits(i)) return conversion_.take(i, *message);
+    if (!foreign) return conversion_.take(i, *message);
     wait(i, message);
     return std::nullopt;
   });
 }
 
 // A message whose processing throws, for example for lack of memory, is dropped, too.
-void WrenchInputs::guard(std::size_t i, const std::function<std::optional<Rejection>()>& take) {
+void WrenchInputs::guard(const std::string& topic,
+                         const std::function<std::optional<Rejection>()>& take) {
   try {
-    if (const auto rejection = take()) {
-      drop_(subscribers_[i].getTopic(), rejection->reason, rejection->text);
-    }
+    if (const auto rejection = take()) drop_(topic, rejection->reason, rejection->text);
   } catch (const std::exception& error) {
-    drop_(subscribers_[i].getTopic(), DropReason::kInternal, printable(error.what()));
+    drop_(topic, DropReason::kInternal, printable(error.what()));
   }
-}
-
-// Whether messages of a wrench wait, so that others have to queue up behind them.
-bool WrenchInputs::waits(std::size_t i) const {
-  return std::any_of(waiting_.begin(), waiting_.end(),
-                     [i](const Waiting& waiting) { return waiting.i == i; });
 }
 
 void WrenchInputs::wait(std::size_t i, const Message& message) {
@@ -97,9 +91,17 @@ void WrenchInputs::wait(std::size_t i, const Message& message) {
   };
   const Clock::time_point until =
       std::max(Clock::now() + patience(timeout_), foreign_since_ + patience(kBegins));
-  if (waiting_.size() == kMostWaiting) waiting_.front().until = Clock::time_point();
-  waiting_.push_back({i, message, until});
-  takeWaiting();
+  WaitingOfFrame& waiting = waiting_[{i, message->header.frame_id}];
+  auto later = waiting.end();
+  while (later != waiting.begin() &&
+         message->header.stamp < std::prev(later)->message->header.stamp) {
+    --later;
+  }
+  waiting.insert(later, {message, until});
+  ++waiting_count_;
+  takeWaiting(i, waiting);
+  if (waiting_count_ > kMostWaiting && !waiting.empty()) takeFirst(i, waiting, nullptr);
+  if (waiting.empty()) waiting_.erase({i, message->header.frame_id});
 }
 
 void WrenchInputs::listenToTf() {
@@ -107,10 +109,13 @@ void WrenchInputs::listenToTf() {
   foreign_since_ = Clock::now();
   ros::NodeHandle node;
   using Transforms = tf2_msgs::TFMessageConstPtr;
-  const auto listen = [&](const char* topic, bool is_static) {
+  const auto listen = [&](const std::string& topic, bool is_static) {
     return node.subscribe<tf2_msgs::TFMessage>(topic, 1000,
-                                               [this, is_static](const Transforms& message) {
-                                                 foreign_->take(*message, is_static);
+                                               [this, topic, is_static](const Transforms& message) {
+                                                 guard(topic, [&]() -> std::optional<Rejection> {
+                                                   foreign_->take(*message, is_static);
+                                                   return std::nullopt;
+                                                 });
                                                  takeWaiting();
                                                });
   };
@@ -121,35 +126,44 @@ void WrenchInputs::listenToTf() {
   ROS_INFO("A wrench is measured in a frame that is no link of the robot; such frames are from tf");
 }
 
-// Takes messages whose frames are known by now, those of each wrench in their order, and drops
-// those that have waited too long.
 void WrenchInputs::takeWaiting() {
-  std::deque<Waiting> left;
-  std::vector<bool> blocked(subscribers_.size(), false);
-  const Clock::time_point now = Clock::now();
-  std::swap(left, waiting_);
-  for (Waiting& each : left) {
-    const geometry_msgs::WrenchStamped& message = *each.message;
-    const bool is_link = conversion_.knowsFrame(each.i, message);
-    std::optional<MeasuringFrame> frame;
-    if (!is_link && !blocked[each.i]) {
-      frame = foreign_->find(message.header.frame_id,
-                             static_cast<std::int64_t>(message.header.stamp.toNSec()));
-    }
-    if ((!frame && !is_link && now < each.until) || (blocked[each.i] && now < each.until)) {
-      blocked[each.i] = true;
-      waiting_.push_back(std::move(each));
-      continue;
-    }
-    guard(each.i, [&]() -> std::optional<Rejection> {
-      auto rejection = conversion_.take(each.i, message, frame ? &*frame : nullptr);
-      if (rejection && rejection->reason == DropReason::kUnknownFrame) {
-        rejection->text += ", and tf tells of no way from it to one at stamp " +
-                           stampText(static_cast<std::int64_t>(message.header.stamp.toNSec()));
-      }
-      return rejection;
-    });
+  for (auto each = waiting_.begin(); each != waiting_.end();) {
+    takeWaiting(each->first.first, each->second);
+    each = each->second.empty() ? waiting_.erase(each) : std::next(each);
   }
+}
+
+// Takes messages whose frame is known by now, and drops those that have waited too long, or that
+// lie before all that tf tells of it. Where the earliest one has to wait, so have those behind it.
+void WrenchInputs::takeWaiting(std::size_t i, WaitingOfFrame& waiting) {
+  const Clock::time_point now = Clock::now();
+  while (!waiting.empty()) {
+    std::optional<MeasuringFrame> frame;
+    bool waits = false;
+    guard(subscribers_[i].getTopic(), [&]() -> std::optional<Rejection> {
+      const std_msgs::Header& header = waiting.front().message->header;
+      const auto stamp_ns = static_cast<std::int64_t>(header.stamp.toNSec());
+      frame = foreign_->find(header.frame_id, stamp_ns);
+      waits = !frame && now < waiting.front().until && !foreign_->isPast(header.frame_id, stamp_ns);
+      return std::nullopt;
+    });
+    if (waits) return;
+    takeFirst(i, waiting, frame ? &*frame : nullptr);
+  }
+}
+
+void WrenchInputs::takeFirst(std::size_t i, WaitingOfFrame& waiting, const MeasuringFrame* frame) {
+  const Message message = std::move(waiting.front().message);
+  waiting.pop_front();
+  --waiting_count_;
+  guard(subscribers_[i].getTopic(), [&]() -> std::optional<Rejection> {
+    auto rejection = conversion_.take(i, *message, frame);
+    if (rejection && rejection->reason == DropReason::kUnknownFrame) {
+      rejection->text += ", and tf tells of no way from it to one at stamp " +
+                         stampText(static_cast<std::int64_t>(message->header.stamp.toNSec()));
+    }
+    return rejection;
+  });
 }
 
 std::string WrenchInputs::problem(std::size_t i) const {

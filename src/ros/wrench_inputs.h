@@ -9,9 +9,11 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "dynamics/live_wrenches.h"
@@ -26,7 +28,7 @@ namespace virtual_work_dynamics {
 
 /// The subscriptions to the topics of live wrenches. Frames that are no links of the robot are
 /// looked up in tf, which is subscribed to when the first one comes; messages wait for it a little,
-/// in their order, and nothing else does.
+/// those of a frame in the order of their stamps, and nothing else does.
 class WrenchInputs {
  public:
   /// Counts, and says to the user, why a message of a topic is dropped.
@@ -54,17 +56,19 @@ class WrenchInputs {
   using Message = geometry_msgs::WrenchStampedConstPtr;
   // A message whose frame is not known yet.
   struct Waiting {
-    std::size_t i;
     Message message;
     Clock::time_point until;
   };
+  // Those of a wrench in a frame, the earliest one first.
+  using WaitingOfFrame = std::deque<Waiting>;
 
   void receive(std::size_t i, const Message& message);
-  void guard(std::size_t i, const std::function<std::optional<Rejection>()>& take);
-  bool waits(std::size_t i) const;
+  void guard(const std::string& topic, const std::function<std::optional<Rejection>()>& take);
   void wait(std::size_t i, const Message& message);
   void listenToTf();
   void takeWaiting();
+  void takeWaiting(std::size_t i, WaitingOfFrame& waiting);
+  void takeFirst(std::size_t i, WaitingOfFrame& waiting, const MeasuringFrame* frame);
 
   const Mechanism& mechanism_;
   const std::string frame_prefix_;
@@ -79,7 +83,8 @@ class WrenchInputs {
   Clock::time_point foreign_since_;
   ros::Subscriber tf_, tf_static_;
   ros::SteadyTimer patience_;
-  std::deque<Waiting> waiting_;
+  std::map<std::pair<std::size_t, std::string>, WaitingOfFrame> waiting_;
+  std::size_t waiting_count_ = 0;
 };
 
 }  // namespace virtual_work_dynamics

@@ -213,7 +213,7 @@ void useRootPoses(Values& values) {
 
 void useImu(Values& values) {
   const bool oriented = values.yes();
-  ImuConversion conversion(robot(), values.yes() ? "" : "left/", oriented);
+  ImuConversion conversion(robot(), values.yes() ? "" : "left/", oriented, 0.25);
   RootImu imu(EstimatorSettings(), 100000000, {0, 0, -9.81}, oriented);
   sensor_msgs::Imu message;
   message.header.stamp.sec = values.integer<std::uint32_t>();

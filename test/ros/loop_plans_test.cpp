@@ -393,6 +393,10 @@ TEST(ClosureFrames, AreThoseOfTheChildren) {
   EXPECT_TRUE(closureFrames(mechanism, scene, {"joint_1"}, "").transforms.empty());
   scene.closures[0].name = "link_2";
   EXPECT_THROW(closureFrames(mechanism, scene, {"link_2"}, ""), SceneError);
+  scene.closures[0].type = ClosureType::kContact;  // whose frame moves, on /tf
+  EXPECT_THROW(closureFrames(mechanism, scene, {"link_2"}, ""), SceneError);
+  scene.closures[0].name = "heel";
+  EXPECT_TRUE(closureFrames(mechanism, scene, {"heel"}, "").transforms.empty());
 }
 
 }  // namespace

@@ -302,14 +302,10 @@ class RootPoses(RootTest):
         # What the unit measured there says nothing of here.
         self.start('imu', robot=with_unit('wrist_1'))
         self.send(*[imu(self.arm, EPOCH + i * 5 * MS, link='wrist_1') for i in range(100)])
-        other = [imu(self.arm, EPOCH + i * 5 * MS) for i in range(100, 200)]
-        for message in other:
-            message.header.frame_id = ROOT
-            rate, force, _ = self.arm.unit(message.header.stamp.to_nsec(), np.zeros(3), np.eye(3))
-            message.angular_velocity = Vector3(*rate)
-            message.linear_acceleration = Vector3(*force)
-        self.send(*other)
-        stamps = [EPOCH + 700 * MS, EPOCH + 800 * MS]
+        # After a pause of 0.3 s, of more than ~estimator/max_gap.
+        self.send(*[self.unit_on_root(EPOCH + i * 5 * MS) for i in range(160, 260)])
+        self.assertEqual(self.node.diagnostics()['dropped'], '0')
+        stamps = [EPOCH + 1000 * MS, EPOCH + 1100 * MS]
         self.play(stamps)
         for message in self.efforts.wait(len(stamps)):
             wanted = self.arm.efforts(message.header.stamp.to_nsec())
@@ -317,6 +313,29 @@ class RootPoses(RootTest):
         self.play([EPOCH + 300 * MS])
         values = self.node.wait_for_count('dropped: no root motion', 1)
         self.assertIn('tells how the root link moves from stamp', values['last drop'])
+
+    def unit_on_root(self, ns):
+        message = imu(self.arm, ns)
+        message.header.frame_id = ROOT
+        rate, force, _ = self.arm.unit(ns, np.zeros(3), np.eye(3))
+        message.angular_velocity = Vector3(*rate)
+        message.linear_acceleration = Vector3(*force)
+        return message
+
+    def test_imus_by_turns(self):
+        self.start('imu', robot=with_unit('wrist_1'))
+        for i in range(100):
+            self.roots.publish(self.unit_on_root(EPOCH + i * 5 * MS))
+            self.roots.publish(imu(self.arm, EPOCH + i * 5 * MS + 2 * MS, link='wrist_1'))
+        self.sent = 200
+        values = self.node.wait_for_count('dropped: unknown frame', 100)
+        self.assertIn("imu: its frame 'unit' is another one than '%s' of the unit that is listened to"
+                      % ROOT, values['last drop'])
+        stamps = [EPOCH + 300 * MS, EPOCH + 400 * MS]
+        self.play(stamps)
+        for message in self.efforts.wait(len(stamps)):
+            wanted = self.arm.efforts(message.header.stamp.to_nsec())
+            self.assertLess(max(np.abs(np.array(message.effort) - wanted)), 0.02)
 
     def test_imu_of_noise(self):
         self.start('imu', robot=WITH_UNIT)

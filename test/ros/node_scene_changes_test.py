@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Payloads and gravity that change while the node runs."""
 import math
+import time
 
 from geometry_msgs.msg import InertiaStamped, Vector3Stamped
 from sensor_msgs.msg import JointState
@@ -150,6 +151,24 @@ class SceneChanges(NodeTest):
                          [-math.sin(ANGLE) - 0.2, 0, -math.cos(ANGLE)], EXACT, 'contact')
         self.assertClose(rotated(turn, 2), [1, 0, 0], EXACT, 'normal')
         self.assertClose(rotated(turn, 1), [0, 1, 0], EXACT, 'axle')
+        # What is planned is not there, and the rest comes at ~marker_rate.
+        trajectories = self.node.feed('joint_trajectory', JointTrajectory)
+        message = JointTrajectory(joint_names=['wheel'])
+        message.header.stamp = ros_time(EPOCH + 1000 * STEP)
+        message.points = [trajectory_point(i * STEP, ['wheel'], ({'wheel': 0.1}, {'wheel': 0}, {'wheel': 0}))
+                          for i in range(10)]
+        before = time.monotonic()
+        trajectories.publish(message)
+        planned = self.efforts.wait(self.sent + 10)
+        self.assertEqual(len(planned), self.sent + 10)
+        time.sleep(0.06)
+        for i in range(100):
+            self.states.publish(joint_state(EPOCH + (self.sent + i) * STEP, {'wheel': ANGLE}))
+        self.efforts.wait(self.sent + 110)
+        found = frames.wait(2)
+        stamps = [each.transforms[0].header.stamp.to_nsec() for each in found]
+        self.assertLess(max(stamps), EPOCH + 1000 * STEP)
+        self.assertLessEqual(len(found), 2 + 20 * (time.monotonic() - before))
 
     def test_payloads_of_the_scene_are_replaced(self):
         self.start({'payload': [{'link': 'bob', 'mass': 1, 'at': [0, 0, -1]}]})

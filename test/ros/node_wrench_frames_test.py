@@ -147,6 +147,52 @@ class Frames(NodeTest):
         self.trajectories.publish(trajectory([0], EPOCH + 10 * MS))
         self.efforts.wait(1)
 
+    def standing(self, **parameters):
+        """The arm on a frame of tf, beside which there is a plate; tf is heard from now on."""
+        self.start(SMALL_ARM, live(), parameters)
+        self.wrenches.publish(wrench(EPOCH - 1000 * MS, frame='nowhere_of_test'))
+        wait_until(lambda: self.tf.get_num_connections() > 0, self.node.output)
+        self.node.wait_for_count('dropped: unknown frame', 1)
+
+    def send_plate(self, first, last):
+        for i in range(first, last, 10):
+            ns = EPOCH + i * MS
+            self.tf.publish(TFMessage([
+                frame('world_of_test', 'stand', ns, np.eye(4)),
+                frame('world_of_test', 'plate_of_test', ns, pose_of(TURN, AT))]))
+
+    def test_stamps_of_all_sizes(self):
+        # Differences of such stamps do not fit into ros::Duration.
+        self.standing()
+        for stamp in (3000000000, 10, 4294967295, 0, 2147483648):
+            self.tf.publish(TFMessage([frame('world_of_test', 'ball', stamp * 1000 * MS, np.eye(4))]))
+        self.send_plate(0, 110)
+        self.wrenches.publish(wrench(EPOCH + 50 * MS, frame='plate_of_test'))
+        self.wait_until_taken(EPOCH + 50 * MS)
+        self.assertEqual(self.node.diagnostics()['dropped: internal'], '0')
+
+    def test_what_lies_before_all_of_tf_is_dropped_at_once(self):
+        self.standing(wrench_timeout=30)
+        self.send_plate(0, 110)
+        self.wrenches.publish(wrench(EPOCH - 20 * MS, frame='plate_of_test'))
+        # By patience it would wait for 30 s.
+        values = self.node.wait_for_count('dropped: unknown frame', 2)
+        self.assertIn("its frame 'plate_of_test' is not a link", values['last drop'])
+        self.wrenches.publish(wrench(EPOCH + 50 * MS, frame='plate_of_test'))
+        self.wait_until_taken(EPOCH + 50 * MS)
+
+    def test_what_is_known_passes_what_is_not(self):
+        self.standing(wrench_timeout=30)
+        self.send_plate(0, 110)
+        self.wrenches.publish(wrench(EPOCH + 10 * MS, frame='nowhere_of_test'))
+        # A stamp of the future does not hold up what comes behind it, either.
+        self.wrenches.publish(wrench(EPOCH + 5000 * MS, frame='plate_of_test'))
+        self.wrenches.publish(wrench(EPOCH + 50 * MS, frame='plate_of_test'))
+        self.wait_until_taken(EPOCH + 50 * MS)
+        self.wrenches.publish(wrench(EPOCH + 60 * MS))
+        self.wait_until_taken(EPOCH + 60 * MS)
+        self.assertEqual(self.node.diagnostics()['dropped: unknown frame'], '1')
+
     def carried(self, parameters=None):
         self.arm = CarriedArm()
         self.start(ARM, {'root': 'moving', 'reactions': 'none', 'applied_wrenches': [

@@ -185,5 +185,52 @@ TEST(RootFrames, StartAnewWhenTimeGoesBack) {
   EXPECT_EQ(found.header.stamp.toSec(), 5);
 }
 
+// Of other frames on the topic, whose clocks may be of any kind.
+TEST(RootFrames, ForgetOnlyWhatGoesBack) {
+  RootFrames frames("odom", "base", 0.25);
+  geometry_msgs::TransformStamped found;
+  frames.take(transform("odom", "cart", 10), false);
+  frames.take(transform("cart", "base", 10), false);
+  ASSERT_TRUE(frames.findNew(found));
+  for (int i = 0; i < 100; ++i) {
+    frames.take(transform("map", "ball", i % 2 == 0 ? 100 : 5), false);
+    EXPECT_FALSE(frames.findNew(found)) << i;
+    EXPECT_EQ(frames.problem(), "") << i;
+  }
+  // What comes before the other frame has gone back, too, is known with it.
+  frames.take(transform("odom", "cart", 5), false);
+  EXPECT_NE(frames.problem(), "");
+  frames.take(transform("cart", "base", 5), false);
+  ASSERT_TRUE(frames.findNew(found));
+  EXPECT_EQ(found.header.stamp.toSec(), 5);
+}
+
+// Frames that go back all the time do not hold up others that go back once.
+TEST(RootFrames, FindFramesThatWentBackAmongMany) {
+  RootFrames frames("odom", "base", 0.25);
+  geometry_msgs::TransformStamped found;
+  for (int i = 0; i < 900; ++i) {
+    frames.take(transform("odom", "base", 10 + 0.01 * i), false);
+    frames.take(transform("map", "ball", i % 2 == 0 ? 100 : 5), false);
+  }
+  int needed = 0;
+  for (; needed < 900; ++needed) {
+    frames.take(transform("odom", "base", 1 + 0.01 * needed), false);
+    if (frames.findNew(found) && found.header.stamp.toSec() < 10) break;
+  }
+  EXPECT_EQ(needed, 0);
+}
+
+// Differences of such stamps do not fit into ros::Duration.
+TEST(RootFrames, TakeStampsOfAllSizes) {
+  RootFrames frames("odom", "base", 0.25);
+  geometry_msgs::TransformStamped found;
+  for (const double stamp : {3e9, 10.0, 4294967290.0, 4294967280.0, 11.0}) {
+    frames.take(transform("odom", "base", stamp), false);
+  }
+  ASSERT_TRUE(frames.findNew(found));
+  EXPECT_EQ(found.header.stamp.toSec(), 11);
+}
+
 }  // namespace
 }  // namespace virtual_work_dynamics

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "virtual_work_dynamics/mechanism.h"
+#include "virtual_work_dynamics/motion.h"
+#include "virtual_work_dynamics/scene.h"
+
+namespace virtual_work_dynamics {
+
+/// Starts the assembly of a scene at a position, so that what sticks there does so where it is.
+/// @param contacts indices of closures that stick
+/// @throws SceneError naming one that would nevertheless stick elsewhere; as Dynamics does, where
+///   the scene is refused.
+void placeContacts(const Mechanism& mechanism, const Motion& at,
+                   const std::vector<std::size_t>& contacts, Scene& scene);
+
+/// Hands a motion from the computing thread to another one that asks for it. The computing side
+/// neither waits nor allocates.
+class MotionSlot {
+ public:
+  /// @param motion of the size of those that come
+  explicit MotionSlot(Motion motion) : motion_(std::move(motion)) {}
+
+  /// For the asking thread: wants the next motion, unless one is here or on its way.
+  void ask() {
+    State empty = State::kEmpty;
+    state_.compare_exchange_strong(empty, State::kAsked);
+  }
+  /// For the asking thread: the motion that came; null: none did.
+  const Motion* motion() const {
+    return state_.load(std::memory_order_acquire) == State::kFull ? &motion_ : nullptr;
+  }
+  /// For the asking thread: has no more use for the motion.
+  void clear() {
+    if (motion()) state_.store(State::kEmpty);
+  }
+  /// For the computing thread: a motion, which is copied if it was asked for.
+  void offer(const Motion& motion) {
+    if (state_.load(std::memory_order_acquire) != State::kAsked) return;
+    motion_ = motion;
+    state_.store(State::kFull, std::memory_order_release);
+  }
+
+ private:
+  enum class State { kEmpty, kAsked, kFull };
+
+  std::atomic<State> state_{State::kEmpty};
+  Motion motion_;
+};
+
+}  // namespace virtual_work_dynamics
