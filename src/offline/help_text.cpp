@@ -36,7 +36,8 @@ Input
                         whole are called NAME, in which \1 is what its first group matches; several
                         times for several rules, of which the first that matches counts
   --degrees             angles of the motion, and their derivatives, are in degrees
-  --topic NAME          topic of the joint states in the bag (default: the only one, or /joint_states)
+  --topic NAME          topic of the joint states in the bag (default: the only one, or joint_states in
+                        the namespace of --node, or /joint_states)
   --residuals           the motion also has efforts that were measured (columns effort.<joint>, or the
                         efforts of joint states): adds the columns measured_effort.<joint> and
                         measured_residual.<joint>, computed less measured, which is the external effort
