@@ -347,7 +347,7 @@ class RecordedInputs(NodeTest):
                 (['--rosparam', self.path('lag.yaml')], 1,
                  'lag.yaml: unknown parameter ~estimator/lagg (did you mean ~estimator/lag?)'),
                 (['--remap', 'odometry:=/x'], 2, "--remap: 'odometry' is no topic that is read here"),
-                (['--remap', 'joint_states:=/x'], 2, '--topic says that of the joint states'),
+                (['--remap', 'joint_states:=/x'], 1, "has no topic '/x'"),
                 (['--remap', 'gravity:=/down'], 1,
                  "has no topic '/down' of geometry_msgs/Vector3Stamped")):
             text = self.tool(*common, *options, code=code)
