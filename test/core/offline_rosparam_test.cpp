@@ -124,7 +124,7 @@ TEST_F(OfflineRosparam, WhatIsWrongIsSaidWhereItStands) {
   expectRefusal("--rosparam broken.yaml", "broken.yaml: is not valid YAML: ");
   write("map.yaml", "robot_description: {a: 1}");
   expectRefusal("--rosparam map.yaml", "map.yaml: /robot_description: expected the text of a URDF");
-  write("urdf.yaml", "robot_description: <robot");
+  write("urdf.yaml", "robot_description: <robot\ninverse_dynamics: {rest: []}");
   expectRefusal("--rosparam urdf.yaml", "urdf.yaml: /robot_description: ");
   const std::string robot = "robot_description: " + quoted(kPendulum) + "\n";
   write("scene.yaml", robot + "inverse_dynamics: {scene: {gravitation: 1}}");
