@@ -114,7 +114,7 @@ Output
   --node NAME           node whose topics are written, and whose topics and parameters are read (default:
                         /inverse_dynamics)
   --remap NAME:=TOPIC   reads a topic of the bag in place of one of the node's, like odom:=/robot/odom or
-                        wrench/hand:=/sensor; several times for several
+                        wrench/hand:=/sensor; without TOPIC none is read; several times for several
   --root-source WORD    as the parameter ~root/source: odometry, trajectory, states, tf or imu
   --regressor DIR       instead of a result, a folder of NumPy arrays for identification: effort.npy as
                         described (rows x efforts), regressor.npy, what efforts are per unit of each

@@ -17,6 +17,13 @@
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
+namespace {
+
+std::int64_t nanoseconds(ros::Time time) {
+  return static_cast<std::int64_t>(time.toNSec());
+}
+
+}  // namespace
 
 ReplayedStates::ReplayedStates(const RobotTask& task, const InverseDynamicsParameters& parameters,
                                const MotionSource& source, Publish publish)
@@ -114,7 +121,7 @@ void ReplayedStates::listenToWrenches(InputTopics& topics) {
         topics, "~wrench/" + task_.wrench_topics[i],
         "has the applied wrench " + inQuotes(wrenches_.name(i)) + " that the scene says is live",
         [this, i](const geometry_msgs::WrenchStamped& message, ros::Time receipt) {
-          wrench_messages_.take(i, here().messages(), message, receipt);
+          wrench_messages_.take(i, here().messages(), message, nanoseconds(receipt));
         }));
   }
   if (wrench_topics_.empty()) return;
@@ -122,7 +129,7 @@ void ReplayedStates::listenToWrenches(InputTopics& topics) {
     add<tf2_msgs::TFMessage>(
         topics, is_static ? "/tf_static" : "/tf", "",
         [this, is_static](const tf2_msgs::TFMessage& message, ros::Time receipt) {
-          wrench_messages_.takeFrames(message, is_static, receipt);
+          wrench_messages_.takeFrames(message, is_static, nanoseconds(receipt));
         });
   }
 }
@@ -204,7 +211,7 @@ void ReplayedStates::take(const BagMessage& message) {
   here_ = is_state ? of_joint_states_ : &happenings_[topic];
   here().next();
   try {
-    if (!wrench_topics_.empty()) wrench_messages_.waitUntil(timeOf(message.time_ns));
+    wrench_messages_.waitUntil(message.time_ns);
     if (is_state) return takeJointState(message);
     for (auto input = begin; input != end; ++input) input->second(message);
   } catch (const FileError&) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -12,7 +13,8 @@ namespace virtual_work_dynamics {
 namespace {
 
 // As of WrenchInputs.
-const ros::Duration kBegins(2);
+constexpr std::int64_t kBegins = 2'000'000'000;  // ns
+constexpr double kLongest = 1e9;                 // s, for ever
 constexpr std::size_t kMostWaiting = 4096;
 
 std::string posedIn(const RootSettings& root) {
@@ -30,7 +32,7 @@ ReplayedWrenches::ReplayedWrenches(const Mechanism& mechanism,
                                    const InverseDynamicsParameters& parameters,
                                    LiveWrenches& wrenches, std::size_t count, Drop drop)
     : root_(parameters.root),
-      timeout_(parameters.wrench_timeout),
+      timeout_(static_cast<std::int64_t>(std::min(parameters.wrench_timeout, kLongest) * 1e9)),
       count_(count),
       drop_(std::move(drop)),
       conversion_(mechanism, parameters.frame_prefix, wrenches),
@@ -38,13 +40,13 @@ ReplayedWrenches::ReplayedWrenches(const Mechanism& mechanism,
               parameters.estimator.max_gap) {}
 
 void ReplayedWrenches::take(std::size_t i, std::size_t number,
-                            const geometry_msgs::WrenchStamped& message, ros::Time receipt) {
+                            const geometry_msgs::WrenchStamped& message, std::int64_t receipt) {
   if (const auto rejection = receive(i, number, message, receipt)) drop_(i, number, *rejection);
 }
 
 std::optional<Rejection> ReplayedWrenches::receive(std::size_t i, std::size_t number,
                                                    const geometry_msgs::WrenchStamped& message,
-                                                   ros::Time receipt) {
+                                                   std::int64_t receipt) {
   const std::string& id = message.header.frame_id;
   const bool foreign =
       !id.empty() && !message.header.stamp.isZero() && !conversion_.knowsFrame(i, message);
@@ -55,25 +57,25 @@ std::optional<Rejection> ReplayedWrenches::receive(std::size_t i, std::size_t nu
                          "it"};
   }
   if (!foreign && !waits(i)) return conversion_.take(i, message);
-  if (foreign_since_.isZero()) foreign_since_ = receipt;
-  if (waiting_.size() == kMostWaiting) waiting_.front().until = ros::Time();
-  waiting_.push_back({i, number, message, std::max(receipt + timeout_, foreign_since_ + kBegins)});
+  if (!foreign_since_) foreign_since_ = receipt;
+  if (waiting_.size() == kMostWaiting) waiting_.front().until = 0;
+  waiting_.push_back({i, number, message, std::max(receipt + timeout_, *foreign_since_ + kBegins)});
   takeWaiting(receipt);
   return std::nullopt;
 }
 
 void ReplayedWrenches::takeFrames(const tf2_msgs::TFMessage& message, bool is_static,
-                                  ros::Time receipt) {
+                                  std::int64_t receipt) {
   frames_.take(message, is_static);
   takeWaiting(receipt);
 }
 
-void ReplayedWrenches::waitUntil(ros::Time receipt) {
+void ReplayedWrenches::waitUntil(std::int64_t receipt) {
   if (!waiting_.empty() && receipt >= waiting_.front().until) takeWaiting(receipt);
 }
 
 void ReplayedWrenches::finish() {
-  takeWaiting(ros::TIME_MAX);
+  takeWaiting(std::numeric_limits<std::int64_t>::max());
 }
 
 // Whether messages of a wrench wait, so that others have to queue up behind them.
@@ -82,7 +84,7 @@ bool ReplayedWrenches::waits(std::size_t i) const {
                      [i](const Waiting& waiting) { return waiting.i == i; });
 }
 
-void ReplayedWrenches::takeWaiting(ros::Time now) {
+void ReplayedWrenches::takeWaiting(std::int64_t now) {
   std::deque<Waiting> left;
   std::vector<bool> blocked(count_, false);
   std::swap(left, waiting_);

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <geometry_msgs/WrenchStamped.h>
-#include <ros/time.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <optional>
@@ -29,12 +29,12 @@ class ReplayedWrenches {
   ReplayedWrenches(const Mechanism& mechanism, const InverseDynamicsParameters& parameters,
                    LiveWrenches& wrenches, std::size_t count, Drop drop);
 
-  /// Takes a message of live wrench `i`, or lets it wait.
+  /// Takes a message of live wrench `i`, or lets it wait. Times of receipt are in ns.
   void take(std::size_t i, std::size_t number, const geometry_msgs::WrenchStamped& message,
-            ros::Time receipt);
-  void takeFrames(const tf2_msgs::TFMessage& message, bool is_static, ros::Time receipt);
+            std::int64_t receipt);
+  void takeFrames(const tf2_msgs::TFMessage& message, bool is_static, std::int64_t receipt);
   /// Drops what has waited too long when a message of this time of receipt comes.
-  void waitUntil(ros::Time receipt);
+  void waitUntil(std::int64_t receipt);
   /// No more messages come: what waits waits no longer.
   void finish();
 
@@ -42,21 +42,22 @@ class ReplayedWrenches {
   struct Waiting {
     std::size_t i, number;
     geometry_msgs::WrenchStamped message;
-    ros::Time until;
+    std::int64_t until;  // ns
   };
 
   std::optional<Rejection> receive(std::size_t i, std::size_t number,
-                                   const geometry_msgs::WrenchStamped& message, ros::Time receipt);
+                                   const geometry_msgs::WrenchStamped& message,
+                                   std::int64_t receipt);
   bool waits(std::size_t i) const;
-  void takeWaiting(ros::Time now);
+  void takeWaiting(std::int64_t now);
 
   const RootSettings root_;
-  const ros::Duration timeout_;
+  const std::int64_t timeout_;  // ns
   const std::size_t count_;
   const Drop drop_;
   WrenchConversion conversion_;
   ForeignFrames frames_;
-  ros::Time foreign_since_;  // zero: all frames were links
+  std::optional<std::int64_t> foreign_since_;  // ns; nothing: all frames were links
   std::deque<Waiting> waiting_;
 };
 

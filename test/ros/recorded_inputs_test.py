@@ -147,6 +147,20 @@ class RecordedInputs(NodeTest):
         self.assertGreater(count, 200)
         self.assertIn("/odom'", text)
 
+    def test_wrench_in_the_inertial_frame(self):
+        def push(k):
+            message = WrenchStamped()
+            message.header.stamp = ros_time(EPOCH + 40 * MS * k)
+            message.header.frame_id = 'odom'
+            message.wrench.force.x, message.wrench.torque.z = 3.0 * k, -0.1 * k
+            return message
+        blocks = [[('inverse_dynamics/wrench/push', push(k)) for k in range(30)],
+                  *self.blocks_of_root('odom', odometry)]
+        count, text = self.carried('odometry', blocks, scene={'applied_wrenches': [
+            {'name': 'push', 'link': carried_arm.ROOT, 'live': True}]})
+        self.assertGreater(count, 200)
+        self.assertNotIn('unknown frame', text)
+
     def test_root_by_states_and_bad_ones(self):
         arm = CarriedArm()
         bad = state(arm, EPOCH)
