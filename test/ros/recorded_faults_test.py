@@ -14,8 +14,12 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, String
 from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import JointTrajectory
+import yaml
 
-from node_live_wrenches_test import AXES, COORDINATES, MOTION, MS, UNEVEN, live, ramp, trajectory, wrench
+from closed_loops import SLIDER_CRANK, SLIDER_CRANK_SCENE, SliderCrank
+from node_live_wrenches_test import (AXES, COORDINATES, MOTION, MS, UNEVEN, live, ramp, trajectory,
+                                     wrench)
+from node_loop_positions_test import ASSEMBLY
 from node_under_test import EPOCH, NodeTest, executable, joint_state, read, ros_time, run
 from node_wrench_frames_test import AT, EXACT, TURN, efforts, frame, pose_of
 from recorded_inputs_test import planned, states_of_arm
@@ -80,8 +84,8 @@ class RecordedFaults(NodeTest):
         good, raw = self.states(), Raw()
         good[50][1].serialize(raw)
         data = raw.data[:4] + struct.pack('<II', 0xffffffff, 4000000000) + raw.data[12:]
-        self.bag(good[:50] + [('/joint_states', (JointState._type, data, JointState._md5sum, JointState))] +
-                 good[50:])
+        bad = (JointState._type, data, JointState._md5sum, JointState)
+        self.bag(good[:50] + [('/joint_states', bad)] + good[50:])
         text = self.tool()
         self.assertIn('/joint_states: 1 message dropped (internal), first message 51: Time is out of '
                       'dual 32-bit range', text)
@@ -193,13 +197,41 @@ class RecordedFaults(NodeTest):
                      for name, value in zip(message.name, message.effort) if name == 'cable')
         self.assertIn(' in %d samples' % pushes, found[0])
 
+    def test_closed_loops(self):
+        """A dead centre in one sample, and a slider that is a millimetre off in five."""
+        self.write('dump.yaml', yaml.safe_dump({
+            'robot_description': SLIDER_CRANK, 'inverse_dynamics': {
+                'estimator': {'acceleration': 'zero'},
+                'scene': dict(SLIDER_CRANK_SCENE, actuated=['slider_joint'], assembly=ASSEMBLY)}}))
+        motions = [SliderCrank(angle, 0, 0).q for angle in (-0.04, -0.02, 0, 0.02, 0.04, 0.06, 0.08)]
+
+        def lines():
+            self.bag([('/joint_states', joint_state(EPOCH + 10 * MS * i, q))
+                      for i, q in enumerate(motions)])
+            text = self.tool('--rosparam', 'dump.yaml')
+            self.assertEqual(len(self.results()), 7, text)
+            return [line for line in text.splitlines() if line.startswith('warning: ')]
+        singular = lines()
+        self.assertEqual(len(singular), 1, singular)
+        self.assertRegex(singular[0], 'warning: run.bag: 1 sample in singular positions; left out: '
+                                      'effort of crank_joint, effort of rod_joint, effort of slider_joint, '
+                                      'reaction of crank_joint')
+        motions = [dict(q, slider_joint=q['slider_joint'] + 1e-3 * (i != 1 and i != 2))
+                   for i, q in enumerate(motions)]
+        found = lines()
+        self.assertEqual(len(found), 2, found)
+        self.assertEqual(found[1], singular[0])
+        self.assertRegex(found[0], '^warning: run.bag: 5 samples violate a closed loop by more than 1e-06, '
+                                   "positions of closure 'wrist_pin' the most, by 0.00[0-9]+ relative$")
+
     def test_dumps(self):
         self.bag(self.states())
         robot = 'robot_description: %r\n' % ARM.replace('\n', ' ')
         self.write('dump.yaml', robot + 'inverse_dynamics: {estimator: {lag: 0.1}}')
         self.assertNotIn('has no parameters', self.tool('--rosparam', 'dump.yaml'))
+        text = self.tool('--rosparam', 'dump.yaml', '--node', 'inverse_dynamic')
         self.assertIn('note: dump.yaml: has no parameters of /inverse_dynamic, so that all are the '
-                      'default ones\n', self.tool('--rosparam', 'dump.yaml', '--node', 'inverse_dynamic'))
+                      'default ones\n', text)
         os.remove(self.path('results.bag'))
         # As rosparam has them: y is a text, on is true.
         self.write('dump.yaml', robot + 'inverse_dynamics: {certificates: y}')
