@@ -118,14 +118,14 @@ std::string parseNode(const std::string& text) {
   return "/" + name;
 }
 
-// A topic that is read in place of another one, as rosrun takes it.
+// A topic that is read in place of another one, as rosrun takes it; an empty one: none is.
 std::pair<std::string, std::string> parseRemap(const std::string& text) {
   const std::size_t sign = text.find(":=");
-  if (sign == std::string::npos || sign == 0 || sign + 2 == text.size()) {
+  if (sign == std::string::npos || sign == 0) {
     throw UsageError("--remap: " + inQuotes(text) + " is not NAME:=TOPIC");
   }
   const std::string topic = text.substr(sign + 2);
-  return {text.substr(0, sign), topic[0] == '/' ? topic : "/" + topic};
+  return {text.substr(0, sign), topic.empty() || topic[0] == '/' ? topic : "/" + topic};
 }
 
 double parsePositive(const std::string& option, const std::string& text) {
@@ -275,6 +275,7 @@ class Parser {
     if (arguments_.help || arguments_.version) return arguments_;
     if (!arguments_.generate.empty()) checkForGenerating();
     if (!arguments_.report.empty()) completeForReport();
+    nameJointStates();
     return arguments_;
   }
 
@@ -314,6 +315,24 @@ class Parser {
     for (const std::string& option : seen_) {
       if (kTaken.count(option) == 0) throw UsageError(option + " cannot be used with --generate");
     }
+  }
+
+  // Where the joint states come from, by the names of the node.
+  void nameJointStates() {
+    const std::string& node = arguments_.node;
+    arguments_.motion.usual_topic = node.substr(0, node.rfind('/')) + "/joint_states";
+    arguments_.measured.usual_topic = arguments_.motion.usual_topic;
+    auto& remap = arguments_.remap;
+    const auto found = std::find_if(remap.begin(), remap.end(), [](const auto& remapped) {
+      return remapped.first == "joint_states";
+    });
+    if (found == remap.end()) return;
+    if (!arguments_.motion.topic.empty()) {
+      throw UsageError("--remap joint_states:=TOPIC cannot be used with --topic");
+    }
+    if (found->second.empty()) throw UsageError("--remap joint_states:= needs a topic");
+    arguments_.motion.topic = found->second;
+    remap.erase(found);
   }
 
   // A report judges reactions along and across the axes of joints, which rest in child axes, and

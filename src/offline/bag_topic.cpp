@@ -13,9 +13,20 @@
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr char kUsualTopic[] = "/joint_states";
+constexpr char kUsualTopic[] = "/joint_states";  // of no namespace
 
 using Names = std::vector<std::string>;
+
+void requireJointStates(const MotionSource& source, const BagConnection& connection) {
+  const std::string topic = source.name() + ": topic " + inQuotes(connection.topic) + " is of ";
+  const std::string type(kJointStateType);
+  if (connection.type != type) {
+    throw FileError(topic + inQuotes(connection.type) + ", and a motion is read from " + type);
+  }
+  if (connection.md5sum != kJointStateMd5) {
+    throw FileError(topic + "a version of " + type + " that is not read");
+  }
+}
 
 }  // namespace
 
@@ -30,19 +41,19 @@ Names bagParts(const MotionSource& source) {
 }
 
 std::string jointStateTopic(const MotionSource& source) {
-  std::map<std::string, BagConnection> topics;
+  std::map<std::string, std::vector<BagConnection>> topics;
   std::string damage;
   for (const std::string& file : source.files) {
     const BagConnections found = connectionsOf(file);
     for (const BagConnection& connection : found.connections) {
-      topics.emplace(connection.topic, connection);
+      topics[connection.topic].push_back(connection);
     }
     if (!found.damage.empty()) damage = "; " + file + " is damaged: " + found.damage;
   }
   Names all, of_joint_states;
-  for (const auto& [name, connection] : topics) {
+  for (const auto& [name, connections] : topics) {
     all.push_back(name);
-    if (connection.type == kJointStateType) of_joint_states.push_back(name);
+    if (connections.front().type == kJointStateType) of_joint_states.push_back(name);
   }
   if (!source.topic.empty()) {
     const auto found = topics.find(source.topic);
@@ -51,14 +62,8 @@ std::string jointStateTopic(const MotionSource& source) {
                       nameHelp(source.topic, of_joint_states.empty() ? all : of_joint_states) +
                       damage);
     }
-    if (found->second.type != kJointStateType) {
-      throw FileError(source.name() + ": topic " + inQuotes(source.topic) + " is of " +
-                      inQuotes(found->second.type) + ", and a motion is read from " +
-                      std::string(kJointStateType));
-    }
-    if (found->second.md5sum != kJointStateMd5) {
-      throw FileError(source.name() + ": topic " + inQuotes(source.topic) + " is of a version of " +
-                      std::string(kJointStateType) + " that is not read");
+    for (const BagConnection& connection : found->second) {
+      requireJointStates(source, connection);
     }
     return source.topic;
   }
@@ -69,11 +74,15 @@ std::string jointStateTopic(const MotionSource& source) {
   MotionSource chosen = source;
   chosen.topic = of_joint_states.front();
   if (of_joint_states.size() > 1) {
-    if (topics.count(kUsualTopic) == 0) {
+    const auto has = [&](const std::string& topic) {
+      return std::find(of_joint_states.begin(), of_joint_states.end(), topic) !=
+             of_joint_states.end();
+    };
+    if (!has(source.usual_topic) && !has(kUsualTopic)) {
       throw FileError(source.name() + ": has several topics of " + std::string(kJointStateType) +
                       ", " + namesInQuotes(of_joint_states) + ": --topic says which");
     }
-    chosen.topic = kUsualTopic;
+    chosen.topic = has(source.usual_topic) ? source.usual_topic : kUsualTopic;
   }
   return jointStateTopic(chosen);
 }

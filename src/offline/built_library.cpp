@@ -70,12 +70,15 @@ class PrivateFolder {
   std::string path_;
 };
 
-// Holds back the signals that end a process, so that what is to be removed is.
+// Holds back the signals that end a process, so that what is to be removed is. Those that the
+// process ignores, as under nohup, stay ignored.
 class EndingHeld {
  public:
   EndingHeld() {
     sigemptyset(&set_);
-    for (const int number : {SIGHUP, SIGINT, SIGQUIT, SIGTERM}) sigaddset(&set_, number);
+    for (const int number : {SIGHUP, SIGINT, SIGQUIT, SIGTERM}) {
+      if (!isIgnored(number)) sigaddset(&set_, number);
+    }
     pthread_sigmask(SIG_BLOCK, &set_, &previous_);
   }
   ~EndingHeld() {
@@ -95,6 +98,11 @@ class EndingHeld {
   const sigset_t& previous() const { return previous_; }
 
  private:
+  static bool isIgnored(int number) {
+    struct sigaction action = {};
+    return sigaction(number, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+  }
+
   sigset_t set_, previous_;
   int received_ = 0;
 };

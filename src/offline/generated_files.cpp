@@ -66,9 +66,13 @@ void requireSourceName(const Arguments& arguments) {
   nameOf(file);
 }
 
+std::string generatedHeader(const Arguments& arguments) {
+  return std::filesystem::path(arguments.generate).replace_extension(".h").string();
+}
+
 void writeGeneratedFiles(const Arguments& arguments, const Mechanism& mechanism, const Scene& scene,
                          const Request& request) {
-  std::filesystem::path file(arguments.generate);
+  const std::filesystem::path file(arguments.generate);
   GeneratedCodeOptions options;
   options.name = nameOf(file);
   options.origin = {
@@ -78,7 +82,7 @@ void writeGeneratedFiles(const Arguments& arguments, const Mechanism& mechanism,
   const std::string& scene_file = arguments.inputs->scene_file;
   if (!scene_file.empty()) options.origin.push_back(originOf("Scene: ", scene_file));
   const GeneratedCode code = generateCode(mechanism, scene, request, options);
-  const std::string source = file.string(), header = file.replace_extension(".h").string();
+  const std::string source = file.string(), header = generatedHeader(arguments);
   write(header, code.header);
   write(source, code.source);
   const std::size_t operations = code.multiplications + code.additions;

@@ -13,8 +13,11 @@ namespace virtual_work_dynamics {
 /// caches.
 constexpr std::size_t kMostWorthwhile = 14000;
 
-/// @throws UsageError when --generate names no source file of C or C++, or one that is read.
+/// @throws UsageError when --generate names no source file of C or C++.
 void requireSourceName(const Arguments& arguments);
+
+/// The header that is written beside the source of --generate.
+std::string generatedHeader(const Arguments& arguments);
 
 /// Writes the code of a robot and scene to the file of --generate, and its header beside it.
 /// @throws Error as generateCode() does, FileError when a file cannot be written.

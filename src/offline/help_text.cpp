@@ -36,7 +36,8 @@ Input
                         whole are called NAME, in which \1 is what its first group matches; several
                         times for several rules, of which the first that matches counts
   --degrees             angles of the motion, and their derivatives, are in degrees
-  --topic NAME          topic of the joint states in the bag (default: the only one, or /joint_states)
+  --topic NAME          topic of the joint states in the bag (default: the only one, or joint_states in
+                        the namespace of --node, or /joint_states)
   --residuals           the motion also has efforts that were measured (columns effort.<joint>, or the
                         efforts of joint states): adds the columns measured_effort.<joint> and
                         measured_residual.<joint>, computed less measured, which is the external effort
@@ -113,7 +114,7 @@ Output
   --node NAME           node whose topics are written, and whose topics and parameters are read (default:
                         /inverse_dynamics)
   --remap NAME:=TOPIC   reads a topic of the bag in place of one of the node's, like odom:=/robot/odom or
-                        wrench/hand:=/sensor; several times for several
+                        wrench/hand:=/sensor; without TOPIC none is read; several times for several
   --root-source WORD    as the parameter ~root/source: odometry, trajectory, states, tf or imu
   --regressor DIR       instead of a result, a folder of NumPy arrays for identification: effort.npy as
                         described (rows x efforts), regressor.npy, what efforts are per unit of each

@@ -2,7 +2,10 @@
 
 #include <filesystem>
 #include <system_error>
+#include <utility>
+#include <vector>
 
+#include "offline/generated_files.h"
 #include "offline/task_inputs.h"
 #include "virtual_work_dynamics/scene_reader.h"
 #include "virtual_work_dynamics/urdf_reader.h"
@@ -42,16 +45,21 @@ void replaceInScene(const Arguments& arguments, Scene& scene) {
 }
 
 void refuseToOverwriteInput(const Arguments& arguments) {
-  if (arguments.output.empty()) return;
+  std::vector<std::pair<std::string, std::string>> outputs;  // by option
+  if (!arguments.output.empty()) outputs.emplace_back("--output", arguments.output);
+  if (!arguments.generate.empty()) {
+    outputs.emplace_back("--generate", arguments.generate);
+    outputs.emplace_back("--generate", generatedHeader(arguments));
+  }
   std::vector<std::string> inputs = arguments.motion.files;
   inputs.insert(inputs.end(), {arguments.urdf, arguments.scene, arguments.rosparam});
   inputs.insert(inputs.end(), arguments.measured.files.begin(), arguments.measured.files.end());
   for (const std::string& input : inputs) {
     if (input.empty()) continue;
-    std::error_code missing;  // a missing file cannot be overwritten
-    if (std::filesystem::equivalent(input, arguments.output, missing)) {
-      throw UsageError("--output: '" + arguments.output + "' would overwrite the input '" + input +
-                       "'");
+    for (const auto& [option, output] : outputs) {
+      std::error_code missing;  // a missing file cannot be overwritten
+      if (!std::filesystem::equivalent(input, output, missing)) continue;
+      throw UsageError(option + ": '" + output + "' would overwrite the input '" + input + "'");
     }
   }
 }

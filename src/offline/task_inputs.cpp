@@ -92,7 +92,14 @@ class Inputs {
       found_.description_name = path + ": " + name;
     }
     if (const auto parameters = dump.find(arguments_.node)) found_.parameters = *parameters;
+    if (!found_.parameters.IsNull() && !found_.parameters.IsMap()) {
+      throw FileError(path + ": " + arguments_.node + ": expected a map of parameters");
+    }
     if (arguments_.scene.empty()) readDumpedScene(dump);
+    if (found_.parameters.IsNull()) {
+      std::cerr << "note: " << printable(path) << ": has no parameters of " << arguments_.node
+                << ", so that all are the default ones\n";
+    }
   }
 
   void readDumpedScene(const ParameterDump& dump) {

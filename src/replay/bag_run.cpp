@@ -148,19 +148,18 @@ std::string statesTopic(const Arguments& arguments, const InputTopics& topics,
 
 void requireResults(const ReplayedStates& states, const RobotTask& task, const std::string& where) {
   if (states.results() > 0) return;
-  throw FileError(where + ": no result of " + std::to_string(states.jointStates()) +
-                  " messages; a result comes when each of " +
-                  namesInQuotes(task.mechanism.coordinateNames()) +
-                  " has been seen, and the lag has passed");
+  const bool planned = states.mainTopic() == states.trajectoryTopic();
+  throw FileError(where + ": no result of " + states.messages() +
+                  (planned ? ""
+                           : "; a result comes when each of " +
+                                 namesInQuotes(task.mechanism.coordinateNames()) +
+                                 " has been seen, and the lag has passed"));
 }
 
 // What is said in the end.
-void noteResults(const ReplayedStates& states, const std::vector<std::string>& topics,
-                 const std::string& where) {
-  const std::string others = states.otherMessages();
-  std::cerr << "note: " << printable(where) << ": " << states.jointStates() << " messages, "
-            << (others.empty() ? "" : "with " + others + ", ") << states.results()
-            << " results each on " << namesInQuotes(topics) << "\n";
+void noteResults(const ReplayedStates& states, const BagTopics& topics, const std::string& where) {
+  std::cerr << "note: " << printable(where) << ": " << states.messages() << "; " << topics.written()
+            << "\n";
 }
 
 // Reads the parts of a recording one after the other.
@@ -235,11 +234,12 @@ void runToBag(Arguments arguments) {
   replay = &all;
   for (const std::string& path : files) all.read(path);
   const std::string name = arguments.motion.name();
-  const std::string where = name + ": " + (topic.empty() ? states.trajectoryTopic() : topic);
+  const std::string where = name + ": " + states.mainTopic();
+  states.finish();
   std::cerr << states.report(name);
   requireResults(states, task, where);
   writer.finish();
-  noteResults(states, topics.names(), where);
+  noteResults(states, topics, where);
 }
 
 }  // namespace virtual_work_dynamics

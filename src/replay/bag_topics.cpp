@@ -3,10 +3,13 @@
 #include <ros/advertise_options.h>
 #include <ros/message_traits.h>
 
+#include <functional>
+#include <map>
 #include <string_view>
 #include <utility>
 
 #include "bag/byte_writer.h"
+#include "base/printable.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -28,10 +31,12 @@ class BagTopics::Topic : public MessageRecorder {
         connection_(writer.add(connectionOf(options, node))) {}
 
   const std::string& name() const { return name_; }
+  std::size_t messages() const { return messages_; }
   void setTime(std::int64_t time_ns) { time_ns_ = time_ns; }
 
  protected:
   void write(std::string_view bytes) override {
+    ++messages_;
     if (!has_header_) {
       writer_.write(connection_, time_ns_, bytes);
       return;
@@ -49,6 +54,7 @@ class BagTopics::Topic : public MessageRecorder {
   const std::uint32_t connection_;
   std::int64_t time_ns_ = 0;
   std::uint32_t number_ = 0;
+  std::size_t messages_ = 0;
   std::string numbered_;
 };
 
@@ -97,6 +103,20 @@ std::vector<std::string> BagTopics::names() const {
     if (topic) names.push_back(topic->name());
   }
   return names;
+}
+
+std::string BagTopics::written() const {
+  std::map<std::size_t, std::vector<std::string>, std::greater<>> topics;  // by messages
+  for (const auto& topic : topics_) {
+    if (topic && topic->messages() > 0) topics[topic->messages()].push_back(topic->name());
+  }
+  std::string text;
+  for (const auto& [count, names] : topics) {
+    text += (text.empty() ? "" : ", ") + std::to_string(count) +
+            (count == 1 ? " result " : " results ") + (names.size() == 1 ? "on " : "each on ") +
+            namesInQuotes(names);
+  }
+  return text;
 }
 
 }  // namespace virtual_work_dynamics

@@ -29,6 +29,8 @@ class BagTopics {
 
   /// The topics.
   std::vector<std::string> names() const;
+  /// How many results were written, by topics that got as many, in words; empty: none.
+  std::string written() const;
 
  private:
   class Topic;

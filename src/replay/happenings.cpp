@@ -11,9 +11,9 @@ std::string counted(std::size_t count, const char* what) {
 
 }  // namespace
 
-void Happenings::happen(Happening& happening, const std::string& text) {
+void Happenings::happen(Happening& happening, const std::string& text, std::size_t message) {
   if (++happening.count == 1) {
-    happening.first = "message " + std::to_string(messages_) + ": " + text;
+    happening.first = "message " + std::to_string(message) + ": " + text;
   }
 }
 

@@ -15,7 +15,11 @@ class Happenings {
   void next() { ++messages_; }
   std::size_t messages() const { return messages_; }
 
-  void drop(DropReason reason, const std::string& text) { happen(dropped_[reason], text); }
+  void drop(DropReason reason, const std::string& text) { drop(reason, text, messages_); }
+  /// @param message the number of the one that is dropped
+  void drop(DropReason reason, const std::string& text, std::size_t message) {
+    happen(dropped_[reason], text, message);
+  }
   void warn(const std::string& text) { happen(doubts_[text], text); }
   void gap(const std::string& text) { happen(gaps_, text); }
   void restart(const std::string& text) { happen(restarts_, text); }
@@ -31,7 +35,8 @@ class Happenings {
     std::string first;
   };
 
-  void happen(Happening& happening, const std::string& text);
+  void happen(Happening& happening, const std::string& text) { happen(happening, text, messages_); }
+  static void happen(Happening& happening, const std::string& text, std::size_t message);
 
   std::size_t messages_ = 0;
   std::map<DropReason, Happening> dropped_;

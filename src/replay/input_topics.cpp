@@ -1,6 +1,7 @@
 #include "replay/input_topics.h"
 
 #include <algorithm>
+#include <iostream>
 
 #include "bag/bag_connections.h"
 #include "base/nearest_name.h"
@@ -28,11 +29,23 @@ InputTopics::InputTopics(const MotionSource& source, std::string node,
   }
 }
 
-const BagConnection* InputTopics::connection(const std::string& topic) const {
-  const auto found =
-      std::find_if(connections_.begin(), connections_.end(),
-                   [&](const BagConnection& connection) { return connection.topic == topic; });
-  return found == connections_.end() ? nullptr : &*found;
+bool InputTopics::has(const std::string& topic) const {
+  return std::any_of(connections_.begin(), connections_.end(),
+                     [&](const BagConnection& connection) { return connection.topic == topic; });
+}
+
+// Why one of the connections of a topic cannot be read; empty: all can.
+std::string InputTopics::mismatch(const std::string& name, const std::string& topic,
+                                  const std::string& type, const std::string& md5sum) const {
+  const std::string is = source_ + ": topic " + inQuotes(topic) + " is of ";
+  for (const BagConnection& connection : connections_) {
+    if (connection.topic != topic) continue;
+    if (connection.type != type) {
+      return is + inQuotes(connection.type) + ", and " + bare(name) + " is read from " + type;
+    }
+    if (connection.md5sum != md5sum) return is + "a version of " + type + " that is not read";
+  }
+  return "";
 }
 
 bool InputTopics::hasType(std::string_view type) const {
@@ -48,11 +61,14 @@ std::string InputTopics::find(const std::string& name, const std::string& type,
   bool needed = !purpose.empty();
   for (const auto& [from, to] : remap_) {
     if (bare(from) != bare(name)) continue;
+    if (to.empty() && needed) {
+      throw UsageError("--remap " + from + ":= leaves out what " + purpose);
+    }
+    if (to.empty()) return "";
     topic = to;
     needed = true;
   }
-  const BagConnection* const found = connection(topic);
-  if (!found) {
+  if (!has(topic)) {
     if (!needed) return "";
     std::vector<std::string> others;
     for (const BagConnection& other : connections_) {
@@ -67,15 +83,11 @@ std::string InputTopics::find(const std::string& name, const std::string& type,
                                           bare(name) + ":=TOPIC") +
                     damage_);
   }
-  if (found->type != type) {
-    throw FileError(source_ + ": topic " + inQuotes(topic) + " is of " + inQuotes(found->type) +
-                    ", and " + bare(name) + " is read from " + type);
-  }
-  if (found->md5sum != md5sum) {
-    throw FileError(source_ + ": topic " + inQuotes(topic) + " is of a version of " + type +
-                    " that is not read");
-  }
-  return topic;
+  const std::string wrong = mismatch(name, topic, type, md5sum);
+  if (wrong.empty()) return topic;
+  if (needed) throw FileError(wrong);
+  std::cerr << "note: " << printable(wrong) << "; it is left alone\n";
+  return "";
 }
 
 void InputTopics::refuseUnused() const {
@@ -83,8 +95,7 @@ void InputTopics::refuseUnused() const {
     const std::string name = bare(remapped.first);
     if (std::find(asked_.begin(), asked_.end(), name) != asked_.end()) continue;
     throw UsageError("--remap: " + inQuotes(name) + " is no topic that is read here" +
-                     (name == "joint_states" ? "; --topic says that of the joint states"
-                                             : nameHelp(name, asked_)));
+                     nameHelp(name, asked_));
   }
 }
 

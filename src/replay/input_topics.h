@@ -14,16 +14,18 @@ namespace virtual_work_dynamics {
 class InputTopics {
  public:
   /// @param source of the recording   @param node whose topics they are   @param remap other names
-  ///   for topics of the node, as rosrun takes them
+  ///   for topics of the node, as rosrun takes them; an empty name: the topic is not read
   /// @throws FileError as BagReader.
   InputTopics(const MotionSource& source, std::string node,
               std::vector<std::pair<std::string, std::string>> remap);
 
-  /// The topic that stands for one of the node's in the recording; empty where there is none.
+  /// The topic that stands for one of the node's in the recording; empty where there is none. One
+  /// that may be missing and is of another type is left alone, with a note on standard error.
   /// @param name like `odom`, or `~gravity` of one below the node's own name
   /// @param type and version as connections say them
   /// @param purpose what it is needed for; empty: it may be missing
-  /// @throws FileError, one line, when it is of another type, or missing though it is needed.
+  /// @throws FileError, one line, when it is missing or of another type though it is needed, or
+  ///   UsageError when it is not to be read though it is needed.
   std::string find(const std::string& name, const std::string& type, const std::string& md5sum,
                    const std::string& purpose = "");
   /// Whether there is a topic of a type.
@@ -32,7 +34,9 @@ class InputTopics {
   void refuseUnused() const;
 
  private:
-  const BagConnection* connection(const std::string& topic) const;
+  bool has(const std::string& topic) const;
+  std::string mismatch(const std::string& name, const std::string& topic, const std::string& type,
+                       const std::string& md5sum) const;
 
   const std::string source_, node_;
   const std::vector<std::pair<std::string, std::string>> remap_;

@@ -9,13 +9,22 @@
 #include "base/number_text.h"
 #include "base/printable.h"
 #include "replay/input_bytes.h"
+#include "replay/loop_notes.h"
 #include "ros/contact_places.h"
 #include "ros/free_joint_conversion.h"
 #include "ros/message_copies.h"
 #include "ros/message_text.h"
 #include "ros/wrench_inputs.h"
+#include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
+namespace {
+
+std::int64_t nanoseconds(ros::Time time) {
+  return static_cast<std::int64_t>(time.toNSec());
+}
+
+}  // namespace
 
 ReplayedStates::ReplayedStates(const RobotTask& task, const InverseDynamicsParameters& parameters,
                                const MotionSource& source, Publish publish)
@@ -23,6 +32,7 @@ ReplayedStates::ReplayedStates(const RobotTask& task, const InverseDynamicsParam
       source_(source),
       publish_(std::move(publish)),
       wrench_timeout_(parameters.wrench_timeout),
+      loop_limits_(parameters.loop_limits),
       loops_(task.everything, task.reactions.size(), parameters.loop_limits),
       estimator_(task.mechanism, task.estimator),
       completer_(task.mechanism, task.scene, task.everything, parameters.loop_limits.tolerance),
@@ -35,7 +45,11 @@ ReplayedStates::ReplayedStates(const RobotTask& task, const InverseDynamicsParam
                    *this),
       trajectories_(task.mechanism, task.scene.static_motion, task.following(),
                     parameters.trajectory_sampling, true, estimator_, completer_, samples_, *this),
-      wrench_conversion_(task.mechanism, parameters.frame_prefix, wrenches_),
+      wrench_messages_(task.mechanism, parameters, wrenches_, task.wrench_topics.size(),
+                       [this](std::size_t i, std::size_t number, const Rejection& rejection) {
+                         happenings_[wrench_topics_[i]].drop(rejection.reason, rejection.text,
+                                                             number);
+                       }),
       scene_inputs_(task.mechanism, task.scene, parameters.frame_prefix, parameters.root,
                     counters_) {
   if (task.everything.closed()) estimator_.waitFor(completer_.needed());
@@ -102,6 +116,25 @@ void ReplayedStates::listenToRoot(InputTopics& topics) {
   }
 }
 
+void ReplayedStates::listenToWrenches(InputTopics& topics) {
+  for (std::size_t i = 0; i < task_.wrench_topics.size(); ++i) {
+    wrench_topics_.push_back(add<geometry_msgs::WrenchStamped>(
+        topics, "~wrench/" + task_.wrench_topics[i],
+        "has the applied wrench " + inQuotes(wrenches_.name(i)) + " that the scene says is live",
+        [this, i](const geometry_msgs::WrenchStamped& message, ros::Time receipt) {
+          wrench_messages_.take(i, here().messages(), message, nanoseconds(receipt));
+        }));
+  }
+  if (wrench_topics_.empty()) return;
+  for (const bool is_static : {false, true}) {
+    add<tf2_msgs::TFMessage>(
+        topics, is_static ? "/tf_static" : "/tf", "",
+        [this, is_static](const tf2_msgs::TFMessage& message, ros::Time receipt) {
+          wrench_messages_.takeFrames(message, is_static, nanoseconds(receipt));
+        });
+  }
+}
+
 void ReplayedStates::listen(InputTopics& topics) {
   trajectory_topic_ = add<trajectory_msgs::JointTrajectory>(
       topics, "joint_trajectory", "",
@@ -117,19 +150,13 @@ void ReplayedStates::listen(InputTopics& topics) {
         });
   }
   listenToRoot(topics);
-  for (std::size_t i = 0; i < task_.wrench_topics.size(); ++i) {
-    wrench_topics_.push_back(add<geometry_msgs::WrenchStamped>(
-        topics, "~wrench/" + task_.wrench_topics[i],
-        "has the applied wrench " + inQuotes(wrenches_.name(i)) + " that the scene says is live",
-        [this, i](const geometry_msgs::WrenchStamped& message, ros::Time) {
-          if (const auto rejection = wrench_conversion_.take(i, message)) {
-            here().drop(rejection->reason, rejection->text);
-          }
-        }));
-  }
+  listenToWrenches(topics);
   const auto change = [this](const std::optional<Rejection>& rejection) {
-    if (rejection) here().drop(rejection->reason, rejection->text);
-    adaptPlan();
+    if (rejection) {
+      here().drop(rejection->reason, rejection->text);
+    } else {
+      of_change_ = &here();
+    }
   };
   for (const auto& entry : scene_inputs_.payloadTopics()) {
     const int link = entry.second;
@@ -164,8 +191,8 @@ void ReplayedStates::setAudience(const Audience& audience) {
                                        task_.reactions, audience, PlanChecks());
 }
 
+// Compiles a changed scene, when a result is needed.
 void ReplayedStates::adaptPlan() {
-  if (!scene_inputs_.changed()) return;
   const SceneInputs::News news = scene_inputs_.adapt(
       [this](const Scene& scene) {
         plan_ = std::make_unique<ActivePlan>(task_.mechanism, scene, task_.outputs, task_.reactions,
@@ -174,28 +201,39 @@ void ReplayedStates::adaptPlan() {
       [this](Scene& scene, const std::vector<std::size_t>& contacts) {
         if (latest_) placeContacts(task_.mechanism, *latest_, contacts, scene);
       });
-  if (!news.changes.empty()) here().change(news.changes);
+  if (!news.changes.empty()) of_change_->change(news.changes);
   if (!news.refused.empty()) {
-    here().drop(DropReason::kNoBody,
-                "what is computed stays as it is, and the change is tried "
-                "again with the next one: " +
-                    news.refused);
+    of_change_->drop(DropReason::kNoBody,
+                     "what is computed stays as it is, and the change is tried "
+                     "again with the next one: " +
+                         news.refused);
   }
 }
 
 void ReplayedStates::take(const BagMessage& message) {
   const std::string& topic = message.connection->topic;
-  if (topic == joint_state_topic_) return takeJointState(message);
+  const bool is_state = topic == joint_state_topic_;
   const auto [begin, end] = inputs_.equal_range(topic);
-  if (begin == end) return;
-  here_ = &happenings_[topic];
+  if (!is_state && begin == end) return;
+  here_ = is_state ? of_joint_states_ : &happenings_[topic];
   here().next();
-  for (auto input = begin; input != end; ++input) input->second(message);
+  try {
+    wrench_messages_.waitUntil(message.time_ns);
+    if (is_state) return takeJointState(message);
+    for (auto input = begin; input != end; ++input) input->second(message);
+  } catch (const FileError&) {
+    throw;  // of the output
+  } catch (const std::exception& error) {
+    here().drop(DropReason::kInternal, error.what());
+  }
+}
+
+void ReplayedStates::finish() {
+  wrench_messages_.finish();
+  if (scene_inputs_.changed()) adaptPlan();
 }
 
 void ReplayedStates::takeJointState(const BagMessage& message) {
-  here_ = of_joint_states_;
-  here().next();
   if (!readJointState(message.bytes, content_)) {
     dropJointState(DropReason::kInternal, "its bytes are not those of a joint state");
     return;
@@ -311,22 +349,26 @@ void ReplayedStates::noteRestart(std::int64_t stamp_ns) {
   here().restart("time went back to stamp " + stampText(stamp_ns));
 }
 
-std::string ReplayedStates::report(const std::string& where) const {
+std::string ReplayedStates::report(const std::string& where) {
   std::string text;
   for (const auto& [topic, happenings] : happenings_) {
     text += happenings.report(where + ": " + topic);
   }
-  return text;
+  return text + loopNotes(loops_.take(), task_.everything, task_.reactions, loop_limits_, where);
 }
 
-std::string ReplayedStates::otherMessages() const {
-  std::string text;
+std::string ReplayedStates::messages() const {
+  std::size_t count = 0;
+  std::string others;
   for (const auto& [topic, happenings] : happenings_) {
-    if (topic == joint_state_topic_) continue;
-    text += (text.empty() ? "" : ", ") + std::to_string(happenings.messages()) + " of " +
-            inQuotes(topic);
+    if (topic == mainTopic()) {
+      count = happenings.messages();
+      continue;
+    }
+    others += (others.empty() ? ", with " : ", ") + std::to_string(happenings.messages()) + " of " +
+              inQuotes(topic);
   }
-  return text;
+  return std::to_string(count) + (count == 1 ? " message" : " messages") + others;
 }
 
 }  // namespace virtual_work_dynamics

@@ -18,6 +18,7 @@
 #include "offline/motion_source.h"
 #include "replay/happenings.h"
 #include "replay/input_topics.h"
+#include "replay/replayed_wrenches.h"
 #include "ros/active_plan.h"
 #include "ros/certificate_record.h"
 #include "ros/counters.h"
@@ -30,7 +31,6 @@
 #include "ros/sample_computation.h"
 #include "ros/scene_inputs.h"
 #include "ros/trajectory_computation.h"
-#include "ros/wrench_conversion.h"
 #include "virtual_work_dynamics/motion_estimator.h"
 
 namespace virtual_work_dynamics {
@@ -57,22 +57,32 @@ class ReplayedStates : private JointStateUser, private TrajectoryUser {
   /// Says which outputs are computed. To be called before take().
   void setAudience(const Audience& audience);
 
-  /// Takes a message; of a topic that is not read, nothing happens.
+  /// Takes a message; of a topic that is not read, nothing happens. One whose processing throws is
+  /// dropped.
+  /// @throws FileError when results cannot be written.
   void take(const BagMessage& message);
+  /// There are no more messages.
+  void finish();
 
   /// Results of samples and points.
   std::size_t results() const { return results_; }
-  std::size_t jointStates() const { return of_joint_states_ ? of_joint_states_->messages() : 0; }
-  /// What was amiss, a line each. @param where to stand before each
-  std::string report(const std::string& where) const;
-  /// How many messages were taken besides joint states, in words; empty: none.
-  std::string otherMessages() const;
+  /// The topic of joint states, or of trajectories where there are no joint states.
+  const std::string& mainTopic() const {
+    return joint_state_topic_.empty() ? trajectory_topic_ : joint_state_topic_;
+  }
+  /// How many messages were taken, in words.
+  std::string messages() const;
+  /// What was amiss, a line each. To be called once. @param where to stand before each
+  std::string report(const std::string& where);
 
  private:
   using Take = std::function<void(const BagMessage&)>;
   using Outcome = SampleComputation::Outcome;
 
-  ActivePlan& plan() override { return *plan_; }
+  ActivePlan& plan() override {
+    if (scene_inputs_.changed()) adaptPlan();
+    return *plan_;
+  }
   void publish(const ActivePlan& plan) override {
     latest_ = samples_.motion();
     publishPoint(plan);
@@ -99,6 +109,7 @@ class ReplayedStates : private JointStateUser, private TrajectoryUser {
   template <typename Message>
   void addRoot(InputTopics& topics, const std::string& name);
   void listenToRoot(InputTopics& topics);
+  void listenToWrenches(InputTopics& topics);
   void takeJointState(const BagMessage& message);
   void translate(const JointStateContent& content);
   void translate(trajectory_msgs::JointTrajectory& message) const;
@@ -112,6 +123,7 @@ class ReplayedStates : private JointStateUser, private TrajectoryUser {
   const MotionSource& source_;
   const Publish publish_;
   const double wrench_timeout_;  // s
+  const LoopLimits loop_limits_;
   Counters counters_;
   CertificateRecord certificates_;
   LoopRecord loops_;
@@ -122,7 +134,7 @@ class ReplayedStates : private JointStateUser, private TrajectoryUser {
   SampleComputation samples_;
   JointStateComputation computation_;
   TrajectoryComputation trajectories_;
-  WrenchConversion wrench_conversion_;
+  ReplayedWrenches wrench_messages_;
   SceneInputs scene_inputs_;
   std::optional<Motion> latest_;  // of joint states
   Audience audience_;
@@ -138,6 +150,7 @@ class ReplayedStates : private JointStateUser, private TrajectoryUser {
   std::map<std::string, Happenings> happenings_;  // by topic
   Happenings* here_ = nullptr;
   Happenings* of_joint_states_ = nullptr;
+  Happenings* of_change_ = nullptr;  // of the topic that changed the scene the last time
 };
 
 }  // namespace virtual_work_dynamics

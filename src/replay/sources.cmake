@@ -6,6 +6,8 @@ foreach(file
     happenings.cpp
     input_bytes.cpp
     input_topics.cpp
-    replayed_states.cpp)
+    loop_notes.cpp
+    replayed_states.cpp
+    replayed_wrenches.cpp)
   list(APPEND replay_files ${CMAKE_CURRENT_LIST_DIR}/${file})
 endforeach()

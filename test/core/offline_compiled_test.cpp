@@ -207,6 +207,19 @@ TEST_F(OfflineCompiled, LeavesNothingWhenASignalEndsIt) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 }
 
+// A compiler that is slow, and a hang-up meanwhile, as of a shell that is closed.
+TEST_F(OfflineCompiled, HangsOnUnderNohup) {
+  standIn("sleep 2; exit 3");
+  const std::string arguments = "--urdf crane.urdf --motion m.csv";
+  const Run plain = run(arguments);
+  const Run hung = run(arguments + " --compiled", environment() + " timeout -s HUP 1 nohup");
+  EXPECT_TRUE(called());
+  EXPECT_TRUE(hung.out == plain.out) << hung.err;
+  EXPECT_NE(hung.err.find("note: --compiled: cc fails with exit status 3"), std::string::npos)
+      << hung.err;
+  EXPECT_TRUE(leftNothing());
+}
+
 TEST_F(OfflineCompiled, IsRefusedWhereItSaysNothing) {
   for (const char* others :
        {"--check", "--explain", "--method lagrange", "--regressor folder", "--generate crane.c"}) {

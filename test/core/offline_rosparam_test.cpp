@@ -103,7 +103,17 @@ TEST_F(OfflineRosparam, WithoutASceneItIsTheDefaultOne) {
   const Run result = run("--rosparam bare.yaml --motion m.csv");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out, expected.out);
+  EXPECT_EQ(result.err, expected.err);
   EXPECT_NE(result.out, by_files_);
+  // Of a node that is not in the dump, a note says so.
+  write("none.yaml", "robot_description: " + quoted(kPendulum));
+  const Run none = run("--rosparam none.yaml --motion m.csv");
+  EXPECT_EQ(none.exit_code, 0) << none.err;
+  EXPECT_EQ(none.out, expected.out);
+  EXPECT_EQ(none.err,
+            expected.err +
+                "note: none.yaml: has no parameters of /inverse_dynamics, so that all are "
+                "the default ones\n");
 }
 
 TEST_F(OfflineRosparam, WhatIsWrongIsSaidWhereItStands) {
@@ -114,11 +124,14 @@ TEST_F(OfflineRosparam, WhatIsWrongIsSaidWhereItStands) {
   expectRefusal("--rosparam broken.yaml", "broken.yaml: is not valid YAML: ");
   write("map.yaml", "robot_description: {a: 1}");
   expectRefusal("--rosparam map.yaml", "map.yaml: /robot_description: expected the text of a URDF");
-  write("urdf.yaml", "robot_description: <robot");
+  write("urdf.yaml", "robot_description: <robot\ninverse_dynamics: {rest: []}");
   expectRefusal("--rosparam urdf.yaml", "urdf.yaml: /robot_description: ");
   const std::string robot = "robot_description: " + quoted(kPendulum) + "\n";
   write("scene.yaml", robot + "inverse_dynamics: {scene: {gravitation: 1}}");
   expectRefusal("--rosparam scene.yaml", "scene.yaml: /inverse_dynamics/scene: gravitation");
+  write("word.yaml", robot + "inverse_dynamics: 'gravity'");
+  expectRefusal("--rosparam word.yaml",
+                "word.yaml: /inverse_dynamics: expected a map of parameters");
   write("text.yaml", robot + "inverse_dynamics: {scene: {gravity: '[0, 1'}}");
   expectRefusal("--rosparam text.yaml",
                 "text.yaml: /inverse_dynamics/scene/gravity: is not valid YAML");
@@ -133,6 +146,20 @@ TEST_F(OfflineRosparam, GeneratedCodeSaysOfWhichDump) {
   const Run result = run("--rosparam dump.yaml --generate code.c");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_NE(readFile(path("code.c")).find("Description: 'dump.yaml', cksum "), std::string::npos);
+}
+
+TEST_F(OfflineRosparam, GeneratedCodeDoesNotOverwriteTheDump) {
+  for (const std::string name : {"read.c", "read.h"}) {
+    const std::string dump = readFile(path("dump.yaml"));
+    write(name, dump);
+    const Run result = run("--rosparam ./" + name + " --generate read.c");
+    EXPECT_EQ(result.exit_code, 2);
+    EXPECT_NE(result.err.find("--generate: '" + name + "' would overwrite the input './" + name),
+              std::string::npos)
+        << result.err;
+    EXPECT_EQ(readFile(path(name)), dump);
+    std::filesystem::remove(path(name));
+  }
 }
 
 TEST_F(OfflineRosparam, ABagWithoutADescriptionIsNone) {

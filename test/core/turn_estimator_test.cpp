@@ -136,7 +136,9 @@ TEST(TurnEstimator, HoldsInAGapWhatCameBeforeIt) {
   ASSERT_GT(errorAt(1.09, estimator.heldAt(stampAt(0.2))).head<3>().norm(), 0.1);
   for (const double t : {0.2, 0.5, 0.9999}) {
     FreeTurn turn;
-    if (t > 0.3) EXPECT_FALSE(estimator.read(stampAt(t), turn, nullptr)) << t;
+    if (t > 0.3) {
+      EXPECT_FALSE(estimator.read(stampAt(t), turn, nullptr)) << t;
+    }
     EXPECT_LT(errorAt(0.2, estimator.heldAt(stampAt(t))).head<3>().norm(), 1e-9) << t;
   }
   EXPECT_LT(errorAt(1.09, estimator.heldAt(stampAt(2))).head<3>().norm(), 1e-9);

@@ -147,6 +147,20 @@ class RecordedInputs(NodeTest):
         self.assertGreater(count, 200)
         self.assertIn("/odom'", text)
 
+    def test_wrench_in_the_inertial_frame(self):
+        def push(k):
+            message = WrenchStamped()
+            message.header.stamp = ros_time(EPOCH + 40 * MS * k)
+            message.header.frame_id = 'odom'
+            message.wrench.force.x, message.wrench.torque.z = 3.0 * k, -0.1 * k
+            return message
+        blocks = [[('inverse_dynamics/wrench/push', push(k)) for k in range(30)],
+                  *self.blocks_of_root('odom', odometry)]
+        count, text = self.carried('odometry', blocks, scene={'applied_wrenches': [
+            {'name': 'push', 'link': carried_arm.ROOT, 'live': True}]})
+        self.assertGreater(count, 200)
+        self.assertNotIn('unknown frame', text)
+
     def test_root_by_states_and_bad_ones(self):
         arm = CarriedArm()
         bad = state(arm, EPOCH)
@@ -347,7 +361,7 @@ class RecordedInputs(NodeTest):
                 (['--rosparam', self.path('lag.yaml')], 1,
                  'lag.yaml: unknown parameter ~estimator/lagg (did you mean ~estimator/lag?)'),
                 (['--remap', 'odometry:=/x'], 2, "--remap: 'odometry' is no topic that is read here"),
-                (['--remap', 'joint_states:=/x'], 2, '--topic says that of the joint states'),
+                (['--remap', 'joint_states:=/x'], 1, "has no topic '/x'"),
                 (['--remap', 'gravity:=/down'], 1,
                  "has no topic '/down' of geometry_msgs/Vector3Stamped")):
             text = self.tool(*common, *options, code=code)
