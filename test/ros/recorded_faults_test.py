@@ -172,6 +172,7 @@ class RecordedFaults(NodeTest):
         self.assertIn("note: run.bag: /joint_trajectory: 2 messages; 25 results each on "
                       "'/inverse_dynamics/", text)
         self.assertIn('2 results on', text)
+        self.assertNotIn(' 0 results', text)
         with rosbag.Bag(self.path('results.bag')) as bag:
             for topic, info in bag.get_type_and_topic_info().topics.items():
                 self.assertTrue(info.message_count == 0 or topic == '/tf_static' or
@@ -236,9 +237,17 @@ class RecordedFaults(NodeTest):
         # As rosparam has them: y is a text, on is true.
         self.write('dump.yaml', robot + 'inverse_dynamics: {certificates: y}')
         self.assertIn("got the text 'y'", self.tool('--rosparam', 'dump.yaml', code=1))
-        self.write('dump.yaml', robot + 'inverse_dynamics: {frame_prefix: 1e3, certificates: on}')
-        self.tool('--rosparam', 'dump.yaml')
-        self.assertEqual(self.results()[0].header.frame_id, '1e3stand')
+        for text in ('1e3', '1.5e3', '+.5', 'N'):
+            self.write('dump.yaml', robot + 'inverse_dynamics: {frame_prefix: %s, certificates: on}' % text)
+            self.assertEqual(yaml.safe_load(text), text)
+            self.tool('--rosparam', 'dump.yaml')
+            self.assertEqual(self.results()[0].header.frame_id, text + 'stand')
+            os.remove(self.path('results.bag'))
+        for text in ('1.5e+3', '1.', '.5', '-7', 'Off'):
+            self.write('dump.yaml', robot + 'inverse_dynamics: {frame_prefix: %s}' % text)
+            self.assertNotIsInstance(yaml.safe_load(text), str)
+            self.assertIn('~frame_prefix: expected text, got the ',
+                          self.tool('--rosparam', 'dump.yaml', code=1))
 
     def test_gravity_from_many_messages(self):
         """Scenes that no sample needs are not compiled."""
