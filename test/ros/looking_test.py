@@ -40,6 +40,8 @@ EXAMPLES = {
     'excavator': ['boom_joint', 'stick_joint', 'bucket_joint', 'boom_ram', 'stick_ram', 'bucket_ram'],
     'coupled_wrist': None,
     'planetary_gear': None,
+    'mobile_manipulator': ['base_x', 'base_y', 'base_yaw', 'left_wheel', 'right_wheel', 'pan', 'shoulder',
+                           'elbow', 'left_tread', 'right_tread'],
     'arm_on_a_ship': ['ground'] + ['joint_%d' % i for i in range(1, 7)],
     'balance_board': ['ground', 'ankle', 'knee', 'hip', 'waist'],
     'quadruped': ['ground'],
@@ -134,7 +136,8 @@ class Looking(NodeTest):
                 shown = [display['Name'] for display in arrows]
                 wanted = [joint.get('name') for joint in robot.findall('joint')
                           if joint.get('type') != 'fixed']
-                wanted += [closure['name'] for closure in scene.get('closures', [])]
+                wanted += [closure['name'] for key in ('closures', 'rolling', 'contacts')
+                           for closure in scene.get(key, [])]
                 if scene.get('root') == 'moving':
                     wanted = scene['reactions']
                 self.assertEqual(sorted(shown), sorted(wanted))

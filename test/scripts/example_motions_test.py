@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The tables of the examples with a root that moves: as the script makes them, with feet that stand."""
+"""The tables of the examples: as the script makes them, with feet that stand and wheels that roll."""
 import csv
 import importlib.util
 import pathlib
@@ -55,7 +55,7 @@ class ExampleMotions(unittest.TestCase):
 
     def test_tables_have_every_joint_and_end_as_they_begin(self):
         for name, robot in (("arm_on_a_ship", "six_axis_arm"), ("balance_board", "balance_board"),
-                            ("quadruped", "quadruped")):
+                            ("quadruped", "quadruped"), ("mobile_manipulator", "mobile_manipulator")):
             with self.subTest(example=name), open(ROOT / "config" / (name + "_motion.csv")) as file:
                 rows = list(csv.DictReader(file))
                 urdf = ElementTree.parse(ROOT / "urdf" / (robot + ".urdf")).getroot()
@@ -82,6 +82,26 @@ class ExampleMotions(unittest.TestCase):
             self.assertIn(standing, (2, 4), row["time"])
         for leg, lift in lifts.items():
             self.assertAlmostEqual(lift, 0.06, delta=1e-3, msg=leg)
+
+    def test_wheels_of_the_manipulator_roll(self):
+        with open(ROOT / "config/mobile_manipulator_motion.csv") as file:
+            rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        for row in rows:
+            yaw, turning = row["position.base_yaw"], row["velocity.base_yaw"]
+            for wheel, side in (("left", 1), ("right", -1)):
+                # What the rim does where it touches, which is 0.2 m from the middle of the axle.
+                rim = 0.08 * row["velocity.%s_wheel" % wheel]
+                along = rim + side * 0.2 * turning
+                self.assertAlmostEqual(row["velocity.base_x"], along * np.cos(yaw), delta=1e-8)
+                self.assertAlmostEqual(row["velocity.base_y"], along * np.sin(yaw), delta=1e-8)
+        step = rows[1]["time"] - rows[0]["time"]
+        for key in (key[9:] for key in rows[0] if key.startswith("position.")):
+            values = [np.array([row[kind + "." + key] for row in rows])
+                      for kind in ("position", "velocity", "acceleration")]
+            for value, rate in zip(values, values[1:]):
+                # Central differences of fourth order.
+                slope = (8 * (value[3:-1] - value[1:-3]) - (value[4:] - value[:-4])) / (12 * step)
+                self.assertLess(np.abs(slope - rate[2:-2]).max(), 3e-4 * (1 + np.abs(rate).max()), key)
 
 
 if __name__ == "__main__":
