@@ -129,9 +129,29 @@ def mobile_manipulator(t):
             'shoulder': swing(t, duration, -0.9, 0.4, 1, 1), 'elbow': swing(t, duration, 1.4, 0.6, 2, 2)}
 
 
+def turning_rate(m=3, r=0.5, lean=0.3, circle=2, g=9.81):
+    """How fast a thin disc, whose contact runs along a circle, goes around it when nothing holds it."""
+    across, about = m * r * r / 4, m * r * r / 2
+    centre = circle - r * np.sin(lean)  # the circle of its centre
+    inertia = (m * r * centre * np.cos(lean) + about * np.cos(lean) * (circle / r - np.sin(lean))
+               + across * np.sin(lean) * np.cos(lean))
+    return np.sqrt(m * g * r * np.sin(lean) / inertia)
+
+
+def rolling_disc(t):
+    """Steady, once around its circle, in which it spins four times."""
+    rate, radius, lean, circle = turning_rate(), 0.5, 0.3, 2
+    heading = np.array([rate * t, rate, 0])
+    centre = circle - radius * np.sin(lean)
+    return {'disc_x': centre * sine(heading), 'disc_y': -centre * cosine(heading),
+            'disc_z': np.array([radius * np.cos(lean), 0, 0]), 'heading': heading,
+            'lean': np.array([lean, 0, 0]), 'spin': circle / radius * heading}
+
+
 # Duration and time from row to row, s.
 EXAMPLES = {'arm_on_a_ship': (arm_on_a_ship, 12, 0.05), 'balance_board': (balance_board, 12, 0.02),
-            'quadruped': (quadruped, 4.8, 0.02), 'mobile_manipulator': (mobile_manipulator, 8, 0.05)}
+            'quadruped': (quadruped, 4.8, 0.02), 'mobile_manipulator': (mobile_manipulator, 8, 0.05),
+            'rolling_disc': (rolling_disc, 2 * np.pi / turning_rate(), 2 * np.pi / turning_rate() / 120)}
 
 
 def columns(of):
@@ -156,7 +176,8 @@ def table(name):
         # Wheels that roll tie positions and rates to each other.
         digits = 9 if 'acceleration' in lines[0] else 6
         values = np.round([*row.values()], digits) + 0.0  # no -0
-        lines.append(','.join(['%.2f' % (i * step)] + ['%.*f' % (digits, value) for value in values]))
+        time = '%.*f' % (2 if step == round(step, 2) else 9, i * step)
+        lines.append(','.join([time] + ['%.*f' % (digits, value) for value in values]))
     return '\n'.join(lines) + '\n'
 
 

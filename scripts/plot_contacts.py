@@ -75,9 +75,37 @@ def draw_manipulator(axes, robot, results):
     axes.set_aspect('equal', adjustable='datalim')
 
 
+def draw_disc(axes, robot, results):
+    """The disc on its circle, seen obliquely."""
+    around = np.linspace(0, 2 * np.pi, 61)
+    rim = 0.5 * np.column_stack([np.cos(around), 0 * around, np.sin(around)])
+    centre = np.column_stack([results['position.disc_' + x] for x in 'xyz'])
+    axes.plot(*centre.T, ':', color='0.5')
+    rows = (20, 45, 70, 95, 110)
+    for row in rows:
+        poses, last = state(robot, results, row), row == rows[-1]
+        axes.plot(*outline(poses['disc'], rim).T, color='tab:blue' if last else '0.75', linewidth=2)
+        axes.plot(*outline(poses['disc'], [(0, 0, 0), (0.5, 0, 0)]).T,
+                  color='tab:orange' if last else '0.75', linewidth=2)
+        touching = outline(poses['leaning'], [(0, 0, -0.5)])[0]
+        force = 0.04 * poses['headed'][0] @ [results['reaction.rim.f' + x][row] for x in 'xyz']
+        axes.quiver(*touching, *force, color='tab:red' if last else '0.6', linewidth=1.8, arrow_length_ratio=0.1)
+    contact = [outline(state(robot, results, row)['leaning'], [(0, 0, -0.5)])[0]
+               for row in range(len(centre))]
+    axes.plot(*np.array(contact).T, color='black', linewidth=1)
+    axes.set(xlabel='x [m]', ylabel='y [m]', zlabel='z [m]', xticks=(-2, 0, 2), yticks=(-2, 0, 2), zticks=(0, 1),
+             title='At %.2g s; red: force of the ground' % results['time'][rows[-1]])
+    axes.set_aspect('equal')
+    axes.view_init(28, -60)
+
+
 def draw_arrow(axes, ends):
     axes.annotate('', ends[1], ends[0], zorder=4,
                   arrowprops={'arrowstyle': '-|>', 'color': 'tab:red', 'linewidth': 1.8})
+
+
+def turns(joint):
+    return lambda results: results['position.' + joint] / (2 * np.pi)
 
 
 def both(first, second):
@@ -97,6 +125,14 @@ EXAMPLES = {
             (both('reaction.left_tread.fy', 'reaction.right_tread.fy'), 'both together', '-'),
             ('reaction.left_tread.fy', 'left_tread', '--'),
             ('reaction.right_tread.fy', 'right_tread', ':')])]),
+    'rolling_disc': ('Disc that leans and rolls in a steady turn, with nothing that drives it', draw_disc, [
+        ('Force of the ground, axes of the contact', 'N', [
+            ('reaction.rim.fx', 'along', '-'), ('reaction.rim.fy', 'inwards', '-'),
+            ('reaction.rim.fz', 'normal', '-')]),
+        ('Angles', 'turns', [(turns('heading'), 'heading', '-'), (turns('lean'), 'lean', '-'),
+                             (turns('spin'), 'spin', '-')]),
+        ('Residuals of the motion: the last digits of the table', 'N m', [('residual.motion.' + angle, angle, '-')
+                                            for angle in ('heading', 'lean', 'spin')])]),
 }
 
 

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "loop_examples.h"
 #include "touching_bodies.h"
@@ -65,6 +68,70 @@ TEST(ConditionExamples, WheelsOfTheManipulatorDriveItAndHoldItSideways) {
       EXPECT_FALSE(determined[1]) << side;
     }
     EXPECT_EQ(found.dynamics().determinacy().redundant_constraints, 1);
+  }
+}
+
+// A disc that leans by b inwards, its contact on a circle of 2 m, once around it at a rate.
+struct SteadyTurn {
+  static constexpr double b = 0.3, r = 0.5, circle = 2, m = 3, across = 0.1875, about = 0.375;
+  static constexpr double g = 9.81;
+  const double centre = circle - r * std::sin(b);
+  const double fall = m * g * r * std::sin(b);  // about the contact, N m
+  const double free = std::sqrt(fall / (m * r * centre * std::cos(b) +
+                                        about * std::cos(b) * (circle / r - std::sin(b)) +
+                                        across * std::sin(b) * std::cos(b)));
+
+  Motion motion(const Mechanism& mechanism, double rate, long double heading) const {
+    const auto turning = [&](long double t) -> Positions {
+      const long double angle = heading + rate * t;
+      return {{"disc_x", centre * std::sin(angle)},
+              {"disc_y", -centre * std::cos(angle)},
+              {"disc_z", r * std::cos(static_cast<long double>(b))},
+              {"heading", angle},
+              {"lean", b},
+              {"spin", circle / r * angle}};
+    };
+    return motionAt(mechanism, turning, 0);
+  }
+};
+
+TEST(ConditionExamples, TheDiscRollsAsNothingDrivesIt) {
+  const LoopExample example("rolling_disc");
+  const SteadyTurn disc;
+  EXPECT_NEAR(disc.free, 1.0382156746, 5e-11);
+  for (const long double heading : {0.0L, 1.7L, 3.9L}) {
+    SCOPED_TRACE(static_cast<double>(heading));
+    const Motion motion = disc.motion(example.mechanism, disc.free, heading);
+    const NamedLoopResults found(example.mechanism, example.scene, motion);
+    EXPECT_LE(violation(found), 1e-12);
+    // Inwards, which is the side of its axle.
+    expectForce({0, 5.98954252, 29.43}, found.childAxes("rim").force, 5e-9);
+    for (const char* angle : {"heading", "lean", "spin"}) {
+      EXPECT_NEAR(found.effort(angle), 0, kClosedForm) << angle;
+      EXPECT_TRUE(found.effortDetermined(angle)) << angle;
+    }
+    // What is too fast would have to be pushed down.
+    const Motion faster = disc.motion(example.mechanism, 1.1 * disc.free, heading);
+    const NamedLoopResults pushed(example.mechanism, example.scene, faster);
+    EXPECT_NEAR(pushed.effort("lean"), 0.21 * disc.fall, kClosedForm);
+    EXPECT_NEAR(pushed.effort("heading"), 0, kClosedForm);
+    EXPECT_NEAR(pushed.effort("spin"), 0, kClosedForm);
+  }
+}
+
+// Sideways it needs 0.2035 times what presses.
+TEST(ConditionExamples, TheDiscIsHeldByFriction) {
+  LoopExample example("rolling_disc");
+  const SteadyTurn disc;
+  const Motion motion = disc.motion(example.mechanism, disc.free, 0.6L);
+  for (const auto& [friction, expected] :
+       {std::pair{0.4, Hold::kHolds}, {0.204, Hold::kHolds}, {0.203, Hold::kOutsideCone}}) {
+    example.scene.closures.at(0).touch.friction = friction;
+    const ClosedLoopDynamics dynamics(example.mechanism, example.scene, {});
+    ASSERT_EQ(dynamics.oneSided(), std::vector<std::string>{"rim"});
+    ClosedLoopDynamics::Workspace workspace = dynamics.makeWorkspace();
+    dynamics.compute(motion, workspace);
+    EXPECT_EQ(workspace.results().loops.holds.at(0), expected) << friction;
   }
 }
 
