@@ -4,13 +4,15 @@
 Usage: plot_contacts.py OFFLINE_TOOL FOLDER [EXAMPLE ...]
 
 OFFLINE_TOOL is the executable inverse_dynamics_offline. For each example it computes the motion of
-config/<example>_motion.csv and draws FOLDER/<example>.png. Forces that rigid bodies do not determine,
-and that the scene's policy chooses, are dashed.
+config/<example>_motion.csv, or of its trajectory, and draws FOLDER/<example>.png. Forces that rigid bodies
+do not determine, and that the scene's policy chooses, are dashed.
 """
 import csv
+import glob
 import os
 import subprocess
 import sys
+import tempfile
 
 import matplotlib
 matplotlib.use('Agg')
@@ -18,7 +20,7 @@ import matplotlib.pyplot as plt  # noqa: E402 (the backend has to be chosen firs
 import numpy as np
 import yaml
 
-from plot_closed_loops import PACKAGE, STYLE, Robot, draw_all
+from plot_closed_loops import PACKAGE, ROWS, STYLE, Robot, draw_all, motion_of
 
 
 def read(rows):
@@ -27,15 +29,39 @@ def read(rows):
     return {name: values[:, i] for i, name in enumerate(rows[0])}
 
 
+def run(tool, name, scene, motion):
+    """Positions of all joints, and results in axes of the child links, row by row."""
+    done = subprocess.run([tool, '--urdf', os.path.join(PACKAGE, 'urdf', name + '.urdf'), '--scene', scene,
+                           '--motion', motion, '--axes', 'child', '--positions'], stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL, check=True, text=True)
+    return read(done.stdout.splitlines())
+
+
+def write_motion(name, path):
+    """The rows of a trajectory through via points."""
+    with open(os.path.join(PACKAGE, 'config', name + '_trajectory.yaml'), encoding='utf-8') as file:
+        trajectory = yaml.safe_load(file)
+    duration, law = motion_of(trajectory)
+    t = np.linspace(0, duration, ROWS + 1)
+    header = ['time'] + [kind + '.' + joint for kind in ('position', 'velocity', 'acceleration')
+                         for joint in trajectory['joints']]
+    np.savetxt(path, np.column_stack([t, law(t), law(t, 1), law(t, 2)]), delimiter=',',
+               header=','.join(header), comments='', fmt='%.17g')
+
+
 def compute(tool, name):
-    """Positions of all joints, and results, row by row."""
-    files = {key: os.path.join(PACKAGE, folder, name + end) for key, folder, end in (
-        ('urdf', 'urdf', '.urdf'), ('scene', 'config', '_scene.yaml'), ('motion', 'config', '_motion.csv'))}
-    done = subprocess.run([tool, *(word for key, path in files.items() for word in ('--' + key, path)),
-                           '--axes', 'child', '--positions'], stdout=subprocess.PIPE, check=True, text=True)
-    with open(files['scene'], encoding='utf-8') as file:
-        scene = yaml.safe_load(file)
-    return Robot(files['urdf'], dict(scene, closures=[])), read(done.stdout.splitlines())
+    """The robot, and its results; those of another scene have its name before their own."""
+    config = os.path.join(PACKAGE, 'config', name)
+    motion = config + '_motion.csv'
+    with tempfile.TemporaryDirectory() as folder:
+        if not os.path.exists(motion):
+            motion = os.path.join(folder, 'motion.csv')
+            write_motion(name, motion)
+        results = run(tool, name, config + '_scene.yaml', motion)
+        for scene in glob.glob(config + '_*_scene.yaml'):
+            for column, values in run(tool, name, scene, motion).items():
+                results[os.path.basename(scene)[len(name) + 1:-len('_scene.yaml')] + ' ' + column] = values
+    return Robot(os.path.join(PACKAGE, 'urdf', name + '.urdf'), {'closures': []}), results
 
 
 def state(robot, results, row):
@@ -93,10 +119,32 @@ def draw_disc(axes, robot, results):
     contact = [outline(state(robot, results, row)['leaning'], [(0, 0, -0.5)])[0]
                for row in range(len(centre))]
     axes.plot(*np.array(contact).T, color='black', linewidth=1)
-    axes.set(xlabel='x [m]', ylabel='y [m]', zlabel='z [m]', xticks=(-2, 0, 2), yticks=(-2, 0, 2), zticks=(0, 1),
-             title='At %.2g s; red: force of the ground' % results['time'][rows[-1]])
+    axes.set(xlabel='x [m]', ylabel='y [m]', zlabel='z [m]', xticks=(-2, 0, 2), yticks=(-2, 0, 2),
+             zticks=(0, 1), title='At %.2g s; red: force of the ground' % results['time'][rows[-1]])
     axes.set_aspect('equal')
     axes.view_init(28, -60)
+
+
+def draw_biped(axes, robot, results):
+    """From the front, its left at the right."""
+    last = int(0.3 * ROWS)
+    for row in (0, int(0.7 * ROWS), last):
+        poses = state(robot, results, row)
+        body = {'color': 'tab:blue' if row == last else '0.8', 'linewidth': 4 if row == last else 2,
+                'solid_capstyle': 'round'}
+        for side in ('left', 'right'):
+            axes.plot(*outline(poses[side + '_leg'], [(0, 0, 0), (0, 0, -0.85)]).T[1:], **body)
+        axes.plot(*np.array([poses['left_leg'][1], poses['right_leg'][1]]).T[1:], **body)
+        axes.plot(*np.vstack([outline(poses['pelvis'], [(0, 0, 0)]),
+                              outline(poses['trunk'], [(0, 0, 0), (0, 0, 0.6)])]).T[1:], **body)
+    for side in ('left', 'right'):
+        sole = outline(poses[side + '_leg'], [(0, 0, -0.85)])[0, 1:]
+        force = [results['reaction.%s_sole.f%s' % (side, x)][last] for x in 'yz']
+        draw_arrow(axes, [sole, sole + 0.001 * np.array(force)])
+    axes.axhline(0, color='black', linewidth=1)
+    axes.set(xlabel='y [m]', ylabel='z [m]',
+             title='At %.2g s; red: forces of the ground' % results['time'][last])
+    axes.set_aspect('equal', adjustable='datalim')
 
 
 def draw_arrow(axes, ends):
@@ -106,6 +154,11 @@ def draw_arrow(axes, ends):
 
 def turns(joint):
     return lambda results: results['position.' + joint] / (2 * np.pi)
+
+
+def share(scene, sole):
+    return lambda results: (np.abs(results['%sreaction.%s.fy' % (scene, sole)]) /
+                            results['%sreaction.%s.fz' % (scene, sole)])
 
 
 def both(first, second):
@@ -133,6 +186,18 @@ EXAMPLES = {
                              (turns('spin'), 'spin', '-')]),
         ('Residuals of the motion: the last digits of the table', 'N m', [('residual.motion.' + angle, angle, '-')
                                             for angle in ('heading', 'lean', 'spin')])]),
+    'biped': ('Biped that stands on two feet and shifts its weight', draw_biped, [
+        ('Normal forces', 'N', [('reaction.left_sole.fz', 'left_sole', '-'),
+                                ('reaction.right_sole.fz', 'right_sole', '-')]),
+        ('Forces along y; dashed: both hips push, not determined', 'N', [
+            ('passive_hip reaction.left_sole.fy', 'left_sole,\npassive hip', '-'),
+            ('passive_hip reaction.right_sole.fy', 'right_sole,\npassive hip', '-'),
+            ('reaction.left_sole.fy', 'left_sole', '--'),
+            ('reaction.right_sole.fy', 'right_sole', '--')]),
+        ('Along the ground over normal, right hip passive', 'N/N', [
+            (share('passive_hip ', 'left_sole'), 'left_sole', '-'),
+            (share('passive_hip ', 'right_sole'), 'right_sole', '-'),
+            (lambda results: 0 * results['time'] + 0.2, 'friction', 'k:')])]),
 }
 
 
@@ -144,7 +209,7 @@ def draw(tool, name, path):
     figure.suptitle(title, fontsize=12)
     grid = figure.add_gridspec(len(panels), 2, left=0.06, right=0.87, bottom=0.09, top=0.9, wspace=0.22,
                                hspace=0.4, width_ratios=(1, 1.1))
-    flat = picture in (draw_manipulator,)
+    flat = picture is not draw_disc
     picture(figure.add_subplot(grid[:, 0], projection=None if flat else '3d'), robot, results)
     for i, (heading, unit, curves) in enumerate(panels):
         axes = figure.add_subplot(grid[i, 1])

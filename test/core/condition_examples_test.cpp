@@ -135,5 +135,110 @@ TEST(ConditionExamples, TheDiscIsHeldByFriction) {
   }
 }
 
+// The biped: left hip and waist are given, the rest follows from the soles, which stand where
+// legs of 0.85 m reach that are spread by 0.12 rad at hips 0.1 m to both sides.
+struct Standing {
+  explicit Standing(const std::string& name)
+      : example("biped"),
+        scene(readSceneFile(std::string(kSourceFolder) + "/config/" + name + "_scene.yaml")) {}
+
+  Eigen::Index at(const char* name) const { return example.mechanism.coordinateIndex(name); }
+  Motion motion(double hip, double waist, double hip_rate, double waist_rate) const {
+    Motion motion(8);
+    motion.q[at("left_hip")] = hip;
+    motion.q[at("waist")] = waist;
+    motion.qd[at("left_hip")] = hip_rate;
+    motion.qd[at("waist")] = waist_rate;
+    motion.qdd[at("left_hip")] = -0.4;
+    motion.qdd[at("waist")] = 0.7;
+    ClosedLoops loops(example.mechanism, scene);
+    std::vector<bool> given(8, false);
+    given[static_cast<std::size_t>(at("left_hip"))] = true;
+    given[static_cast<std::size_t>(at("waist"))] = true;
+    EXPECT_TRUE(loops.complete(motion, given));
+    return motion;
+  }
+
+  LoopExample example;
+  Scene scene;
+};
+
+// Of the ground on each sole, from what would have to hold the pelvis if there were no ground.
+struct SoleForces {
+  SoleForces(const Standing& of, const Motion& motion) {
+    Scene held;
+    held.gravity = of.scene.gravity;
+    const InverseDynamics tree(of.example.mechanism, held, Request());
+    Workspace workspace = tree.makeWorkspace();
+    tree.compute(motion, workspace);
+    const auto effort = [&](const char* name) { return workspace.effort()[of.at(name)]; };
+    const auto q = [&](const char* name) { return motion.q[of.at(name)]; };
+    along = effort("pelvis_y");
+    const double both = effort("pelvis_z");
+    // Moments about the pelvis: (sole - y) left + (-sole - y) right + z along.
+    const double sole = 0.1 + 0.85 * std::sin(0.12);
+    const double moment = effort("pelvis_roll") - q("pelvis_z") * along + q("pelvis_y") * both;
+    left = (both + moment / sole) / 2;
+    right = (both - moment / sole) / 2;
+    // About the right hip, which gives way.
+    const double y = q("pelvis_y") - 0.1 * std::cos(q("pelvis_roll"));
+    const double z = q("pelvis_z") - 0.1 * std::sin(q("pelvis_roll"));
+    along_right = (effort("right_hip") - (-sole - y) * right) / z;
+  }
+  double left, right, along, along_right;
+};
+
+TEST(ConditionExamples, TheBipedSharesItsWeightAndPushesItsFeetApart) {
+  const Standing both("biped"), one("biped_passive_hip");
+  for (const auto& [hip, waist] : {std::pair{0.12, 0.0}, {-0.05, -0.3}, {0.3, 0.4}}) {
+    SCOPED_TRACE(hip);
+    const Motion motion = both.motion(hip, waist, 0.3, -0.2);
+    const SoleForces expected(both, motion);
+    for (const Standing* standing : {&both, &one}) {
+      const NamedLoopResults found(both.example.mechanism, standing->scene, motion);
+      const Wrench left = found.childAxes("left_sole"), right = found.childAxes("right_sole");
+      const double tolerance = kClosedForm * 638;  // the weight, N
+      EXPECT_NEAR(left.force.z(), expected.left, tolerance);
+      EXPECT_NEAR(right.force.z(), expected.right, tolerance);
+      EXPECT_NEAR(left.force.y() + right.force.y(), expected.along, tolerance);
+      const bool determined = standing == &one;
+      if (determined) {
+        EXPECT_NEAR(right.force.y(), expected.along_right, tolerance);
+      }
+      for (const char* sole : {"left_sole", "right_sole"}) {
+        EXPECT_TRUE(found.childAxesDetermined(sole)[0] && found.childAxesDetermined(sole)[2]);
+        EXPECT_EQ(found.childAxesDetermined(sole)[1], determined) << sole;
+      }
+      EXPECT_EQ(found.effortDetermined("left_hip"), determined);
+      EXPECT_TRUE(found.effortDetermined("waist"));
+    }
+  }
+}
+
+// At rest: upright, leaning far to the right, and farther than its feet.
+TEST(ConditionExamples, TheBipedStandsAsFarAsFrictionHolds) {
+  const Standing both("biped"), one("biped_passive_hip");
+  const auto holdsAt = [](const Standing& standing, double hip, double waist) {
+    Motion motion = standing.motion(hip, waist, 0, 0);
+    motion.qd.setZero();
+    motion.qdd.setZero();
+    // Shares of the cone of the left sole; not there where it would have to pull.
+    const SoleForces expected(standing, motion);
+    const double share = (expected.along - expected.along_right) / (0.2 * expected.left);
+    EXPECT_TRUE(hip < 0.2    ? std::abs(share) < 0.8
+                : hip < 0.45 ? std::abs(share) > 1.1 && expected.left > 10
+                             : expected.left < -10)
+        << share << " " << expected.left;
+    const NamedLoopResults found(standing.example.mechanism, standing.scene, motion);
+    return found.dynamics().results().loops.holds;
+  };
+  using Holds = std::vector<Hold>;
+  EXPECT_EQ(holdsAt(both, 0.12, 0), Holds(2, Hold::kNotDecidable));
+  EXPECT_EQ(holdsAt(one, 0.12, 0), Holds(2, Hold::kHolds));
+  EXPECT_EQ(holdsAt(one, 0.44, 0.68), (Holds{Hold::kOutsideCone, Hold::kHolds}));
+  EXPECT_EQ(holdsAt(both, 0.5, 0.8), (Holds{Hold::kWrongWay, Hold::kNotDecidable}));
+  EXPECT_EQ(holdsAt(one, 0.5, 0.8), (Holds{Hold::kWrongWay, Hold::kHolds}));
+}
+
 }  // namespace
 }  // namespace virtual_work_dynamics

@@ -43,6 +43,8 @@ EXAMPLES = {
     'mobile_manipulator': ['base_x', 'base_y', 'base_yaw', 'left_wheel', 'right_wheel', 'pan', 'shoulder',
                            'elbow', 'left_tread', 'right_tread'],
     'rolling_disc': ['disc_x', 'disc_y', 'disc_z', 'heading', 'lean', 'spin', 'rim'],
+    'biped': ['pelvis_x', 'pelvis_y', 'pelvis_z', 'pelvis_yaw', 'pelvis_roll', 'left_hip', 'right_hip',
+              'waist', 'left_sole', 'right_sole'],
     'arm_on_a_ship': ['ground'] + ['joint_%d' % i for i in range(1, 7)],
     'balance_board': ['ground', 'ankle', 'knee', 'hip', 'waist'],
     'quadruped': ['ground'],
