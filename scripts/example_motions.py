@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""Writes the motions of the examples with a root that moves.
+"""Writes the motions of the examples with a root that moves, and of those on wheels.
 
 Usage: example_motions.py FOLDER
 
 FOLDER/<example>_motion.csv has positions of the joints, and position and orientation of the root link in
-inertial axes, of which z points up. Each motion ends as it begins, and can be looped.
+inertial axes, of which z points up; or, of examples on wheels, positions, velocities and accelerations of the
+joints. Each motion ends as it begins, and can be looped.
 """
 import os
 import sys
@@ -44,6 +45,22 @@ def waves(t, *parts):
     """A sum of amplitude * sin(2 pi times / 12 s * t + phase)."""
     return sum(amplitude * np.sin(2 * np.pi * times / 12 * t + phase)
                for amplitude, times, phase in parts)
+
+
+def sine(angle):
+    """The sine of an angle that is given with its two derivatives by time, and those of the sine."""
+    value, slope = np.sin(angle[0]), np.cos(angle[0])
+    return np.array([value, slope * angle[1], slope * angle[2] - value * angle[1] ** 2])
+
+
+def cosine(angle):
+    return sine(angle + np.array([np.pi / 2, 0, 0]))
+
+
+def swing(t, duration, middle, amplitude, times, phase=0):
+    """middle + amplitude * sin(2 pi times / duration * t + phase), with its derivatives."""
+    rate = 2 * np.pi * times / duration
+    return np.array([middle, 0, 0]) + amplitude * sine(np.array([rate * t + phase, rate, 0]))
 
 
 def arm_on_a_ship(t):
@@ -102,9 +119,50 @@ def quadruped(t):
     return joints, position, orientation
 
 
+def mobile_manipulator(t):
+    """It drives along an arc and back, while its arm swings."""
+    duration, circle, wheel, track = 8, 1.2, 0.08, 0.2  # s, m; half the track
+    yaw = swing(t, duration, 0.75, 0.75, 1, -np.pi / 2)
+    return {'base_x': circle * sine(yaw), 'base_y': np.array([circle, 0, 0]) - circle * cosine(yaw),
+            'base_yaw': yaw, 'left_wheel': (circle - track) / wheel * yaw,
+            'right_wheel': (circle + track) / wheel * yaw, 'pan': swing(t, duration, 0, 1.2, 2),
+            'shoulder': swing(t, duration, -0.9, 0.4, 1, 1), 'elbow': swing(t, duration, 1.4, 0.6, 2, 2)}
+
+
+def turning_rate(m=3, r=0.5, lean=0.3, circle=2, g=9.81):
+    """How fast a thin disc, whose contact runs along a circle, goes around it when nothing holds it."""
+    across, about = m * r * r / 4, m * r * r / 2
+    centre = circle - r * np.sin(lean)  # the circle of its centre
+    inertia = (m * r * centre * np.cos(lean) + about * np.cos(lean) * (circle / r - np.sin(lean))
+               + across * np.sin(lean) * np.cos(lean))
+    return np.sqrt(m * g * r * np.sin(lean) / inertia)
+
+
+def rolling_disc(t):
+    """Steady, once around its circle, in which it spins four times."""
+    rate, radius, lean, circle = turning_rate(), 0.5, 0.3, 2
+    heading = np.array([rate * t, rate, 0])
+    centre = circle - radius * np.sin(lean)
+    return {'disc_x': centre * sine(heading), 'disc_y': -centre * cosine(heading),
+            'disc_z': np.array([radius * np.cos(lean), 0, 0]), 'heading': heading,
+            'lean': np.array([lean, 0, 0]), 'spin': circle / radius * heading}
+
+
 # Duration and time from row to row, s.
 EXAMPLES = {'arm_on_a_ship': (arm_on_a_ship, 12, 0.05), 'balance_board': (balance_board, 12, 0.02),
-            'quadruped': (quadruped, 4.8, 0.02)}
+            'quadruped': (quadruped, 4.8, 0.02), 'mobile_manipulator': (mobile_manipulator, 8, 0.05),
+            'rolling_disc': (rolling_disc, 2 * np.pi / turning_rate(), 2 * np.pi / turning_rate() / 120)}
+
+
+def columns(of):
+    """Names and values of a row."""
+    if isinstance(of, dict):
+        return {kind + '.' + joint: values[i] for i, kind in enumerate(('position', 'velocity', 'acceleration'))
+                for joint, values in of.items()}
+    joints, position, orientation = of
+    return {**{'position.' + joint: value for joint, value in joints.items()},
+            **{'root.position.' + axis: value for axis, value in zip('xyz', position)},
+            **{'root.orientation.' + axis: value for axis, value in zip('xyzw', orientation)}}
 
 
 def table(name):
@@ -112,13 +170,14 @@ def table(name):
     motion, duration, step = EXAMPLES[name]
     lines = []
     for i in range(round(duration / step) + 1):
-        joints, position, orientation = motion(i * step)
+        row = columns(motion(i * step))
         if not lines:
-            lines.append(','.join(['time'] + ['position.' + joint for joint in joints]
-                                  + ['root.position.' + axis for axis in 'xyz']
-                                  + ['root.orientation.' + axis for axis in 'xyzw']))
-        values = np.round([*joints.values(), *position, *orientation], 6) + 0.0  # no -0
-        lines.append(','.join(['%.2f' % (i * step)] + ['%.6f' % value for value in values]))
+            lines.append(','.join(['time', *row]))
+        # Wheels that roll tie positions and rates to each other.
+        digits = 9 if 'acceleration' in lines[0] else 6
+        values = np.round([*row.values()], digits) + 0.0  # no -0
+        time = '%.*f' % (2 if step == round(step, 2) else 9, i * step)
+        lines.append(','.join([time] + ['%.*f' % (digits, value) for value in values]))
     return '\n'.join(lines) + '\n'
 
 

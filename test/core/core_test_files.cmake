@@ -25,6 +25,7 @@ set(core_test_files
   test/core/compound_joints_refusals_test.cpp
   test/core/compound_joints_sdfast_test.cpp
   test/core/compound_joints_test.cpp
+  test/core/condition_examples_test.cpp
   test/core/coupled_examples_test.cpp
   test/core/contacts_test.cpp
   test/core/cylinder_test.cpp

@@ -40,6 +40,11 @@ EXAMPLES = {
     'excavator': ['boom_joint', 'stick_joint', 'bucket_joint', 'boom_ram', 'stick_ram', 'bucket_ram'],
     'coupled_wrist': None,
     'planetary_gear': None,
+    'mobile_manipulator': ['base_x', 'base_y', 'base_yaw', 'left_wheel', 'pan', 'shoulder', 'elbow',
+                           'right_wheel', 'left_tread', 'right_tread'],
+    'rolling_disc': ['disc_x', 'disc_y', 'disc_z', 'heading', 'lean', 'spin', 'rim'],
+    'biped': ['pelvis_x', 'pelvis_y', 'pelvis_z', 'pelvis_yaw', 'pelvis_roll', 'left_hip', 'right_hip',
+              'waist', 'left_sole', 'right_sole'],
     'arm_on_a_ship': ['ground'] + ['joint_%d' % i for i in range(1, 7)],
     'balance_board': ['ground', 'ankle', 'knee', 'hip', 'waist'],
     'quadruped': ['ground'],
@@ -134,7 +139,8 @@ class Looking(NodeTest):
                 shown = [display['Name'] for display in arrows]
                 wanted = [joint.get('name') for joint in robot.findall('joint')
                           if joint.get('type') != 'fixed']
-                wanted += [closure['name'] for closure in scene.get('closures', [])]
+                wanted += [closure['name'] for key in ('closures', 'rolling', 'contacts', 'cylinders')
+                           for closure in scene.get(key, [])]
                 if scene.get('root') == 'moving':
                     wanted = scene['reactions']
                 self.assertEqual(sorted(shown), sorted(wanted))
