@@ -251,11 +251,14 @@ void ShiftedChain::setRoot(std::size_t sample, const RootMotion& root) {
     root_[c * samples_ + sample] = state.data()[c];
 }
 
-// Shifts of positions, of the root's attitude, against which wrenches may be measured, and those of
-// wrenches change the load.
+// Shifts of positions, of the attitude that is measured, against which wrenches may be given, and
+// those of wrenches change the load.
 void ShiftedChain::setLoads(const Motion& motion, const SampleShifts& shifts, const LoadLaw& law) {
   if (loads_.front().wrenches.empty()) return;
   law(motion, loads_.front());
+  const bool by_link = !root_.empty() && shifts.root_link != 0;
+  if (by_link) root_by_link_.place(motion, shifts.root_link);
+  const RootMotion measured = by_link ? root_by_link_.linkOf(motion.root) : motion.root;
   for (std::size_t sample = 1; sample < samples_; ++sample) {
     const bool of_position = sample <= plan_.coordinates;
     const std::size_t of_root = sample - plan_.firstOfRoot();
@@ -265,9 +268,14 @@ void ShiftedChain::setLoads(const Motion& motion, const SampleShifts& shifts, co
       continue;
     }
     shifted_ = motion;
+    shifted_.root = measured;
     if (of_position) shiftCoordinate(mechanism_, shifts, 0, sample - 1, shifted_);
     if (of_attitude)
       shiftRoot(of_root, shifts.root[static_cast<Eigen::Index>(of_root)], shifted_.root);
+    if (by_link) {
+      root_by_link_.place(shifted_, shifts.root_link);
+      shifted_.root = root_by_link_.rootOf(shifted_.root);
+    }
     law(shifted_, loads_[sample]);
   }
   for (std::size_t i = 0; i < plan_.wrenches.size(); ++i) {
