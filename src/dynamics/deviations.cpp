@@ -10,6 +10,7 @@
 #include "dynamics/compiled_dynamics.h"
 #include "dynamics/description_shares.h"
 #include "dynamics/scene_doubts.h"
+#include "dynamics/shift_sizes.h"
 #include "dynamics/shifted_samples.h"
 #include "scene/input_checks.h"
 #include "virtual_work_dynamics/error.h"
@@ -19,23 +20,11 @@ namespace virtual_work_dynamics {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-// Least shift of positions, rad or m, and of velocities, relative to what they are or to 1: half of
-// a double's digits are left for the difference. Largest shift of positions, rad or m.
-constexpr double kLeastShift = 1e-6;
-constexpr double kLargestShift = 1e-3;
 
 Request withoutPoses(Request request) {
   request.poses = request.twists = false;
   request.determinacy = true;
   return request;
-}
-
-double shiftOf(MotionLevel level, double value, double deviation) {
-  const double size = std::max(1.0, std::abs(value));
-  if (level == MotionLevel::kAcceleration) return size;  // results are linear in accelerations
-  if (!std::isfinite(deviation)) return kLeastShift;
-  if (level == MotionLevel::kPosition) return std::clamp(deviation, kLeastShift, kLargestShift);
-  return std::copysign(std::max(deviation, kLeastShift * size), -value);
 }
 
 // The root's covariance, and the part of it that an effort is doubtful by: turn, angular velocity,
@@ -51,10 +40,10 @@ struct Deviations::Impl {
         shift_plan(mechanism, scene),
         has_tolerances(scene.tolerances.any()),
         wrenches(wrenchCovariances(scene)),
-        independent(static_cast<std::size_t>(dynamics.coordinates()), true),
+        independent(independentCoordinates(mechanism, dynamics.impl_->loops,
+                                           dynamics.impl_->have_positions)),
         description(mechanism, scene, dynamics.request()) {
     requireSoundDoubts(scene);
-    if (dynamics.closed()) independent = independentCoordinates(*dynamics.impl_->loops);
   }
 
   std::unique_ptr<ShiftedSamples> makeSamples() const {
@@ -73,7 +62,7 @@ struct Deviations::Impl {
                         " matrices are given, the mechanism has " + std::to_string(expected) +
                         what);
     };
-    require(covariance.coordinates.size(), independent.size(), " coordinates");
+    require(covariance.coordinates.size(), independent.rates.size(), " coordinates");
     if (covariance.root_link < 0 ||
         static_cast<std::size_t>(covariance.root_link) >= mechanism.links().size()) {
       throw MotionError("covariance: link " + std::to_string(covariance.root_link) +
@@ -93,7 +82,7 @@ struct Deviations::Impl {
   ShiftPlan shift_plan;
   bool has_tolerances;
   std::vector<WrenchCovariance> wrenches;  // as the scene says
-  std::vector<bool> independent;
+  IndependentCoordinates independent;
   DescriptionShares description;
 };
 
@@ -170,7 +159,7 @@ void Deviations::Workspace::Impl::setShifts(const Motion& at, const MotionCovari
       const double shift = shiftOf(static_cast<MotionLevel>(level), (*values[level])[i], deviation);
       shifts.coordinates(i, level) = shift;
       factors(i, level) = std::isfinite(deviation) ? deviation / shift : kNothing;
-      if (!plan->independent[place]) factors(i, level) = 0;
+      if (!plan->independent.of(static_cast<std::size_t>(level))[place]) factors(i, level) = 0;
     }
     const auto correlation = [&](int one, int other) {
       const double scale = deviations[one] * deviations[other];
@@ -254,8 +243,9 @@ double Deviations::Workspace::Impl::addTurns(std::size_t number,
     for (Eigen::Index i = 0; i < 3 * factors.cols(); ++i) {
       const Eigen::Index coordinate = first + i % 3, level = i / 3;
       const auto place = static_cast<std::size_t>(coordinate);
-      if (!plan->independent[place]) continue;
-      const std::size_t column = plan->shift_plan.columnOf(static_cast<std::size_t>(level), place);
+      const auto of = static_cast<std::size_t>(level);
+      if (!plan->independent.of(of)[place]) continue;
+      const std::size_t column = plan->shift_plan.columnOf(of, place);
       slope[i] = (values[column] - values[0]) / shifts.coordinates(coordinate, level);
       setPart(number, kMotionLevels * coordinate + level, slope[i] * slope[i] * C(i, i));
     }
@@ -339,7 +329,7 @@ bool Deviations::hasTolerances() const {
 }
 
 const std::vector<bool>& Deviations::independent() const {
-  return impl_->independent;
+  return impl_->independent.positions;
 }
 
 Deviations::Workspace Deviations::makeWorkspace() const {

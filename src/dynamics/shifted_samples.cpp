@@ -251,11 +251,14 @@ void ShiftedChain::setRoot(std::size_t sample, const RootMotion& root) {
     root_[c * samples_ + sample] = state.data()[c];
 }
 
-// Shifts of positions, of the root's attitude, against which wrenches may be measured, and those of
-// wrenches change the load.
+// Shifts of positions, of the attitude that is measured, against which wrenches may be given, and
+// those of wrenches change the load.
 void ShiftedChain::setLoads(const Motion& motion, const SampleShifts& shifts, const LoadLaw& law) {
   if (loads_.front().wrenches.empty()) return;
   law(motion, loads_.front());
+  const bool by_link = !root_.empty() && shifts.root_link != 0;
+  if (by_link) root_by_link_.place(motion, shifts.root_link);
+  const RootMotion measured = by_link ? root_by_link_.linkOf(motion.root) : motion.root;
   for (std::size_t sample = 1; sample < samples_; ++sample) {
     const bool of_position = sample <= plan_.coordinates;
     const std::size_t of_root = sample - plan_.firstOfRoot();
@@ -265,9 +268,14 @@ void ShiftedChain::setLoads(const Motion& motion, const SampleShifts& shifts, co
       continue;
     }
     shifted_ = motion;
+    shifted_.root = measured;
     if (of_position) shiftCoordinate(mechanism_, shifts, 0, sample - 1, shifted_);
     if (of_attitude)
       shiftRoot(of_root, shifts.root[static_cast<Eigen::Index>(of_root)], shifted_.root);
+    if (by_link) {
+      root_by_link_.place(shifted_, shifts.root_link);
+      shifted_.root = root_by_link_.rootOf(shifted_.root);
+    }
     law(shifted_, loads_[sample]);
   }
   for (std::size_t i = 0; i < plan_.wrenches.size(); ++i) {
@@ -280,11 +288,12 @@ void ShiftedChain::setLoads(const Motion& motion, const SampleShifts& shifts, co
 
 ShiftedLoops::ShiftedLoops(const Mechanism& mechanism, const ClosedLoopDynamics& dynamics,
                            const ShiftPlan& plan, const Load& own,
-                           const std::vector<bool>& independent)
+                           const IndependentCoordinates& independent)
     : mechanism_(mechanism),
       dynamics_(dynamics),
       plan_(plan),
       independent_(independent),
+      positions_first_(independent.positions != independent.rates),
       workspace_(dynamics.makeWorkspace()),
       numbers_(workspace_.results()),
       samples_(plan.columns()),
@@ -321,7 +330,7 @@ bool ShiftedLoops::computeCoordinates(const Motion& motion, const SampleShifts& 
                                       const LoadLaw& law) {
   for (std::size_t level = 0; level < plan_.levels; ++level) {
     for (std::size_t i = 0; i < plan_.coordinates; ++i) {
-      if (!independent_[i]) continue;
+      if (!independent_.of(level)[i]) continue;
       shifted_ = motion;
       shiftCoordinate(mechanism_, shifts, level, i, shifted_);
       if (!computeSample(plan_.columnOf(level, i), law)) return false;
@@ -338,9 +347,16 @@ void ShiftedLoops::setLink(const Motion& motion, const SampleShifts& shifts) {
   link_ = root_by_link_.linkOf(motion.root);
 }
 
+// Where more positions are independent than rates, the first completion closes the loops, whose
+// rates it need not find, and the second leaves them so.
+bool ShiftedLoops::complete() {
+  if (positions_first_) dynamics_.complete(shifted_, independent_.positions, workspace_);
+  return dynamics_.complete(shifted_, independent_.rates, workspace_);
+}
+
 // `shifted_wrench` counts the numbers of the plan's wrenches.
 bool ShiftedLoops::computeSample(std::size_t sample, const LoadLaw& law, int shifted_wrench) {
-  if (!dynamics_.complete(shifted_, independent_, workspace_)) return false;
+  if (!complete()) return false;
   if (root_link_ != 0) {
     root_by_link_.place(shifted_, root_link_);
     shifted_.root = root_by_link_.rootOf(link_);
@@ -355,22 +371,6 @@ bool ShiftedLoops::computeSample(std::size_t sample, const LoadLaw& law, int shi
     values_[number * samples_ + sample] = value;
   });
   return true;
-}
-
-std::vector<bool> independentCoordinates(const ClosedLoopDynamics& dynamics) {
-  ClosedLoopDynamics::Workspace workspace = dynamics.makeWorkspace();
-  std::vector<bool> given(dynamics.actuated().size(), true);
-  for (const bool preferred : {false, true}) {
-    for (std::size_t i = given.size(); i-- > 0;) {
-      if (dynamics.given().coordinates[i] != preferred) continue;
-      // At rest the rates are found if and only if what is not given is determined.
-      given[i] = false;
-      Motion motion(dynamics.coordinates());
-      motion.q = dynamics.assembly();
-      given[i] = !dynamics.complete(motion, given, workspace);
-    }
-  }
-  return given;
 }
 
 }  // namespace virtual_work_dynamics

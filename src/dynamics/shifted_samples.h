@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "dynamics/independent_coordinates.h"
 #include "dynamics/root_by_link.h"
 #include "virtual_work_dynamics/block.h"
 #include "virtual_work_dynamics/closed_loop_dynamics.h"
@@ -136,7 +137,7 @@ class ShiftedLoops : public ShiftedSamples {
   /// @param dynamics must outlive it, like mechanism and plan
   /// @param own the scene's load
   ShiftedLoops(const Mechanism& mechanism, const ClosedLoopDynamics& dynamics,
-               const ShiftPlan& plan, const Load& own, const std::vector<bool>& independent);
+               const ShiftPlan& plan, const Load& own, const IndependentCoordinates& independent);
 
   void compute(const Motion& motion, const SampleShifts& shifts, const LoadLaw& law) override;
   const double* values(std::size_t number) const override {
@@ -145,6 +146,7 @@ class ShiftedLoops : public ShiftedSamples {
   const std::vector<bool>& known() const override { return known_; }
 
  private:
+  bool complete();
   bool computeSample(std::size_t sample, const LoadLaw& law, int shifted_wrench = -1);
   void setLink(const Motion& motion, const SampleShifts& shifts);
   bool computeCoordinates(const Motion& motion, const SampleShifts& shifts, const LoadLaw& law);
@@ -152,7 +154,8 @@ class ShiftedLoops : public ShiftedSamples {
   const Mechanism& mechanism_;
   const ClosedLoopDynamics& dynamics_;
   const ShiftPlan& plan_;
-  const std::vector<bool> independent_;
+  const IndependentCoordinates independent_;
+  const bool positions_first_;  // as more of them are independent than of the rates
   ClosedLoopDynamics::Workspace workspace_;
   const ResultNumbers numbers_;
   const std::size_t samples_;
@@ -164,9 +167,5 @@ class ShiftedLoops : public ShiftedSamples {
   std::vector<double> values_;
   std::vector<bool> known_;
 };
-
-/// Chooses coordinates whose motion determines that of all others at the assembly, given ones
-/// first. Allocates.
-std::vector<bool> independentCoordinates(const ClosedLoopDynamics& dynamics);
 
 }  // namespace virtual_work_dynamics

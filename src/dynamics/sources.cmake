@@ -5,6 +5,7 @@ vwd_core(
   effort_doubts.cpp
   effort_groups.cpp
   given_joints.cpp
+  independent_coordinates.cpp
   live_wrenches.cpp
   model_view.cpp
   momentum_observer.cpp
@@ -12,6 +13,7 @@ vwd_core(
   motion_start.cpp
   passive_joints.cpp
   root_by_link.cpp
+  shift_sizes.cpp
   shifted_samples.cpp
   sample_rows.cpp
   scene_doubts.cpp

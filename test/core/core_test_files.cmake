@@ -36,6 +36,7 @@ set(core_test_files
   test/core/description_deviations_test.cpp
   test/core/description_messages_test.cpp
   test/core/deviation_rows_test.cpp
+  test/core/deviations_rate_only_test.cpp
   test/core/deviations_sources_test.cpp
   test/core/deviations_test.cpp
   test/core/deviations_wrenches_test.cpp

@@ -102,6 +102,46 @@ TEST(DeviationsOfRoots, BySensorsOnOtherLinksCoverFreeTurns) {
   expectDrawn(tree.mechanism, scene, tree.motion, sources);
 }
 
+// A force in inertial axes on the link whose attitude is measured: in axes of this link it turns by
+// the attitude's error alone, whatever the joint before it does.
+TEST(DeviationsOfRoots, LoadsInInertialAxesFollowTheMeasuredLink) {
+  const Mechanism mechanism = readUrdf(
+      "<robot name='r'><link name='base'/><link name='a'/><joint name='j' type='continuous'>"
+      "<parent link='base'/><child link='a'/><origin xyz='0 0 1'/><axis xyz='0 1 0'/></joint>"
+      "</robot>");
+  const Eigen::Vector3d at(0.5, 0.3, 0.2), force(10, -4, 30);
+  Scene scene;
+  scene.root_moves = true;
+  scene.gravity.setZero();
+  AppliedWrench wrench;
+  wrench.link = "a";
+  wrench.at = at;
+  wrench.axes = Axes::kRoot;
+  scene.applied_wrenches = {wrench};
+  const Deviations deviations(mechanism, scene, {});
+  Deviations::Workspace workspace = deviations.makeWorkspace();
+  const LoadLaw law = [&](const Motion& motion, Load& load) {
+    load.wrenches[0].force = motion.root.orientation.conjugate() * force;
+    load.wrenches[0].torque.setZero();
+  };
+  Motion motion(1);
+  motion.q[0] = 0.4;
+  MotionCovariance covariance{{Eigen::Matrix3d::Zero()}};
+  covariance.root_link = mechanism.linkIndex("a");
+  covariance.coordinates[0](0, 0) = 1e-6;
+  deviations.computeMotion(motion, covariance, law, workspace);
+  EXPECT_NEAR(workspace.motion().effort[0], 0, 1e-12);
+  covariance.coordinates[0].setZero();
+  const Eigen::Vector3d in_link = Eigen::AngleAxisd(-0.4, Eigen::Vector3d::UnitY()) * force;
+  for (int axis = 0; axis < 3; ++axis) {
+    covariance.root.setZero();
+    covariance.root(axis, axis) = 1e-8;
+    deviations.computeMotion(motion, covariance, law, workspace);
+    const Eigen::Vector3d change = in_link.cross(Eigen::Vector3d::Unit(axis));
+    EXPECT_NEAR(workspace.motion().effort[0], 1e-4 * std::abs(at.cross(change).y()), 1e-6) << axis;
+  }
+}
+
 TEST(DeviationsOfRoots, LinksThatAreNotThereAreRefused) {
   RandomRobot robot(2, 4);
   const Mechanism mechanism = readUrdf(robot.urdf());
