@@ -69,7 +69,7 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& of, const Scene& scene, const Re
     actuated_closures.push_back(scene.closures[c].name);
   }
   for (std::size_t i = 0; i < springs.size(); ++i) {
-    reach.emplace_back(mechanism, scene, loops, groups, springs, i, wanted);
+    reach.emplace_back(mechanism, scene, loops, groups, springs, i, wanted, holds.names());
   }
   close(scene);
   const MomentPoints points(mechanism, scene);

@@ -83,9 +83,9 @@ void ClosedLoopDynamics::Workspace::Impl::report() {
   collect();
   react();
   setDeterminacy();
-  plan.holds.judge(solvers.forces, results.loops.holds);
   if (plan.request.determinacy || results.singular()) setDetermined();
   setExistence();
+  plan.holds.judge(solvers.forces, results.loops.holds);
   leaveOutSprings();
   if (plan.request.determinacy) publishFlags();
 }
@@ -163,7 +163,7 @@ void ClosedLoopDynamics::Workspace::Impl::setCouplings() {
   for (std::size_t i = 0; i < plan.couplings.size(); ++i) {
     const Eigen::Index place = first + static_cast<Eigen::Index>(i);
     const double effort = results.effort[plan.assembly.size() + place];
-    double sum = 0;
+    double sum = plan.couplings[i].mimicked;
     for (const ResolvedCoupling::Term& term : plan.couplings[i].terms) {
       sum += term.factor * solvers.kinematics.position()[term.coordinate];
       loops.tree_effort[term.coordinate] += term.factor * effort;
@@ -346,6 +346,7 @@ void ClosedLoopDynamics::Workspace::Impl::leaveOutSprings() {
     for (const std::size_t j : reach.root_axes) {
       determined.root_axes[j] = loops.root_axes_exist[j] = kNone;
     }
+    for (const std::size_t j : reach.holds) loops.holds[j] = Hold::kNotDecidable;
   }
 }
 

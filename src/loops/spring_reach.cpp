@@ -4,12 +4,15 @@
 #include <string>
 
 #include "loops/link_kinematics.h"
+#include "scene/closure_types.h"
+#include "scene/touch_rows.h"
 
 namespace virtual_work_dynamics {
 
 SpringReach::SpringReach(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
                          const std::vector<LoopGroup>& groups, const PointSprings& springs,
-                         std::size_t spring, const Request& request) {
+                         std::size_t spring, const Request& request,
+                         const std::vector<std::string>& one_sided) {
   std::vector<bool> joints(mechanism.joints().size()), closures(scene.closures.size());
   std::vector<bool> coordinates(mechanism.coordinates().size());
   std::vector<bool> couplings(scene.couplings.size());
@@ -53,6 +56,13 @@ SpringReach::SpringReach(const Mechanism& mechanism, const Scene& scene, const L
   };
   add(request.child_axes, child_axes);
   add(request.root_axes, root_axes);
+  for (std::size_t i = 0; i < one_sided.size(); ++i) {
+    for (std::size_t c = 0; c < closures.size(); ++c) {
+      const Closure& closure = scene.closures[c];
+      const bool lifted = traitsOf(closure.type).touches() && conditionCount(closure) == 0;
+      if (closures[c] && !lifted && closure.name == one_sided[i]) holds.push_back(i);
+    }
+  }
 }
 
 }  // namespace virtual_work_dynamics

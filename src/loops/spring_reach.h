@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "loops/groups.h"
@@ -17,10 +18,11 @@ namespace virtual_work_dynamics {
 struct SpringReach {
   SpringReach(const Mechanism& mechanism, const Scene& scene, const LoopScene& loops,
               const std::vector<LoopGroup>& groups, const PointSprings& springs, std::size_t spring,
-              const Request& request);
+              const Request& request, const std::vector<std::string>& one_sided);
 
   std::vector<std::size_t> efforts;                // as in Results
   std::vector<std::size_t> child_axes, root_axes;  // as in Request
+  std::vector<std::size_t> holds;                  // as in LoopHolds, of what is not lifted
 };
 
 }  // namespace virtual_work_dynamics

@@ -57,7 +57,7 @@ bool turnsFreely(const Mechanism& mechanism, int joint) {
 // A sum of coordinates that is to be `offset`.
 struct Sum {
   std::map<int, long double> factors;  // by coordinate
-  long double offset = 0;
+  long double offset = 0, mimicked = 0;
   long double size = 0;         // of the largest factor that went into it
   long double offset_size = 0;  // of the largest offset
 };
@@ -91,10 +91,11 @@ Sum sumOf(const Mechanism& mechanism, const Coupling& coupling, std::size_t inde
     const long double factor = static_cast<long double>(term.value) * joint.multiplier;
     const long double offset = static_cast<long double>(term.value) * joint.offset;
     sum.factors[joint.coordinate] += factor;
-    sum.offset -= offset;
+    sum.mimicked += offset;
     sum.size = std::max(sum.size, std::abs(factor));
     sum.offset_size = std::max(sum.offset_size, std::abs(offset));
   }
+  sum.offset -= sum.mimicked;
   return sum;
 }
 
@@ -121,6 +122,7 @@ ResolvedCoupling resolve(const Mechanism& mechanism, const Coupling& coupling, s
   resolved.rate_only = coupling.rate_only;
   resolved.adopts_offset = !coupling.rate_only && !coupling.offset;
   resolved.offset = static_cast<double>(sum.offset);
+  resolved.mimicked = static_cast<double>(sum.mimicked);
   if (sum.factors.empty()) {
     const bool contradicts = coupling.offset && std::abs(sum.offset) > kCancelled * sum.offset_size;
     throw SceneError(place + (contradicts

@@ -19,7 +19,8 @@ struct ResolvedCoupling {
   Unit unit = Unit::kRadian;
   bool adopts_offset = false;  ///< the sum stays what it is in the assembly
   bool rate_only = false;
-  double offset = 0;  ///< of the coordinates, without the offsets of mimic joints
+  double offset = 0;    ///< of the coordinates, without the offsets of mimic joints
+  double mimicked = 0;  ///< what the offsets of mimic joints add to the sum of the terms
 };
 
 /// Resolves the couplings of a scene. A joint that mimics another one counts as that one.

@@ -184,8 +184,10 @@ Tolerances readTolerances(const YAML::Node& node, const std::string& where) {
 }
 
 // Where the list of the scene that a closure stands in comes among them.
+// Every other list has one type.
 int listOf(const Closure& closure) {
-  return std::max(static_cast<int>(closure.type), static_cast<int>(ClosureType::kDistance));
+  const bool first = traitsOf(closure.type).list == std::string("closures");
+  return first ? -1 : static_cast<int>(closure.type);
 }
 
 void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {

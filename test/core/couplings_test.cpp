@@ -245,6 +245,25 @@ TEST(Couplings, CoupledWristHasItsFrictionAndRotorsAtTheMotors) {
   }
 }
 
+// The sum that is reported is that of the terms, with the offsets of joints that mimic.
+TEST(Couplings, SumsHaveTheOffsetsOfMimicJoints) {
+  for (const bool says_offset : {true, false}) {
+    CoupledShafts shafts({{1, false}, {1, false}, {1, false}});
+    shafts.builder().mimicFirst(2, 0.3);
+    Coupling& coupling = shafts.couple("sum", {{2, 1}, {3, -3}});
+    if (says_offset) coupling.offset = 1;
+    shafts.actuate(2);
+    ClosedLoopResults found(shafts.mechanism(), shafts.scene);
+    Motion motion(2);
+    motion.q[1] = 0.4;
+    ASSERT_TRUE(found.dynamics.complete(motion));
+    found.dynamics.compute(motion);
+    const double sum = motion.q[1] - 3 * (2 * motion.q[0] + 0.3);
+    expectClose(sum, says_offset ? 1 : -0.9);
+    expectClose(found.dynamics.results().loops.actuated_positions[0], sum);
+  }
+}
+
 // A mimic joint is a coupling that a description says.
 TEST(Couplings, EqualMimicJoints) {
   for (unsigned seed = 1; seed <= 40; ++seed) {

@@ -47,6 +47,20 @@ TEST(SceneReaderLoops, WithoutTheKeysEverythingIsAnOpenChain) {
   EXPECT_FALSE(scene.redundancy.length);
 }
 
+// Lists come one after the other, each in its own order, whatever types it has.
+TEST(SceneReaderLoops, KeepsTheOrderOfEachList) {
+  const Scene scene = read(R"(
+cylinders: [{name: c, link_a: a, link_b: b}]
+closures:
+  - {name: g, type: gear, radii: [1, 2], parent: {link: a}, child: {link: b}}
+  - {name: r, type: revolute, parent: {link: a}, child: {link: b}}
+  - {name: f, type: fixed, parent: {link: a}, child: {link: b}}
+)");
+  std::string order;
+  for (const Closure& closure : scene.closures) order += closure.name;
+  EXPECT_EQ(order, "grfc");
+}
+
 TEST(SceneReaderLoops, ReadsClosures) {
   const Scene scene = read(R"(
 closures:
