@@ -17,7 +17,7 @@ namespace virtual_work_dynamics {
 namespace {
 
 constexpr std::size_t kLongestUrdf = std::size_t{1} << 28;       // bytes
-constexpr std::size_t kLongestSceneText = std::size_t{1} << 24;  // bytes
+constexpr std::size_t kLongestSceneText = std::size_t{1} << 26;  // bytes
 constexpr char kDescriptionName[] = "robot_description";
 
 YAML::Node sceneOf(const std::string& text, const std::string& name) {
