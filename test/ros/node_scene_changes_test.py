@@ -3,7 +3,7 @@
 import math
 import time
 
-from geometry_msgs.msg import InertiaStamped, Vector3Stamped
+from geometry_msgs.msg import InertiaStamped, Vector3Stamped, WrenchStamped
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool
 from tf2_msgs.msg import TFMessage
@@ -169,6 +169,61 @@ class SceneChanges(NodeTest):
         stamps = [each.transforms[0].header.stamp.to_nsec() for each in found]
         self.assertLess(max(stamps), EPOCH + 1000 * STEP)
         self.assertLessEqual(len(found), 2 + 20 * (time.monotonic() - before))
+
+    def pads(self, *closed):
+        """The bob on two pads without friction on both sides, and nothing else that would hold it."""
+        def pad(name, side):
+            plane = {'link': 'base', 'point': [-math.sin(ANGLE), 0, 0], 'normal': [side, 0, 0]}
+            return {'name': name, 'link': 'bob', 'at': [0, 0, -1], 'slip': 'all', 'plane': plane,
+                    'closed': name in closed}
+        return {'contacts': [pad('left', -1), pad('right', 1)], 'actuated': [], 'given': ['wheel'],
+                'assembly': [{'name': 'wheel', 'position': ANGLE}]}
+
+    def normal_force(self, name):
+        """Of a result that begins now."""
+        self.effort()
+        message = self.recorded[name].wait(self.sent)[-1]
+        return message.wrench.force.z
+
+    def test_what_is_refused_is_tried_again(self):
+        self.start(self.pads('right'))
+        self.recorded = {name: self.node.record('reaction/' + name, WrenchStamped)
+                         for name in ('left', 'right')}
+        self.node.wait_for_plan('effort', 'reaction/left', 'reaction/right')
+        # Before any result of these topics.
+        self.sent, self.efforts = 0, self.node.record('effort', JointState)
+        right = self.normal_force('right')
+        self.assertGreater(abs(right), 1)
+        # Nothing would hold the bob: refused by name. The payload with it is not.
+        self.change('contact/right', Bool(False))
+        self.change('payload/bob', payload(1, (0, 0, -1)))
+        wait_until(lambda: "'right' is lifted (" in self.node.output(), self.node.output)
+        wait_until(lambda: abs(self.normal_force('right') - 2 * right) < 1e-9,
+                   lambda: 'twice %r' % right)
+        self.assertEqual(self.normal_force('left'), 0)
+        self.change('contact/left', Bool(True))
+        wait_until(lambda: abs(self.normal_force('left') + 2 * right) < 1e-9, self.node.output)
+        self.assertEqual(self.normal_force('right'), 0)
+        self.assertEqual(self.node.output().count("'right' is lifted ("), 1)
+
+    def test_what_sticks_does_so_where_it_is(self):
+        # A pad that a motor holds, and that sticks; the scene has it at another angle.
+        floor = {'link': 'base', 'point': [0, 0, -math.cos(ANGLE)], 'normal': [0, 0, 1]}
+        self.start({'contacts': [{'name': 'pad', 'link': 'bob', 'at': [0, 0, -1], 'plane': floor,
+                                  'closed': False}],
+                    'assembly': [{'name': 'wheel', 'position': 0}]})
+        self.assertClose([self.effort()], [G * math.sin(ANGLE)], EXACT, 'effort')
+        self.change('contact/pad', Bool(True))
+
+        def touches():
+            self.effort()
+            return "'pad' touches" in self.node.output()
+        wait_until(touches, self.node.output)
+        before = int(self.node.diagnostics()['samples that violate a loop'])
+        for _ in range(10):
+            self.effort()
+        values = self.node.wait_for_count('samples computed', self.sent)
+        self.assertEqual(int(values['samples that violate a loop']), before)
 
     def test_payloads_of_the_scene_are_replaced(self):
         self.start({'payload': [{'link': 'bob', 'mass': 1, 'at': [0, 0, -1]}]})

@@ -152,7 +152,6 @@ class Frames(NodeTest):
         self.start(SMALL_ARM, live(), parameters)
         self.wrenches.publish(wrench(EPOCH - 1000 * MS, frame='nowhere_of_test'))
         wait_until(lambda: self.tf.get_num_connections() > 0, self.node.output)
-        self.node.wait_for_count('dropped: unknown frame', 1)
 
     def send_plate(self, first, last):
         for i in range(first, last, 10):
@@ -176,7 +175,7 @@ class Frames(NodeTest):
         self.send_plate(0, 110)
         self.wrenches.publish(wrench(EPOCH - 20 * MS, frame='plate_of_test'))
         # By patience it would wait for 30 s.
-        values = self.node.wait_for_count('dropped: unknown frame', 2)
+        values = self.node.wait_for_count('dropped: unknown frame', 1)
         self.assertIn("its frame 'plate_of_test' is not a link", values['last drop'])
         self.wrenches.publish(wrench(EPOCH + 50 * MS, frame='plate_of_test'))
         self.wait_until_taken(EPOCH + 50 * MS)
@@ -191,7 +190,7 @@ class Frames(NodeTest):
         self.wait_until_taken(EPOCH + 50 * MS)
         self.wrenches.publish(wrench(EPOCH + 60 * MS))
         self.wait_until_taken(EPOCH + 60 * MS)
-        self.assertEqual(self.node.diagnostics()['dropped: unknown frame'], '1')
+        self.assertEqual(self.node.diagnostics()['dropped: unknown frame'], '0')
 
     def carried(self, parameters=None):
         self.arm = CarriedArm()
