@@ -164,17 +164,17 @@ Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopComplet
   for (std::size_t c = 0; c < scene.closures.size(); ++c) {
     const double least = kCoincide * completion.length();
     if (const char* fault = kinematics.closure(c).fault(kinematics.links(), least)) {
-      throw SceneError(kinematics.set(c).place() + ": " + fault);
+      throw AssemblyError(kinematics.set(c).place() + ": " + fault);
     }
     if (kinematics.reversed(c)) {
-      throw SceneError("closures: " + inQuotes(scene.closures[c].name) +
-                       " is assembled the wrong way round: its frames are half a turn apart");
+      throw AssemblyError("closures: " + inQuotes(scene.closures[c].name) +
+                          " is assembled the wrong way round: its frames are half a turn apart");
     }
     if (traitsOf(scene.closures[c].type).hasLength() &&
         (kinematics.parentOrigin(c) - kinematics.childOrigin(c)).norm() <=
             kCoincide * completion.length()) {
-      throw SceneError("closures: " + inQuotes(scene.closures[c].name) +
-                       ": its ends coincide in the assembly");
+      throw AssemblyError("closures: " + inQuotes(scene.closures[c].name) +
+                          ": its ends coincide in the assembly");
     }
   }
   kinematics.adoptConstants();

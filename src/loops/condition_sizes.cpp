@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
 
 namespace virtual_work_dynamics {
 
@@ -13,10 +12,8 @@ namespace {
 // some ten rounding errors of positions.
 constexpr double kLeastLever = 1e-4;
 
-// The largest distance between these origins and those of joints on a path.
-double extentOf(const LoopKinematics& kinematics, const std::vector<PathStep>& path,
-                std::vector<Eigen::Vector3d> origins) {
-  for (const PathStep& step : path) origins.push_back(kinematics.originOf(step.joint + 1));
+// The largest distance between origins.
+double extentOf(const std::vector<Eigen::Vector3d>& origins) {
   double extent = 0;
   for (const Eigen::Vector3d& a : origins) {
     for (const Eigen::Vector3d& b : origins) extent = std::max(extent, (a - b).norm());
@@ -34,17 +31,26 @@ double leverOf(double extent, double length, double tolerance) {
 
 ConditionSizes::ConditionSizes(const Mechanism& mechanism, const LoopKinematics& kinematics,
                                const LoopGroup& group, double length, double tolerance) {
-  const auto add = [&](const std::vector<PathStep>& path, std::vector<Eigen::Vector3d> origins) {
-    const double extent = extentOf(kinematics, path, std::move(origins));
+  const auto add = [&](const std::vector<PathStep>& path,
+                       const std::vector<Eigen::Vector3d>& origins) {
+    const double extent = extentOf(origins);
     sizes_.push_back(sizesOf(mechanism, path, leverOf(extent, length, tolerance), length));
   };
   for (const std::size_t closure : group.closures) {
-    add(kinematics.path(closure),
-        {kinematics.parentOrigin(closure), kinematics.childOrigin(closure)});
+    const std::vector<PathStep>& path = kinematics.path(closure);
+    std::vector<Eigen::Vector3d> origins{kinematics.parentEnd(closure),
+                                         kinematics.childOrigin(closure)};
+    for (const PathStep& step : path) {
+      if (!kinematics.sizes(closure, step.joint)) continue;
+      origins.push_back(kinematics.originOf(step.joint + 1));
+    }
+    add(path, origins);
   }
   for (std::size_t local = sizes_.size(); local < group.sets.size(); ++local) {
     if (const std::vector<PathStep>* path = kinematics.set(group.sets[local]).levers()) {
-      add(*path, {});
+      std::vector<Eigen::Vector3d> origins;
+      for (const PathStep& step : *path) origins.push_back(kinematics.originOf(step.joint + 1));
+      add(*path, origins);
     } else {
       sizes_.push_back({0, 0});
     }

@@ -11,6 +11,9 @@ namespace {
 // default tolerance of the rank, some ten rounding errors of their positions are then no gap.
 constexpr double kLeastShare = 1e-4;
 
+// Of that distance, what is no size but rounding.
+constexpr double kRounding = 1e-13;
+
 int rootOf(const std::vector<int>& leaders, int i) {
   while (leaders[static_cast<std::size_t>(i)] != i) i = leaders[static_cast<std::size_t>(i)];
   return i;
@@ -48,6 +51,13 @@ void addClosure(const Mechanism& mechanism, const LoopKinematics& kinematics, st
         .passages.push_back({group.closures.size(), step.sign});
   }
   group.closures.push_back(closure);
+}
+
+bool hasSize(const LoopKinematics& kinematics, const LoopGroup& group,
+             const LoopGroup::CrossedJoint& crossed) {
+  return std::any_of(crossed.passages.begin(), crossed.passages.end(), [&](const auto& passage) {
+    return kinematics.sizes(group.closures[passage.closure], crossed.joint);
+  });
 }
 
 }  // namespace
@@ -89,10 +99,12 @@ double loopLength(const std::vector<LoopGroup>& groups, const LoopKinematics& ki
   for (const LoopGroup& group : groups) {
     std::vector<Eigen::Vector3d> origins;
     for (const LoopGroup::CrossedJoint& crossed : group.joints) {
-      origins.push_back(kinematics.originOf(crossed.joint + 1));
+      const Eigen::Vector3d& origin = kinematics.originOf(crossed.joint + 1);
+      farthest = std::max(farthest, origin.norm());
+      if (hasSize(kinematics, group, crossed)) origins.push_back(origin);
     }
     for (const std::size_t c : group.closures) {
-      origins.push_back(kinematics.parentOrigin(c));
+      origins.push_back(kinematics.parentEnd(c));
       origins.push_back(kinematics.childOrigin(c));
     }
     for (const Eigen::Vector3d& a : origins) {
@@ -101,6 +113,9 @@ double loopLength(const std::vector<LoopGroup>& groups, const LoopKinematics& ki
     }
   }
   if (longest > kLeastShare * farthest) return longest;
+  // What touches goes far on the joints that carry it, and its levers stay what they are.
+  const bool carried = !kinematics.touching().empty() && longest > kRounding * farthest;
+  if (carried) return kLeastShare * farthest;
   return farthest > 0 ? farthest : 1;
 }
 

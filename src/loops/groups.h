@@ -34,6 +34,8 @@ std::vector<LoopGroup> loopGroups(const Mechanism& mechanism, const LoopKinemati
 /// that lie on a loop, at the present position; where it is less than 1e-4 of their distance from
 /// the root, that distance, as rounding errors of positions are no size; 1 where all are at the
 /// root's origin, or there are none.
+/// Of what touches, only origins of joints that turn and the point of contact count, with its foot
+/// on the plane, and the length is at least 1e-4 of that distance: joints that slide only carry it.
 double loopLength(const std::vector<LoopGroup>& groups, const LoopKinematics& kinematics);
 
 }  // namespace virtual_work_dynamics

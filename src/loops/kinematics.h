@@ -163,6 +163,19 @@ class LoopKinematics {
   const Eigen::Vector3d& parentOrigin(std::size_t c) const { return frames(c).Po; }
   const Eigen::Vector3d& childOrigin(std::size_t c) const { return frames(c).Co; }
   const Eigen::Matrix3d& childAxes(std::size_t c) const { return frames(c).R_C; }
+  /// The parent's origin as far as it is an end of the loop: of a plane, whose origin is any of its
+  /// points, the foot of the perpendicular from the child's origin.
+  Eigen::Vector3d parentEnd(std::size_t c) const {
+    if (!closure(c).traits().touches()) return parentOrigin(c);
+    const Eigen::Vector3d normal = freeAxis(c);
+    return childOrigin(c) - normal * normal.dot(childOrigin(c) - parentOrigin(c));
+  }
+  /// Whether the origin of a joint on the path of a closure has a part in the loop's size: not that
+  /// of a joint that only carries what touches.
+  bool sizes(std::size_t c, int joint) const {
+    if (!closure(c).traits().touches()) return true;
+    return links().coordinateOf({joint, 1}) >= 0 && links().unitOf(joint) == Unit::kRadian;
+  }
   /// Needs setMotion().
   Twist childTwist(std::size_t c) const;
 

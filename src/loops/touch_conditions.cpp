@@ -15,6 +15,8 @@ using Vector3 = Eigen::Vector3d;
 
 // Sine of an angle below which directions are parallel.
 constexpr double kLeastSine = 1e-9;
+// Of a wheel's size, how far from its plane its point may be: heights in descriptions are rounded.
+constexpr double kLargestGap = 0.1;
 
 std::vector<Condition> conditionsOf(const Closure& closure) {
   std::vector<Condition> conditions;
@@ -26,6 +28,12 @@ std::vector<Condition> conditionsOf(const Closure& closure) {
     conditions.push_back(condition);
   }
   return conditions;
+}
+
+// Whether a wheel's axle matters.
+bool hasAxle(const Touch& touch) {
+  const bool alike = touch.slip == Slip::kNone || touch.slip == Slip::kAll;
+  return touch.radius > 0 || touch.roller_angle || !alike;
 }
 
 // A unit vector along v, and how it changes with v.
@@ -47,7 +55,9 @@ TouchConditions::TouchConditions(const Mechanism& mechanism, const Closure& clos
     : ClosureConditions(mechanism, closure, conditionsOf(closure), parent, child, std::move(path),
                         std::move(coordinates)),
       radius_(closure.touch.radius),
-      tube_radius_(closure.touch.tube_radius) {
+      tube_radius_(closure.touch.tube_radius),
+      has_axle_(hasAxle(closure.touch)),
+      has_normal_(closure.touch.normal) {
   for (const TouchRow& row : touchRows(closure)) directions_.push_back(row.direction);
 }
 
@@ -71,10 +81,12 @@ TouchConditions::Contact TouchConditions::contactOf(const LinkKinematics& links,
                                                     const Eigen::Matrix3d& R_P,
                                                     const Vector3& w) const {
   const Vector3 normal = R_P.col(2);
-  if (type() == ClosureType::kRolling) return wheelOn(normal, links.axisOf(child(), 2), w);
+  const bool wheel = type() == ClosureType::kRolling;
+  if (wheel && has_axle_) return wheelOn(normal, links.axisOf(child(), 2), w);
   Contact contact;
   contact.R = R_P;
-  if (type() == ClosureType::kContact) return contact;
+  if (wheel) contact.lever = -tube_radius_ * normal;
+  if (wheel || type() == ClosureType::kContact) return contact;
   const Vector3 blade = links.axisOf(child(), 0), bladed = w.cross(blade);
   const Direction x =
       along(blade - normal.dot(blade) * normal, bladed - normal.dot(bladed) * normal);
@@ -130,10 +142,18 @@ void TouchConditions::setMotion(const LoopState& state, ConditionRows rows) cons
 }
 
 const char* TouchConditions::fault(const LinkKinematics& links, double /*least*/) const {
+  if (directions_.empty()) return nullptr;  // it is lifted
   const Vector3 normal = links.axisOf(parent(), 2);
-  if (type() == ClosureType::kRolling && radius_ > 0 &&
-      links.axisOf(child(), 2).cross(normal).norm() <= kLeastSine) {
+  const bool wheel = type() == ClosureType::kRolling;
+  if (wheel && has_axle_ && links.axisOf(child(), 2).cross(normal).norm() <= kLeastSine) {
     return "its axle is parallel to the plane's normal";
+  }
+  if (wheel && !has_normal_) {
+    const Contact contact = contactOf(links, links.axesOf(parent()), Vector3::Zero());
+    const Vector3 from_plane = links.originOf(child()) + contact.lever - links.originOf(parent());
+    if (std::abs(normal.dot(from_plane)) > kLargestGap * (radius_ + tube_radius_)) {
+      return "it does not touch its plane, and with normal: false nothing moves it there";
+    }
   }
   if (type() == ClosureType::kKnifeEdge &&
       links.axisOf(child(), 0).cross(normal).norm() <= kLeastSine) {

@@ -13,7 +13,8 @@ namespace virtual_work_dynamics {
 /// origin: z is the plane's normal; x of a wheel is where it rolls when it turns about its axle,
 /// along axle x normal, of a blade its direction, of a point that of P; y = z x x. A condition is
 /// the velocity, as P sees it, of that point of the child which touches, along a direction of these
-/// axes, and its multiplier the force on the child there.
+/// axes, and its multiplier the force on the child there. A ball, a wheel whose radius is zero,
+/// that slips in all directions alike has no axle: its x is that of P.
 class TouchConditions : public ClosureConditions {
  public:
   TouchConditions(const Mechanism& mechanism, const Closure& closure, const Frame& parent,
@@ -39,6 +40,7 @@ class TouchConditions : public ClosureConditions {
 
   std::vector<Eigen::Vector3d> directions_;  // of the conditions, in axes of the contact
   double radius_, tube_radius_;
+  bool has_axle_, has_normal_;
 };
 
 }  // namespace virtual_work_dynamics

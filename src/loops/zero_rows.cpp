@@ -26,12 +26,14 @@ struct LoopExtent {
 };
 
 LoopExtent extentOfLoop(const LoopKinematics& kinematics, std::size_t closure) {
-  std::vector<Eigen::Vector3d> origins{kinematics.parentOrigin(closure),
+  LoopExtent extent;
+  std::vector<Eigen::Vector3d> origins{kinematics.parentEnd(closure),
                                        kinematics.childOrigin(closure)};
   for (const PathStep& step : kinematics.path(closure)) {
-    origins.push_back(kinematics.originOf(step.joint + 1));
+    const Eigen::Vector3d& origin = kinematics.originOf(step.joint + 1);
+    extent.reach = std::max(extent.reach, origin.norm());
+    if (kinematics.sizes(closure, step.joint)) origins.push_back(origin);
   }
-  LoopExtent extent;
   for (const Eigen::Vector3d& a : origins) {
     extent.reach = std::max(extent.reach, a.norm());
     for (const Eigen::Vector3d& b : origins) {

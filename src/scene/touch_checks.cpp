@@ -25,6 +25,16 @@ void requireSoundTouch(const Closure& closure, const std::string& place) {
     throw SceneError(place + ": radius and tube_radius are both zero");
   }
   if (touch.friction) requireAtLeastZero(place + ": friction", *touch.friction);
+  if (touch.friction && !touch.normal) {
+    throw SceneError(place + ": friction has no effect where normal is false");
+  }
+  if (touch.friction && touch.slip == Slip::kAll) {
+    throw SceneError(place + ": friction has no effect on what slips in all directions");
+  }
+  if (closure.type == ClosureType::kContact && touch.slip != Slip::kNone &&
+      touch.slip != Slip::kAll) {
+    throw SceneError(place + ": a point slips in all directions or in none");
+  }
   if (touch.roller_angle && !std::isfinite(*touch.roller_angle)) {
     throw SceneError(place + ": roller_angle is not finite");
   }

@@ -7,8 +7,12 @@
 #include <vector>
 
 #include "closed_loops.h"
+#include "dynamics/motion_start.h"
 #include "four_bar.h"
 #include "open_loops.h"
+#include "touching_bodies.h"
+#include "virtual_work_dynamics/dynamics.h"
+#include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -103,6 +107,28 @@ TEST(Assembly, SaysWhatEndsFarFromItsStart) {
       << doubts[0];
   const ClosedLoopDynamics near(leg.mechanism, leg.scene, {});
   EXPECT_TRUE(near.assemblyDoubts().empty());
+}
+
+// At zero, where the scene has it, the axle of this wheel stands upright, which is nothing but a
+// start that does not lead anywhere: the motion's does.
+TEST(Assembly, OfAFaultyStartIsThatOfTheMotion) {
+  BodiesOnAxes bodies;
+  const int tilted = bodies.turn(bodies.slide(0, bodies.z()), bodies.x());
+  bodies.load(bodies.turn(tilted, bodies.z()), 1, {1, 1, 1});
+  const Mechanism mechanism = bodies.build();
+  const Scene scene = sceneOf(R"(
+rolling: [{name: w, link: link_3, axis: [0, 0, 1], radius: 0.1, slip: all, plane: {link: link_0}}]
+actuated: [joint_2, joint_3]
+)");
+  EXPECT_THROW(Dynamics(mechanism, scene, Request()), AssemblyError);
+  Motion motion(3);
+  motion.q << 0.1, M_PI / 2, 0;
+  for (const bool all : {true, false}) {
+    MotionStart start{{}, motion, Motion()};
+    start.given.coordinates = {all, true, true};
+    const Scene started = startedBy(mechanism, scene, start);
+    EXPECT_LE((Dynamics(mechanism, started, Request()).assembly() - motion.q).norm(), kTolerance);
+  }
 }
 
 }  // namespace

@@ -146,6 +146,54 @@ actuated: []
   }
 }
 
+// Where the origin of the plane lies is no size of the loop, which the gap would be small against.
+TEST(Contacts, AFootOffItsPlaneIsOffItWhateverThePlanesPoint) {
+  BodiesOnAxes bodies;
+  const int up = bodies.slide(0, bodies.z());
+  bodies.load(bodies.slide(up, bodies.x()), 1, {1, 1, 1});
+  const Mechanism mechanism = bodies.build();
+  double near = 0;
+  for (const double away : {0.0, 1e6}) {
+    Scene scene = sceneOf(R"(
+contacts: [{name: foot, link: link_2, slip: all, plane: {link: link_0}}]
+actuated: [joint_2]
+)");
+    scene.closures[0].parent.xyz.x() = away;
+    const NamedLoopResults results(mechanism, scene, motionOf({0.5, 0}, {0, 0}, {0, 0}));
+    const double relative = results.dynamics().results().loops.relative_residuals.at(0).position;
+    if (away == 0) near = relative;
+    EXPECT_GT(relative, 0.1);
+    EXPECT_NEAR(relative, near, kClosedForm);
+  }
+}
+
+// A spring whose ends coincide pushes no one knows where, so that no one knows what the foot bears.
+TEST(Contacts, HoldsOfForcesWithoutAValueAreNotDecidable) {
+  BodiesOnAxes bodies;
+  const int up = bodies.slide(0, bodies.z());
+  bodies.load(bodies.slide(up, bodies.x()), 1, {1, 1, 1});
+  const Mechanism mechanism = bodies.build();
+  Scene scene = sceneOf(R"(
+contacts: [{name: foot, link: link_2, slip: all, plane: {link: link_0}}]
+springs: [{name: coil, link_a: link_0, link_b: link_2, stiffness: 100, rest_length: 1}]
+actuated: [joint_2]
+assembly: [{name: joint_2, position: 0.3}]
+)");
+  ClosedLoopDynamics dynamics(mechanism, scene, {});
+  ClosedLoopDynamics::Workspace workspace = dynamics.makeWorkspace();
+  for (const double x : {0.3, 0.0, 0.3}) {
+    dynamics.compute(motionOf({0, x}, {0, 0}, {0, 0}), workspace);
+    EXPECT_EQ(workspace.results().loops.holds.at(0), x == 0 ? Hold::kNotDecidable : Hold::kHolds)
+        << x;
+  }
+  scene.closures[0].touch.closed = false;  // bears nothing whatever the spring does
+  scene.actuated = {"joint_1", "joint_2"};
+  ClosedLoopDynamics lifted(mechanism, scene, {});
+  ClosedLoopDynamics::Workspace other = lifted.makeWorkspace();
+  lifted.compute(motionOf({0, 0}, {0, 0}, {0, 0}), other);
+  EXPECT_EQ(other.results().loops.holds.at(0), Hold::kHolds);
+}
+
 // Drake's LadderTest: a ladder of 7 kg on a pin with a torque of 20 N m, with a ball of 5 mm at its
 // upper end against a wall without friction, a quarter of a metre off the middle.
 TEST(Contacts, DrakesLadderLeansAgainstItsWall) {

@@ -1,9 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
+#include <string>
 
 #include "touching_bodies.h"
+#include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/joint_types.h"
 
 namespace virtual_work_dynamics {
@@ -21,6 +22,15 @@ actuated: []
 free_motion: true
 assembly: [{name: joint_3, position: 0.5}]
 )";
+
+std::string refusalOf(const Mechanism& mechanism, const Scene& scene) {
+  try {
+    ClosedLoopDynamics(mechanism, scene, {});
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "none";
+}
 
 // A disc on slides x, y and z, then turns about z, x and its axle, y.
 Mechanism disc(double mass, double across, double along) {
@@ -121,6 +131,89 @@ actuated: [joint_1]
   EXPECT_NEAR(force.force.x(), 0, kClosedForm * 324.3);
   EXPECT_EQ(force.force.y(), 0);
   EXPECT_NEAR(results.effort("joint_1"), 0, kClosedForm * 324.3);
+}
+
+// A ball has no axle, so that where it seems to point does not matter: upright it rolls as it does
+// when it lies.
+TEST(Rolling, ABallRollsHoweverItsAxleStands) {
+  const double r = 0.2, m = 2, I = 0.4 * m * r * r, a = 3;
+  BodiesOnAxes bodies;
+  int link = 0;
+  for (const Vector3l& axis : {bodies.x(), bodies.y(), bodies.z()}) link = bodies.slide(link, axis);
+  for (const Vector3l& axis : {bodies.z(), bodies.x(), bodies.y()}) link = bodies.turn(link, axis);
+  bodies.load(link, m, {I, I, I});
+  const Mechanism mechanism = bodies.build();
+  for (const char* axis : {"[0, 0, 1]", "[1e-9, 0, 1]", "[0, 1, 0]", "[1, 2, 3]"}) {
+    SCOPED_TRACE(axis);
+    const Scene scene = sceneOf(std::string("rolling: [{name: ball, link: link_6, axis: ") + axis +
+                                R"(, radius: 0, tube_radius: 0.2, plane: {link: link_0}}]
+gravity: [0, 0, -9.81]
+actuated: []
+free_motion: true
+assembly: [{name: joint_3, position: 0.2}]
+)");
+    const Motion motion =
+        motionOf({0, 0, r, 0, 0, 0}, {0.8, 0, 0, 0, 0, 0.8 / r}, {a, 0, 0, 0, 0, a / r});
+    const NamedLoopResults results(mechanism, scene, motion);
+    EXPECT_LE(violation(results), kClosedForm);
+    EXPECT_EQ(results.dynamics().determinacy().free_motions, 0);
+    EXPECT_EQ(results.dynamics().determinacy().redundant_constraints, 0);
+    // What it would take beyond the contact does as much work.
+    EXPECT_NEAR(results.effort("joint_1") + results.effort("joint_6") / r, m * a + I * a / (r * r),
+                kClosedForm * m * a);
+    expectForce({m * a - results.effort("joint_1"), 0, m * 9.81}, results.rootAxes("ball").force,
+                kClosedForm * m * 9.81);
+    // In axes of the plane.
+    expectForce(results.rootAxes("ball").force, results.childAxes("ball").force,
+                kClosedForm * m * 9.81);
+  }
+  // Of one that slips along its axle alone the axle says where.
+  EXPECT_EQ(refusalOf(mechanism, sceneOf(R"(
+rolling: [{name: ball, link: link_6, axis: [0, 0, 1], radius: 0, tube_radius: 0.2, slip: lateral,
+           plane: {link: link_0}}]
+actuated: []
+free_motion: true
+)")),
+            "rolling: 'ball': its axle is parallel to the plane's normal");
+}
+
+TEST(Rolling, AWheelThatDoesNotTouchItsPlaneIsRefused) {
+  BodiesOnAxes bodies;
+  const int x = bodies.slide(0, bodies.x());
+  bodies.load(bodies.turn(x, bodies.y(), {0, 0, 0.5}), 1, {1, 1, 1});
+  const Mechanism mechanism = bodies.build();
+  const auto wheel = [&](const std::string& point) {
+    return refusalOf(mechanism, sceneOf(R"(
+rolling: [{name: w, link: link_2, axis: [0, 1, 0], radius: 0.1, normal: false,
+           plane: {link: link_0, point: [)" +
+                                        point + "]}}]\nactuated: [joint_2]\n"));
+  };
+  EXPECT_EQ(wheel("0, 0, 0.4"), "none");
+  EXPECT_EQ(wheel("70, -3, 0.395"), "none");
+  for (const char* point : {"0, 0, 0", "0, 0, 0.385", "0, 0, 0.415", "0, 0, 1"}) {
+    EXPECT_EQ(wheel(point),
+              "rolling: 'w': it does not touch its plane, and with normal: false nothing moves it "
+              "there")
+        << point;
+  }
+}
+
+// What is lifted has no directions, and may lie as it likes.
+TEST(Rolling, WhatIsLiftedMayHaveAnyAttitude) {
+  BodiesOnAxes bodies;
+  const int x = bodies.slide(0, bodies.x());
+  bodies.load(bodies.turn(x, bodies.y()), 1, {1, 1, 1});
+  const Mechanism mechanism = bodies.build();
+  for (const char* touch :
+       {"rolling: [{name: w, link: link_2, axis: [0, 0, 1], radius: 1, ",
+        "rolling: [{name: w, link: link_2, axis: [0, 1, 0], radius: 1, normal: false, ",
+        "knife_edges: [{name: k, link: link_2, direction: [0, 0, 1], "}) {
+    Scene scene = sceneOf(touch + std::string("plane: {link: link_0}}]\n") +
+                          "actuated: [joint_1, joint_2]\n");
+    EXPECT_NE(refusalOf(mechanism, scene), "none") << touch;
+    scene.closures[0].touch.closed = false;
+    EXPECT_EQ(refusalOf(mechanism, scene), "none") << touch;
+  }
 }
 
 // Released at rest on an incline while its body turns at a steady rate, a blade's point moves on a

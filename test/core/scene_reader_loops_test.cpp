@@ -174,16 +174,17 @@ redundancy:
 TEST(SceneReaderLoops, RefusesClosuresByKey) {
   EXPECT_EQ(refusal("closures: {name: c}"), "closures: expected a list");
   EXPECT_EQ(refusal("closures: [c]"),
-            "closures[0]: expected a map with name, type, parent, child, length");
+            "closures[0]: expected a map with name, type, parent, child, length, radii, radius, "
+            "pressure_angle, helix_angle");
   EXPECT_EQ(closure("tpye: fixed"), "closures[0].tpye: unknown key; did you mean 'type'?");
   EXPECT_EQ(closure("name: c, name: d"), "closures[0].name: given twice");
   EXPECT_EQ(closure("name: [c]"), "closures[0].name: expected a name");
   EXPECT_EQ(closure("type: hinge"),
             "closures[0].type: 'hinge' is not one of fixed, revolute, prismatic, cylindrical, "
-            "universal, spherical, planar, distance");
+            "universal, spherical, planar, distance, gear, rack");
   EXPECT_EQ(closure("type: [fixed]"),
             "closures[0].type: expected fixed, revolute, prismatic, cylindrical, universal, "
-            "spherical, planar or distance");
+            "spherical, planar, distance, gear or rack");
   EXPECT_EQ(closure("parent: a"), "closures[0].parent: expected a map with link, xyz, rpy");
   EXPECT_EQ(closure("parent: {xyz: [0, 0, 0]}"), "closures[0].parent: link is missing");
   EXPECT_EQ(closure("child: {link: b, zyx: [0, 0, 0]}"),

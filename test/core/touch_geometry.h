@@ -24,7 +24,10 @@ struct PlacedTouch {
       const Vector3l axle = child.R.col(2);
       const Vector3l down = axle.cross(axle.cross(n)).normalized();
       o = child.o + touch.radius * down - touch.tube_radius * n;
-      setAxes(axle.cross(n), n);
+      // A ball that slips in all directions alike has no axle.
+      const bool alike = touch.slip == Slip::kNone || touch.slip == Slip::kAll;
+      if (touch.radius > 0 || touch.roller_angle || !alike) setAxes(axle.cross(n), n);
+      if (touch.radius == 0) o = child.o - touch.tube_radius * n;
     }
     if (closure.type == ClosureType::kKnifeEdge) setAxes(n.cross(child.R.col(0)).cross(n), n);
     addFree(closure);

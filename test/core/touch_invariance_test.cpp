@@ -40,7 +40,8 @@ rolling:
   - {name: wheel, link: link_6, axis: [0, 1, 0], radius: 0.2, tube_radius: 0.05,
      plane: {link: link_0, point: [0, 0, 0.1], normal: [0.1, -0.2, 1]}}
   - {name: roller, link: link_6, centre: [0, 0.1, 0], axis: [0, 1, 0], radius: 0.2,
-     roller_angle: 0.6, normal: false, plane: {link: link_0, normal: [0.1, -0.2, 1]}}
+     roller_angle: 0.6, normal: false,
+     plane: {link: link_0, point: [0, 0, 0.1313], normal: [0.1, -0.2, 1]}}
 knife_edges:
   - {name: blade, link: link_5, at: [-0.3, 0.1, -0.2], direction: [1, 0, 0], normal: false,
      plane: {link: link_0, point: [0, 0, 0.1], normal: [0.1, -0.2, 1]}}

@@ -134,6 +134,28 @@ TEST(TouchReader, RefusesWhatNoMechanismCanHave) {
             "rolling: 'w': radius = -1 is not zero or more");
   EXPECT_EQ(refusalOf(wheel("axis: [0, 1, 0], radius: 1, slip: all, normal: false"), none),
             "rolling: 'w': holds nothing: it slips and its normal is false");
+  EXPECT_EQ(refusalOf(wheel("axis: [0, 1, 0], radius: 1, friction: 1, normal: false"), none),
+            "rolling: 'w': friction has no effect where normal is false");
+  EXPECT_EQ(refusalOf(wheel("axis: [0, 1, 0], radius: 1, friction: 1, slip: all"), none),
+            "rolling: 'w': friction has no effect on what slips in all directions");
+  EXPECT_EQ(refusalOf("contacts: [{name: c, link: link_3, friction: 1, slip: all,"
+                      " plane: {link: link_0}}]",
+                      none),
+            "contacts: 'c': friction has no effect on what slips in all directions");
+  for (const Slip slip : {Slip::kNone, Slip::kAll, Slip::kLateral, Slip::kRolling}) {
+    Scene scene = readScene(YAML::Load(
+        "contacts: [{name: c, link: link_3, plane: {link: link_0}}]\nfree_motion: true\n" + none));
+    scene.closures[0].touch.slip = slip;
+    std::string refusal = "no error";
+    try {
+      ClosedLoopDynamics(cart(), scene, {});
+    } catch (const Error& error) {
+      refusal = error.what();
+    }
+    const bool sound = slip == Slip::kNone || slip == Slip::kAll;
+    EXPECT_EQ(refusal,
+              sound ? "no error" : "contacts: 'c': a point slips in all directions or in none");
+  }
   EXPECT_EQ(refusalOf(wheel("axis: [0, 0, 1], radius: 1"), none),
             "rolling: 'w': its axle is parallel to the plane's normal");
   EXPECT_EQ(refusalOf("knife_edges: [{name: k, link: link_3, direction: [0, 0, 1],"

@@ -102,6 +102,44 @@ TEST(DifferentialDriveOnWheels, SmallWheelsAreNoTrouble) {
   }
 }
 
+// Any point of the plane says the same of it.
+TEST(DifferentialDriveOnWheels, ThePointOfThePlaneDoesNotMatter) {
+  const DifferentialDrive drive;
+  const Mechanism mechanism = drive.mechanism();
+  const Motion motion = drive.motion(0.7, 0.8, 1.1, -0.6, 0.9);
+  const double usual =
+      NamedLoopResults(mechanism, drive.scene(), motion).dynamics().determinacy().condition;
+  EXPECT_LT(usual, 10);
+  for (const double away : {100.0, 1e4, 1e6}) {
+    SCOPED_TRACE(away);
+    Scene scene = drive.scene();
+    for (Closure& closure : scene.closures) closure.parent.xyz.x() = away;
+    const NamedLoopResults results(mechanism, scene, motion);
+    EXPECT_NEAR(results.dynamics().determinacy().condition, usual, 1e-9 * usual);
+    for (const char* wheel : {"left", "right"}) {
+      EXPECT_TRUE(results.childAxesDetermined(wheel)[0]) << wheel;
+      EXPECT_FALSE(results.childAxesDetermined(wheel)[1]) << wheel;
+    }
+  }
+}
+
+// Slides that carry the vehicle have no levers: far away, only roundings of positions count.
+TEST(DifferentialDriveOnWheels, FarFromItsRootItIsNoMoreSingular) {
+  const DifferentialDrive drive;
+  const Mechanism mechanism = drive.mechanism();
+  Motion motion = drive.motion(0.7, 0.8, 1.1, -0.6, 0.9);
+  motion.q.head<2>() << 5e5, 4e6;
+  Scene scene = drive.scene();
+  scene.assembly = {{"joint_1", 5e5}, {"joint_2", 4e6}};
+  const NamedLoopResults results(mechanism, scene, motion);
+  EXPECT_LT(results.dynamics().determinacy().condition, 1e4);
+  EXPECT_EQ(results.dynamics().determinacy().redundant_constraints, 1);
+  for (const char* wheel : {"left", "right"}) {
+    EXPECT_TRUE(results.childAxesDetermined(wheel)[0]) << wheel;
+    EXPECT_FALSE(results.childAxesDetermined(wheel)[1]) << wheel;
+  }
+}
+
 // Rates follow from those of the wheels; positions, which no condition restricts, stay.
 TEST(DifferentialDriveOnWheels, RatesFollowFromTheWheels) {
   const DifferentialDrive drive;
