@@ -42,12 +42,27 @@ std::optional<std::string> GivenJoints::problem(const Given& given) const {
   const ClosedLoopDynamics::GivenFinding finding = dynamics_.judge(given);
   if (finding.freedom > 0) return tooLittle(finding, given);
   if (finding.follow.empty()) return std::nullopt;
+  if (needsPositionOf(finding.follow.front(), given)) {
+    return "too much is given: rates of " + listed(finding.follow) +
+           " follow from each other, though their positions do not; give all joints and nothing "
+           "else";
+  }
   if (finding.follow.size() == 1) {
     return "too much is given: " + listed(finding.follow) +
            " follows from the rest; leave it out, or give all joints and nothing else";
   }
   return "too much is given: each of " + listed(finding.follow) +
          " follows from the rest; leave one out, or give all joints and nothing else";
+}
+
+// Whether the position of a coordinate does not follow from what is given besides it.
+bool GivenJoints::needsPositionOf(const std::string& name, Given given) const {
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (names_[i] != name || !given.coordinates[i]) continue;
+    given.coordinates[i] = false;
+    return dynamics_.judge(given).freedom > 0;
+  }
+  return false;
 }
 
 std::string GivenJoints::tooLittle(const ClosedLoopDynamics::GivenFinding& finding,

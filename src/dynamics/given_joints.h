@@ -27,6 +27,7 @@ class GivenJoints {
   static std::vector<bool> resting(const Dynamics& dynamics);
 
  private:
+  bool needsPositionOf(const std::string& name, Given given) const;
   std::string tooLittle(const ClosedLoopDynamics::GivenFinding& finding, const Given& given) const;
 
   const Dynamics& dynamics_;

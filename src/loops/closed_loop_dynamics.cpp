@@ -251,6 +251,14 @@ ClosedLoopDynamics::GivenFinding ClosedLoopDynamics::judge(const Given& given) c
     }
     rest.links = given.links;
   }
+  if (!finding.follow.empty()) return finding;
+  // Positions that only just suffice may come with rates that conditions on rates alone tie.
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!given.coordinates[i]) continue;
+    rest.coordinates[i] = false;
+    if (loops->freedomOfRates(regular, rest.coordinates) == 0) finding.follow.push_back(names[i]);
+    rest.coordinates[i] = true;
+  }
   return finding;
 }
 

@@ -205,9 +205,20 @@ bool LoopCompletion::sound() const {
 
 Eigen::Index LoopCompletion::rank(const LoopKinematics& kinematics,
                                   const std::vector<bool>& given) {
+  return rankBy(position_scales_, kinematics, given);
+}
+
+Eigen::Index LoopCompletion::rankOfRates(const LoopKinematics& kinematics,
+                                         const std::vector<bool>& given) {
+  return rankBy(row_scales_, kinematics, given);
+}
+
+Eigen::Index LoopCompletion::rankBy(const Eigen::VectorXd& row_scales,
+                                    const LoopKinematics& kinematics,
+                                    const std::vector<bool>& given) {
   Eigen::Index sum = 0;
   want(given);
-  factorize(kinematics, position_scales_);
+  factorize(kinematics, row_scales);
   for (System& system : systems_) {
     if (system.sound) {
       sum += std::count(system.wanted.begin(), system.wanted.end(), true);

@@ -57,9 +57,11 @@ class LoopCompletion {
   bool complete(LoopKinematics& kinematics, Motion& motion, const std::vector<bool>& given,
                 const Search& search = kFromAnywhere);
 
-  /// Rank of the conditions' Jacobian for the coordinates that are not given, summed over all
-  /// groups.
+  /// Rank of the Jacobian of the conditions that have a position for the coordinates that are not
+  /// given, summed over all groups.
   Eigen::Index rank(const LoopKinematics& kinematics, const std::vector<bool>& given);
+  /// That of all conditions, also of those that tie rates alone.
+  Eigen::Index rankOfRates(const LoopKinematics& kinematics, const std::vector<bool>& given);
   /// Whether the conditions determine the coordinates that are not given at the present position,
   /// as complete() demands it.
   bool determine(const LoopKinematics& kinematics, const std::vector<bool>& given);
@@ -87,6 +89,8 @@ class LoopCompletion {
   // Rows whose scale is zero count as absent.
   void setEntries(const LoopKinematics& kinematics, const Eigen::VectorXd& row_scales);
   void factorize(const LoopKinematics& kinematics, const Eigen::VectorXd& row_scales);
+  Eigen::Index rankBy(const Eigen::VectorXd& row_scales, const LoopKinematics& kinematics,
+                      const std::vector<bool>& given);
   void setRight(const LoopKinematics& kinematics, const System& system,
                 const Eigen::VectorXd& conditions);
   // Finds the largest condition, with lengths divided by length().

@@ -69,6 +69,12 @@ Eigen::Index GivenLoops::freedom(const Eigen::VectorXd& q, const std::vector<boo
   return std::count(given.begin(), given.end(), false) - completion_.rank(kinematics_, given);
 }
 
+Eigen::Index GivenLoops::freedomOfRates(const Eigen::VectorXd& q, const std::vector<bool>& given) {
+  kinematics_.setPosition(q);
+  return std::count(given.begin(), given.end(), false) -
+         completion_.rankOfRates(kinematics_, given);
+}
+
 std::vector<std::size_t> GivenLoops::undetermined(const Eigen::VectorXd& q) {
   std::vector<std::size_t> found;
   std::vector<bool> given = given_.coordinates;

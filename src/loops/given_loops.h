@@ -43,6 +43,8 @@ class GivenLoops {
   /// How many more coordinates would have to be given at a regular position `q` where those of
   /// `given` are.
   Eigen::Index freedom(const Eigen::VectorXd& q, const std::vector<bool>& given);
+  /// How many more rates would have to be given there.
+  Eigen::Index freedomOfRates(const Eigen::VectorXd& q, const std::vector<bool>& given);
   /// Coordinates that are not given and that neither closures nor what is given determine, at a
   /// regular position `q`.
   std::vector<std::size_t> undetermined(const Eigen::VectorXd& q);

@@ -1,5 +1,6 @@
 // Motions that are given by other coordinates than the actuated ones, against closed forms.
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
 
 #include <cmath>
 #include <string>
@@ -9,9 +10,11 @@
 #include "dynamics/shifted_samples.h"
 #include "exact_derivatives.h"
 #include "loop_examples.h"
+#include "robot_builder.h"
 #include "slider_crank.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/passive_joints.h"
+#include "virtual_work_dynamics/scene_reader.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -254,6 +257,32 @@ TEST(GivenMotions, AreJudgedWhereTheSceneNamesThem) {
   EXPECT_EQ(problem({"ball_2"}), "given: closure 'ball_2' is neither revolute nor prismatic");
   EXPECT_EQ(problem({"leg_1", "leg_1"}), "given: 'leg_1' is given twice");
   EXPECT_EQ(problem({"lag_1"}).find("given[0]: no joint or closure 'lag_1'; did you mean"), 0u);
+}
+
+// The height of the wheel follows, and with it all positions; but the rates that are left tie each
+// other, so that the noise of one of them would contradict the closures.
+TEST(GivenMotions, AreJudgedByTheirRatesToo) {
+  RobotBuilder builder(1);
+  const Matrix3l R = Matrix3l::Identity();
+  const Vector3l o = Vector3l::Zero();
+  builder.add(JointType::kPrismatic, 0, Vector3l::UnitX(), R, o);
+  builder.add(JointType::kPrismatic, 1, Vector3l::UnitZ(), R, o);
+  builder.add(JointType::kContinuous, 2, Vector3l::UnitY(), R, o);
+  const Mechanism mechanism = builder.build();
+  Scene scene =
+      readScene(YAML::Load("rolling: [{name: edge, link: link_3, axis: [0, 1, 0], radius: 0.5, "
+                           "plane: {link: link_0}}]\nassembly: [{name: joint_2, position: 0.5}]\n"
+                           "actuated: [joint_3]\n"));
+  const auto problem = [&](std::vector<std::string> given) {
+    scene.given = std::move(given);
+    return problemWith(mechanism, scene);
+  };
+  EXPECT_EQ(
+      problem({"joint_1", "joint_3"}),
+      "given: too much is given: rates of 'joint_1', 'joint_3' follow from each other, though "
+      "their positions do not; give all joints and nothing else");
+  EXPECT_EQ(problem({"joint_1", "joint_2", "joint_3"}), "");
+  EXPECT_EQ(problem({"joint_3"}).find("given: too little is given: the motion of 'joint_1'"), 0u);
 }
 
 }  // namespace
