@@ -71,11 +71,23 @@ ForeignFrames::Known ForeignFrames::known(const std::string& id, std::int64_t st
   return Known::kThen;
 }
 
+std::string ForeignFrames::topOf(const std::string& id) const {
+  std::string at = id, parent;
+  for (int frames = 0; frames < kMostFrames; ++frames) {
+    if (!record_.buffer()._getParent(at, ros::Time(), parent)) break;
+    at = parent;
+  }
+  return at;
+}
+
 bool ForeignFrames::isPast(const std::string& id, std::int64_t stamp_ns) const {
   const Known frame = known(id, stamp_ns);
   if (frame != Known::kThen) return frame == Known::kLater;
-  // What the robot hangs on has to be known, too.
-  const auto later = [&](const std::string& on) { return known(on, stamp_ns) == Known::kLater; };
+  // What the robot hangs on together with it has to be known, too.
+  const std::string top = topOf(id);
+  const auto later = [&](const std::string& on) {
+    return topOf(on) == top && known(on, stamp_ns) == Known::kLater;
+  };
   return later(frame_prefix_ + mechanism_.link(0).name) &&
          (inertial_frame_.empty() || later(inertial_frame_));
 }

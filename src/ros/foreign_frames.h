@@ -44,6 +44,7 @@ class ForeignFrames {
   // robot.
   enum class Known { kLater, kThen, kOnRobot };
   Known known(const std::string& id, std::int64_t stamp_ns) const;
+  std::string topOf(const std::string& id) const;
   std::optional<MeasuringFrame> place(int link, const std::string& on, const std::string& id,
                                       const ros::Time& stamp) const;
   int linkOf(const std::string& id) const;

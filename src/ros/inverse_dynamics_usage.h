@@ -59,7 +59,8 @@ parameters
                              dropped (0.1)
   ~frame_prefix              put before every frame_id, such as left/ ("")
   ~twist                     fill in the twists of ~reactions (false)
-  ~marker_rate               largest rate of ~markers, Hz, 0.001 to 1000 (20)
+  ~marker_rate               largest rate of ~markers, and of contacts on /tf, Hz, 0.001 to
+                             1000 (20)
   ~queue_size/input          messages (1000)
   ~queue_size/output         messages (20000)
   ~trajectory_rate           points a second of a trajectory's results; 0: all at once (0)
