@@ -20,7 +20,8 @@ constexpr double kCoincide = 1e-9;
 /// the parent, and leaves `kinematics` there. Coordinates that motions give, usually the actuated
 /// ones, stay where they start whenever the loops can be closed so; otherwise they move when there
 /// are more of them than degrees of freedom.
-/// @throws AssemblyError naming the closure that stays open furthest, and by how much.
+/// @throws AssemblyError naming the closure that stays open furthest, and by how much, or one that
+///   has no sense where it is closed: another start may lead to where it has.
 Eigen::VectorXd assemble(const Scene& scene, const LoopScene& loops, LoopCompletion& completion,
                          LoopKinematics& kinematics);
 

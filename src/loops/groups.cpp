@@ -12,7 +12,7 @@ namespace {
 constexpr double kLeastShare = 1e-4;
 
 // Of that distance, what is no size but rounding.
-constexpr double kRounding = 1e-13;
+constexpr double kNoSize = 1e-13;
 
 int rootOf(const std::vector<int>& leaders, int i) {
   while (leaders[static_cast<std::size_t>(i)] != i) i = leaders[static_cast<std::size_t>(i)];
@@ -114,7 +114,7 @@ double loopLength(const std::vector<LoopGroup>& groups, const LoopKinematics& ki
   }
   if (longest > kLeastShare * farthest) return longest;
   // What touches goes far on the joints that carry it, and its levers stay what they are.
-  const bool carried = !kinematics.touching().empty() && longest > kRounding * farthest;
+  const bool carried = !kinematics.touching().empty() && longest > kNoSize * farthest;
   if (carried) return kLeastShare * farthest;
   return farthest > 0 ? farthest : 1;
 }

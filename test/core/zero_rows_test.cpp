@@ -51,6 +51,19 @@ TEST(ZeroRows, ASlideThatIsHardlyObliqueHasNone) {
   }
 }
 
+// A plane's origin is any of its points, and no lever is small against its distance.
+TEST(ZeroRows, APlaneWithAPointFarAwayHasNoneMore) {
+  RobotBuilder builder(1);
+  builder.add(JointType::kRevolute, 0, Vector3l::UnitY(), Matrix3l::Identity(), Vector3l::Zero());
+  for (const double away : {0.0, 1e6, 1e15}) {
+    Closure foot = closureToRoot(ClosureType::kContact, "link_1", {away, 0, 0}, {0.1, 0, 0});
+    foot.touch.slip = Slip::kAll;
+    EXPECT_EQ(zeroRowsWith(builder.build(), foot, Eigen::VectorXd::Zero(1)),
+              std::vector<bool>{false})
+        << away;
+  }
+}
+
 // What is left out changes results by its lever over the loop's extent, which has to be rounding.
 TEST(ZeroRows, AFrameBesideAnAxisHasOnesOfRoundingOnly) {
   constexpr double kEps = std::numeric_limits<double>::epsilon();
