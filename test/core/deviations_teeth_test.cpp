@@ -15,15 +15,15 @@
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr double kGravity = 9.81, kPressure = 0.5;
-constexpr double kShaft = 0.01;                     // mass of the small wheel
-constexpr double kTorque = kGravity * (0.3 - 0.1);  // of the loads about the large wheel's axis
-constexpr double kInertia = 0.09 + 0.01 + 2e-3;     // about the same
-constexpr double kRadius = 0.2;
+constexpr double kFall = 9.81, kFlank = 0.5;
+constexpr double kSmallWheel = 0.01;                  // mass of the small wheel
+constexpr double kLoadsTorque = kFall * (0.3 - 0.1);  // of the loads about the large wheel's axis
+constexpr double kLoadsInertia = 0.09 + 0.01 + 2e-3;  // about the same
+constexpr double kLargeWheel = 0.2;
 
 // A wheel `a` of 0.1 m drives `b` of 0.2 m, which lies above it at 45 degrees and carries two
 // loads.
-Mechanism wheels() {
+Mechanism gearWheels() {
   const std::string inertia =
       "<inertia ixx='1e-3' iyy='1e-3' izz='1e-3' ixy='0' ixz='0' iyz='0'/></inertial></link>";
   return readUrdf(
@@ -40,7 +40,7 @@ Mechanism wheels() {
       "link='d'/></joint></robot>");
 }
 
-Scene sceneOf(const std::string& more) {
+Scene gearedScene(const std::string& more) {
   return readScene(YAML::Load(
       "gravity: [0, 0, -9.81]\n"
       "closures: [{name: teeth, type: gear, parent: {link: a, rpy: [-1.5707963267948966, 0, 0]}, "
@@ -49,9 +49,9 @@ Scene sceneOf(const std::string& more) {
       more));
 }
 
-struct Teeth {
-  explicit Teeth(const Scene& of)
-      : scene(of), mechanism(wheels()), deviations(mechanism, scene, request()) {}
+struct TeethDeviations {
+  explicit TeethDeviations(const Scene& of)
+      : scene(of), mechanism(gearWheels()), deviations(mechanism, scene, request()) {}
   Request request() const {
     Request wanted;
     wanted.root_axes = {"j_a", "j_b", "teeth", "j_d", kGround};
@@ -69,58 +69,59 @@ struct Teeth {
 };
 
 // How much of a change of the tooth force is a change of the vertical force at `a`.
-double verticalShare(bool reversed) {
-  return std::sqrt(0.5) * (1 + (reversed ? 1 : -1) * std::tan(kPressure));
+double verticalShareOfTeeth(bool reversed) {
+  return std::sqrt(0.5) * (1 + (reversed ? 1 : -1) * std::tan(kFlank));
 }
 
 TEST(DeviationsOfTeeth, MassesOnOneFlank) {
-  Teeth teeth(sceneOf("tolerances: {mass: 0.1}\n"));
+  TeethDeviations teeth(gearedScene("tolerances: {mass: 0.1}\n"));
   teeth.deviations.computeDescription(Motion(3), teeth.workspace);
   const StandardDeviations& found = teeth.workspace.description();
-  const double by_loads = 0.1 * kGravity * std::hypot(0.3, 0.1) / kRadius * verticalShare(false);
-  const double expected = std::hypot(by_loads, 0.1 * kGravity * kShaft);
+  const double by_loads =
+      0.1 * kFall * std::hypot(0.3, 0.1) / kLargeWheel * verticalShareOfTeeth(false);
+  const double expected = std::hypot(by_loads, 0.1 * kFall * kSmallWheel);
   EXPECT_NEAR(expected, 0.4977, 1e-4);
   EXPECT_NEAR(found.root_axes[0].force.z(), expected, 1e-9);
-  EXPECT_NEAR(found.effort[0], 0.1 * kGravity * std::hypot(0.3, 0.1) / 2, 1e-9);
+  EXPECT_NEAR(found.effort[0], 0.1 * kFall * std::hypot(0.3, 0.1) / 2, 1e-9);
 }
 
 // Just beside where the tooth force vanishes, on either side.
 TEST(DeviationsOfTeeth, AccelerationsOnEitherFlank) {
-  Teeth teeth(sceneOf(""));
-  MotionCovariance covariance = Teeth::exact();
+  TeethDeviations teeth(gearedScene(""));
+  MotionCovariance covariance = TeethDeviations::exact();
   covariance.coordinates[0](2, 2) = 1e-4;
   for (const bool reversed : {false, true}) {
     SCOPED_TRACE(reversed);
     Motion motion(3);
-    motion.qdd[1] = kTorque / kInertia + (reversed ? 0.1 : -0.1);
+    motion.qdd[1] = kLoadsTorque / kLoadsInertia + (reversed ? 0.1 : -0.1);
     motion.qdd[0] = -2 * motion.qdd[1];
     teeth.deviations.computeMotion(motion, covariance, teeth.workspace);
-    const double force = 1e-2 / 2 * kInertia / kRadius;
-    EXPECT_NEAR(teeth.workspace.motion().root_axes[0].force.z(), force * verticalShare(reversed),
-                1e-9);
+    const double force = 1e-2 / 2 * kLoadsInertia / kLargeWheel;
+    EXPECT_NEAR(teeth.workspace.motion().root_axes[0].force.z(),
+                force * verticalShareOfTeeth(reversed), 1e-9);
   }
 }
 
 TEST(DeviationsOfTeeth, WrenchesOnEitherFlank) {
   for (const bool reversed : {false, true}) {
     SCOPED_TRACE(reversed);
-    Scene scene = sceneOf("");
+    Scene scene = gearedScene("");
     AppliedWrench wrench;
     wrench.link = "b";
-    wrench.torque.y() = -kTorque + (reversed ? -0.1 : 0.1);
+    wrench.torque.y() = -kLoadsTorque + (reversed ? -0.1 : 0.1);
     wrench.deviation = WrenchDeviation{0, 1e-3};
     scene.applied_wrenches = {wrench};
-    Teeth teeth(scene);
-    teeth.deviations.computeMotion(Motion(3), Teeth::exact(), teeth.workspace);
+    TeethDeviations teeth(scene);
+    teeth.deviations.computeMotion(Motion(3), TeethDeviations::exact(), teeth.workspace);
     EXPECT_NEAR(teeth.workspace.motion().root_axes[0].force.z(),
-                1e-3 / kRadius * verticalShare(reversed), 1e-9);
+                1e-3 / kLargeWheel * verticalShareOfTeeth(reversed), 1e-9);
   }
 }
 
 // Which flank bears is not known to the description's share where live wrenches act.
 TEST(DeviationsOfTeeth, LiveWrenchesLeaveWhatTeethReachUnknown) {
-  Teeth teeth(
-      sceneOf("tolerances: {mass: 0.1}\napplied_wrenches: [{name: f, link: b, live: true}]\n"));
+  TeethDeviations teeth(
+      gearedScene("tolerances: {mass: 0.1}\napplied_wrenches: [{name: f, link: b, live: true}]\n"));
   teeth.deviations.computeDescription(Motion(3), teeth.workspace);
   const StandardDeviations& found = teeth.workspace.description();
   EXPECT_TRUE(found.effort.allFinite());
