@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "dynamics/compiled_dynamics.h"
+#include "dynamics/covariance_sizes.h"
 #include "dynamics/description_shares.h"
+#include "dynamics/pressing_teeth.h"
 #include "dynamics/scene_doubts.h"
 #include "dynamics/shift_sizes.h"
 #include "dynamics/shifted_samples.h"
@@ -38,6 +40,7 @@ struct Deviations::Impl {
       : mechanism(of),
         dynamics(mechanism, scene, withoutPoses(request)),
         shift_plan(mechanism, scene),
+        shift_sizes{!teethPress(scene)},
         has_tolerances(scene.tolerances.any()),
         wrenches(wrenchCovariances(scene)),
         independent(independentCoordinates(mechanism, dynamics.impl_->loops,
@@ -55,31 +58,10 @@ struct Deviations::Impl {
                                           independent);
   }
 
-  void requireSizes(const MotionCovariance& covariance) const {
-    const auto require = [](std::size_t size, std::size_t expected, const char* what) {
-      if (size == expected) return;
-      throw MotionError("covariance: " + std::to_string(size) +
-                        " matrices are given, the mechanism has " + std::to_string(expected) +
-                        what);
-    };
-    require(covariance.coordinates.size(), independent.rates.size(), " coordinates");
-    if (covariance.root_link < 0 ||
-        static_cast<std::size_t>(covariance.root_link) >= mechanism.links().size()) {
-      throw MotionError("covariance: link " + std::to_string(covariance.root_link) +
-                        " is to tell how the root moves, the mechanism has " +
-                        std::to_string(mechanism.links().size()) + " links");
-    }
-    if (!covariance.turns.empty())
-      require(covariance.turns.size(), mechanism.orientations(), " joints that turn freely");
-    if (covariance.wrenches.empty() || covariance.wrenches.size() == wrenches.size()) return;
-    throw MotionError("covariance: it has " + std::to_string(covariance.wrenches.size()) +
-                      " wrenches, the scene has " + std::to_string(wrenches.size()) +
-                      " applied wrenches");
-  }
-
   Mechanism mechanism;
   Dynamics dynamics;
   ShiftPlan shift_plan;
+  ShiftSizes shift_sizes;
   bool has_tolerances;
   std::vector<WrenchCovariance> wrenches;  // as the scene says
   IndependentCoordinates independent;
@@ -100,6 +82,7 @@ struct Deviations::Workspace::Impl {
         correlations(factors.rows(), 3),
         folded(compiled.dynamics.coordinates(), compiled.mechanism.orientations()) {
     shifts.coordinates = factors;
+    shifts.wrenches.resize(6 * static_cast<Eigen::Index>(compiled.shift_plan.wrenches.size()));
     motion.effort.setZero(static_cast<Eigen::Index>(numbers.efforts));
     motion.child_axes.resize(numbers.child_axes);
     motion.root_axes.resize(numbers.root_axes);
@@ -111,6 +94,7 @@ struct Deviations::Workspace::Impl {
 
   const Motion& sampleOf(const Motion& at, const MotionCovariance& covariance);
   void setShifts(const Motion& at, const MotionCovariance& covariance);
+  void setWrenchShifts(const MotionCovariance& covariance);
   void setTurnShifts(const Motion& at, const MotionCovariance& covariance);
   void addMotion(const MotionCovariance& covariance);
   double addCoordinates(std::size_t number);
@@ -156,7 +140,8 @@ void Deviations::Workspace::Impl::setShifts(const Motion& at, const MotionCovari
     const Eigen::Vector3d deviations = C.diagonal().cwiseSqrt();
     for (Eigen::Index level = 0; level < factors.cols(); ++level) {
       const double deviation = deviations[level];
-      const double shift = shiftOf(static_cast<MotionLevel>(level), (*values[level])[i], deviation);
+      const double shift =
+          plan->shift_sizes.of(static_cast<MotionLevel>(level), (*values[level])[i], deviation);
       shifts.coordinates(i, level) = shift;
       factors(i, level) = std::isfinite(deviation) ? deviation / shift : kNothing;
       if (!plan->independent.of(static_cast<std::size_t>(level))[place]) factors(i, level) = 0;
@@ -170,6 +155,7 @@ void Deviations::Workspace::Impl::setShifts(const Motion& at, const MotionCovari
   shifts.root_link = covariance.root_link;
   shifts.turns = !covariance.turns.empty();
   if (shifts.turns) setTurnShifts(at, covariance);
+  setWrenchShifts(covariance);
   const RootMotion& root = at.root;
   const Eigen::Vector3d* const vectors[] = {&root.angular_velocity, &root.angular_acceleration,
                                             &root.acceleration};
@@ -178,7 +164,15 @@ void Deviations::Workspace::Impl::setShifts(const Motion& at, const MotionCovari
                               : i < 6 ? MotionLevel::kVelocity
                                       : MotionLevel::kAcceleration;
     const double value = i < 3 ? 0 : (*vectors[i / 3 - 1])[i % 3];
-    shifts.root[i] = shiftOf(level, value, std::sqrt(covariance.root(i, i)));
+    shifts.root[i] = plan->shift_sizes.of(level, value, std::sqrt(covariance.root(i, i)));
+  }
+}
+
+void Deviations::Workspace::Impl::setWrenchShifts(const MotionCovariance& covariance) {
+  const auto& given = covariance.wrenches.empty() ? plan->wrenches : covariance.wrenches;
+  for (Eigen::Index i = 0; i < shifts.wrenches.size(); ++i) {
+    const std::size_t wrench = plan->shift_plan.wrenches[static_cast<std::size_t>(i / 6)];
+    shifts.wrenches[i] = plan->shift_sizes.ofWrench(std::sqrt(given[wrench](i % 6, i % 6)));
   }
 }
 
@@ -195,8 +189,8 @@ void Deviations::Workspace::Impl::setTurnShifts(const Motion& at,
                                           : 0;
         const Eigen::Index number = 3 * level + axis;
         shifts.coordinates(first + axis, level) =
-            shiftOf(static_cast<MotionLevel>(level), value,
-                    std::sqrt(covariance.turns[turn](number, number)));
+            plan->shift_sizes.of(static_cast<MotionLevel>(level), value,
+                                 std::sqrt(covariance.turns[turn](number, number)));
         factors(first + axis, level) = 0;
       }
     }
@@ -278,7 +272,8 @@ double Deviations::Workspace::Impl::addWrenches(std::size_t number,
   for (std::size_t i = 0; i < columns.wrenches.size(); ++i) {
     const Eigen::Map<const Eigen::Matrix<double, 6, 1>> shifted(values + columns.firstOfWrench(i));
     const Eigen::Matrix<double, 6, 1> slope =
-        (shifted.array() - values[0]) / SampleShifts::kOfWrenches;
+        (shifted.array() - values[0]) /
+        shifts.wrenches.segment<6>(6 * static_cast<Eigen::Index>(i)).array();
     const double own = slope.dot(given[columns.wrenches[i]] * slope);
     setPart(number, first + static_cast<Eigen::Index>(i), own);
     variance += own;
@@ -350,7 +345,7 @@ void Deviations::computeMotion(const Motion& motion, const MotionCovariance& cov
     throw MotionError("the workspace belongs to another Deviations");
   }
   requireLengths(motion, coordinates());
-  impl_->requireSizes(covariance);
+  requireSizes(impl_->mechanism, impl_->wrenches.size(), covariance);
   const Motion& sample = memory.sampleOf(motion, covariance);
   memory.setShifts(sample, covariance);
   memory.samples->compute(sample, memory.shifts, law);

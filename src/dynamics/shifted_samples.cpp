@@ -281,7 +281,8 @@ void ShiftedChain::setLoads(const Motion& motion, const SampleShifts& shifts, co
   for (std::size_t i = 0; i < plan_.wrenches.size(); ++i) {
     for (std::size_t number = 0; number < 6; ++number) {
       Load& load = loads_[plan_.firstOfWrench(i) + number];
-      numberOf(load.wrenches[plan_.wrenches[i]], number) += SampleShifts::kOfWrenches;
+      numberOf(load.wrenches[plan_.wrenches[i]], number) +=
+          shifts.wrenches[static_cast<Eigen::Index>(6 * i + number)];
     }
   }
 }
@@ -300,12 +301,14 @@ ShiftedLoops::ShiftedLoops(const Mechanism& mechanism, const ClosedLoopDynamics&
       shifted_(dynamics.coordinates(), mechanism.orientations()),
       load_(own),
       root_by_link_(mechanism),
+      wrench_shifts_(6 * static_cast<Eigen::Index>(plan.wrenches.size())),
       values_(numbers_.all() * samples_),
       known_(numbers_.all()) {}
 
 void ShiftedLoops::compute(const Motion& motion, const SampleShifts& shifts, const LoadLaw& law) {
   // The sample itself is completed, too: what it violates of the closures is not a shift.
   root_link_ = 0;
+  wrench_shifts_ = shifts.wrenches;
   shifted_ = motion;
   bool complete = computeSample(0, law);
   if (complete) setLink(shifted_, shifts);
@@ -364,7 +367,8 @@ bool ShiftedLoops::computeSample(std::size_t sample, const LoadLaw& law, int shi
   law(shifted_, load_);
   if (shifted_wrench >= 0) {
     const auto number = static_cast<std::size_t>(shifted_wrench);
-    numberOf(load_.wrenches[plan_.wrenches[number / 6]], number % 6) += SampleShifts::kOfWrenches;
+    numberOf(load_.wrenches[plan_.wrenches[number / 6]], number % 6) +=
+        wrench_shifts_[shifted_wrench];
   }
   dynamics_.compute(shifted_, load_, workspace_);
   forEachNumber(workspace_.results(), [&](std::size_t number, double value) {

@@ -76,8 +76,7 @@ struct SampleShifts {
   /// The link whose motion `root` shifts, and from which, as MotionCovariance::root_link, the
   /// root's motion follows in each sample.
   int root_link = 0;
-  /// N and N m: results are linear in wrenches.
-  static constexpr double kOfWrenches = 1;
+  Eigen::VectorXd wrenches;  ///< N and N m; six for each of ShiftPlan::wrenches
 };
 
 /// Results of a sample and of the samples of a ShiftPlan. Serves one thread.
@@ -164,6 +163,7 @@ class ShiftedLoops : public ShiftedSamples {
   RootByLink root_by_link_;
   int root_link_ = 0;  // that of the shifts
   RootMotion link_;    // its motion in the sample
+  Eigen::VectorXd wrench_shifts_;
   std::vector<double> values_;
   std::vector<bool> known_;
 };

@@ -1,4 +1,5 @@
 vwd_core(
+  covariance_sizes.cpp
   description_shares.cpp
   deviations.cpp
   dynamics.cpp
@@ -12,6 +13,7 @@ vwd_core(
   momentum_terms.cpp
   motion_start.cpp
   passive_joints.cpp
+  pressing_teeth.cpp
   root_by_link.cpp
   shift_sizes.cpp
   shifted_samples.cpp

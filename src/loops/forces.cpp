@@ -219,32 +219,6 @@ void LoopForces::solveWhole(Eigen::Ref<Eigen::VectorXd> x) const {
   }
 }
 
-void LoopForces::choose(const std::vector<Wrench>& tree_reactions) {
-  redundant_constraints_ = direction_count_;
-  if (sound_ && cost_rows_ == 0 && efforts_follow_) return;
-  startNorms();
-  if (norms_.open() == 0) return;
-  const Eigen::Index efforts = index(unknowns_.efforts.size());
-  for (Eigen::Index j = 0; j < efforts; ++j) {
-    const Eigen::Index unknown = unknowns_.efforts[std::size_t(j)].unknown;
-    norms_.costs(efforts).row(j) = norms_.space().row(unknown);
-    norms_.costOfSolution(efforts)[j] = solution_.x[unknown];
-  }
-  redundant_constraints_ -= norms_.reduce(efforts, solution_.x);
-  if (norms_.open() > 0 && cost_rows_ > 0) {
-    setClosures(solution_);
-    putCosts(solution_, &tree_reactions, norms_.costOfSolution(cost_rows_));
-    touchAll(change_);
-    for (Eigen::Index j = 0; j < norms_.open(); ++j) {
-      change_.x = norms_.space().col(j);
-      setClosures(change_);
-      putCosts(change_, nullptr, norms_.costs(cost_rows_).col(j));
-    }
-    norms_.reduce(cost_rows_, solution_.x);
-  }
-  norms_.finish(solution_.x);
-}
-
 bool LoopForces::isDetermined(Eigen::Index unknown) {
   if (!bears_) return false;
   if (sound_) return qr_.nullity() == 0 || isUnique(qr_.nullSquare(unknown));

@@ -124,6 +124,7 @@ class LoopForces {
   void bearLoad();
   void solveWhole(Eigen::Ref<Eigen::VectorXd> x) const;
   void choose(const std::vector<Wrench>& tree_reactions);
+  bool chooseOnFlanks(const std::vector<Wrench>& tree_reactions);
   bool effortsAreUnique();
   void startNorms();
   void addOpenLoads();
@@ -134,6 +135,7 @@ class LoopForces {
   void touchAll(State& state) const;
   void setClosures(State& state) const;
   void setTeeth(State& state) const;
+  bool turnsFlank(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const;
 
   const LoopKinematics& kinematics_;
   LoopGroup group_;

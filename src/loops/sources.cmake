@@ -12,6 +12,7 @@ vwd_core(
   cut_tree.cpp
   cylinder_conditions.cpp
   driven_conditions.cpp
+  force_choice.cpp
   forces.cpp
   gear_conditions.cpp
   given_loops.cpp

@@ -15,4 +15,15 @@ void LoopForces::setTeeth(State& state) const {
   }
 }
 
+// Whether another flank bears some teeth after a choice than before.
+bool LoopForces::turnsFlank(const Eigen::VectorXd& before, const Eigen::VectorXd& after) const {
+  if (kinematics_.meshing().empty()) return false;
+  for (std::size_t local = 0; local < group_.closures.size(); ++local) {
+    if (!kinematics_.closure(group_.closures[local]).traits().meshes()) continue;
+    const Eigen::Index tooth = unknowns_.of_sets[local].first;
+    if ((before[tooth] < 0) != (after[tooth] < 0)) return true;
+  }
+  return false;
+}
+
 }  // namespace virtual_work_dynamics

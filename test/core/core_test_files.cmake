@@ -38,6 +38,7 @@ set(core_test_files
   test/core/deviation_rows_test.cpp
   test/core/deviations_rate_only_test.cpp
   test/core/deviations_sources_test.cpp
+  test/core/deviations_teeth_test.cpp
   test/core/deviations_test.cpp
   test/core/deviations_wrenches_test.cpp
   test/core/dirty_descriptions.cpp

@@ -23,45 +23,45 @@ using deviation_sources::kDraws;
 using deviation_sources::kStatistical;
 using deviation_sources::Sources;
 
-std::string bodyOf(const std::string& name) {
+std::string tiedBody(const std::string& name) {
   return "<link name='" + name +
          "'><inertial><origin xyz='0.1 0.05 -0.02'/><mass value='1'/><inertia ixx='0.1' "
          "iyy='0.12' izz='0.15' ixy='0' ixz='0' iyz='0'/></inertial></link>";
 }
 
-std::string jointOf(const std::string& type, const std::string& parent, const std::string& child,
-                    const std::string& at, const std::string& axis) {
+std::string tiedJoint(const std::string& type, const std::string& parent, const std::string& child,
+                      const std::string& at, const std::string& axis) {
   return "<joint name='j_" + child + "' type='" + type + "'><parent link='" + parent +
          "'/><child link='" + child + "'/><origin xyz='" + at + "'/><axis xyz='" + axis +
          "'/><limit effort='100' velocity='100' lower='-10' upper='10'/></joint>";
 }
 
-Mechanism pendulums() {
-  return readUrdf("<robot name='r'><link name='world'/>" + bodyOf("a") + bodyOf("b") + bodyOf("c") +
-                  jointOf("continuous", "world", "a", "0 0 0", "0 1 0") +
-                  jointOf("continuous", "world", "b", "0 1 0", "0 1 0") +
-                  jointOf("continuous", "world", "c", "0 2 0", "0 1 0") + "</robot>");
+Mechanism tiedPendulums() {
+  return readUrdf("<robot name='r'><link name='world'/>" + tiedBody("a") + tiedBody("b") +
+                  tiedBody("c") + tiedJoint("continuous", "world", "a", "0 0 0", "0 1 0") +
+                  tiedJoint("continuous", "world", "b", "0 1 0", "0 1 0") +
+                  tiedJoint("continuous", "world", "c", "0 2 0", "0 1 0") + "</robot>");
 }
 
 // A platform on two wheels, of which each has its own position.
-Mechanism platform() {
-  return readUrdf("<robot name='r'><link name='world'/>" + bodyOf("x") + bodyOf("y") +
-                  bodyOf("base") + bodyOf("left") + bodyOf("right") +
-                  jointOf("prismatic", "world", "x", "0 0 0", "1 0 0") +
-                  jointOf("prismatic", "x", "y", "0 0 0", "0 1 0") +
-                  jointOf("continuous", "y", "base", "0 0 0", "0 0 1") +
-                  jointOf("continuous", "base", "left", "0 0.2 0", "0 1 0") +
-                  jointOf("continuous", "base", "right", "0 -0.2 0", "0 1 0") + "</robot>");
+Mechanism wheeledPlatform() {
+  return readUrdf("<robot name='r'><link name='world'/>" + tiedBody("x") + tiedBody("y") +
+                  tiedBody("base") + tiedBody("left") + tiedBody("right") +
+                  tiedJoint("prismatic", "world", "x", "0 0 0", "1 0 0") +
+                  tiedJoint("prismatic", "x", "y", "0 0 0", "0 1 0") +
+                  tiedJoint("continuous", "y", "base", "0 0 0", "0 0 1") +
+                  tiedJoint("continuous", "base", "left", "0 0.2 0", "0 1 0") +
+                  tiedJoint("continuous", "base", "right", "0 -0.2 0", "0 1 0") + "</robot>");
 }
 
-Scene sceneOf(const std::string& text) {
+Scene tiedScene(const std::string& text) {
   return readScene(YAML::Load(text));
 }
 
 // Every deviation against the spread of results of motions whose positions are drawn, follow from
 // each other by `tie`, and whose rates follow from those of the actuated joints.
-void expectSpread(const Mechanism& mechanism, const Scene& scene, const Motion& motion, double size,
-                  const std::function<void(Motion&)>& tie) {
+void expectTiedSpread(const Mechanism& mechanism, const Scene& scene, const Motion& motion,
+                      double size, const std::function<void(Motion&)>& tie) {
   const Request request = deviation_sources::everything(mechanism, scene);
   const ClosedLoopDynamics dynamics(mechanism, scene, request);
   ClosedLoopDynamics::Workspace workspace = dynamics.makeWorkspace();
@@ -95,14 +95,14 @@ void expectSpread(const Mechanism& mechanism, const Scene& scene, const Motion& 
   }
 }
 
-const char* const kRateOnly =
+const char* const kTiedRates =
     "couplings: [{name: k, terms: [{name: j_a, factor: 1}, {name: j_b, factor: -1}], "
     "rate_only: true}]\n";
 
 // The torque at `a` bears the weight of `b`, too, a sine of its position.
 TEST(DeviationsOfRatesAlone, ThePositionThatFollowsNothingCounts) {
-  const Mechanism mechanism = pendulums();
-  const Scene scene = sceneOf(std::string(kRateOnly) + "actuated: [j_a, j_c]\n");
+  const Mechanism mechanism = tiedPendulums();
+  const Scene scene = tiedScene(std::string(kTiedRates) + "actuated: [j_a, j_c]\n");
   const Deviations deviations(mechanism, scene, {});
   EXPECT_EQ(deviations.independent(), (std::vector<bool>{true, true, true}));
   Deviations::Workspace workspace = deviations.makeWorkspace();
@@ -127,12 +127,13 @@ TEST(DeviationsOfRatesAlone, CouplingsMatchDrawnMotions) {
   motion.qd << 1.2, 0, 0;
   motion.qdd << -0.7, 0, 0;
   // Beside it a coupling of positions, whose `c` follows from `b`.
-  expectSpread(pendulums(),
-               sceneOf("couplings:\n- {name: k, terms: [{name: j_a, factor: 1}, "
-                       "{name: j_b, factor: -1}], rate_only: true}\n"
-                       "- {name: l, terms: [{name: j_b, factor: 2}, {name: j_c, factor: -1}]}\n"
-                       "actuated: [j_a]\n"),
-               motion, 10, [](Motion& of) { of.q[2] = 2 * of.q[1]; });
+  expectTiedSpread(
+      tiedPendulums(),
+      tiedScene("couplings:\n- {name: k, terms: [{name: j_a, factor: 1}, "
+                "{name: j_b, factor: -1}], rate_only: true}\n"
+                "- {name: l, terms: [{name: j_b, factor: 2}, {name: j_c, factor: -1}]}\n"
+                "actuated: [j_a]\n"),
+      motion, 10, [](Motion& of) { of.q[2] = 2 * of.q[1]; });
 }
 
 TEST(DeviationsOfRatesAlone, WheelsMatchDrawnMotions) {
@@ -141,10 +142,11 @@ TEST(DeviationsOfRatesAlone, WheelsMatchDrawnMotions) {
   motion.qd << 0, 0, 0, 9, 12;
   motion.qdd << 0, 0, 0, 3, -5;
   const std::string wheel = ", axis: [0, 1, 0], radius: 0.09, normal: false, plane: {link: world}}";
-  expectSpread(platform(),
-               sceneOf("gravity: [1, 2, -9.81]\nrolling: [{name: l, link: left" + wheel +
-                       ", {name: r, link: right" + wheel + "]\nactuated: [j_left, j_right]\n"),
-               motion, 3, [](Motion&) {});
+  expectTiedSpread(
+      wheeledPlatform(),
+      tiedScene("gravity: [1, 2, -9.81]\nrolling: [{name: l, link: left" + wheel +
+                ", {name: r, link: right" + wheel + "]\nactuated: [j_left, j_right]\n"),
+      motion, 3, [](Motion&) {});
 }
 
 }  // namespace

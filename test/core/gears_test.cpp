@@ -109,6 +109,37 @@ TEST_F(ChronoGears, OtherFlank) {
   EXPECT_NEAR(found.dynamics.effort()[0], -2000, 1000 * kClosedForm);
 }
 
+// Two pairs of teeth, 1 m above and below the wheels, share the tooth force 1 N; a torque about x
+// makes the second one bear on its other flank. With t = tan(20 deg) and forces S +- D over two,
+// the bearings' forces are t D along x, and their moments D and D - 10 about x: least squares of
+// these and of what the teeth bear, divided by their stiffness. Those for the first flank had D
+// = 5.4 N.
+TEST(Gears, StiffnessDecidesWhichFlankBears) {
+  Wheels wheels;
+  wheels.add(0, Vector3l(0, 0, 0), 3);
+  wheels.add(0, Vector3l(6, 0, 0), 2);
+  wheels.scene.closures = {gear("up", "link_1", "link_2", 4, 2),
+                           gear("down", "link_1", "link_2", 4, 2)};
+  wheels.scene.closures[0].child.xyz = {0, 0, 1};
+  wheels.scene.closures[1].child.xyz = {0, 0, -1};
+  wheels.scene.actuated = std::vector<std::string>{"joint_1"};
+  const double stiffness = 1000;
+  wheels.scene.redundancy.policy = RedundancyPolicy::kStiffness;
+  wheels.scene.redundancy.stiffness = {{"up", stiffness}, {"down", stiffness}};
+  wheels.scene.redundancy.length = 1;
+  AppliedWrench applied;
+  applied.link = "link_2";
+  applied.torque = {10, -5, 2};
+  wheels.scene.applied_wrenches = {applied};
+  const ClosedLoopResults found(wheels.mechanism(), wheels.scene, Motion(2));
+  const double t = std::tan(20 * kDegree);
+  const double D = 2 * 10 / (4 + 4 * t * t + (5 + t * t) / stiffness);
+  const double up = (1 + D) / 2, down = (1 - D) / 2;
+  EXPECT_LT(down, 0);
+  expectNear(found.root("up").force, {t * up, up, 0}, 100 * kClosedForm);
+  expectNear(found.root("down").force, {-t * down, down, 0}, 100 * kClosedForm);
+}
+
 // Wheels turn against each other as their radii, from where they are put together.
 TEST_F(ChronoGears, TurnAgainstEachOther) {
   wheels.scene.assembly = {{"joint_1", 0.3}, {"joint_2", 0.7}};
