@@ -74,7 +74,7 @@ class Couplings(LoopTest):
         self.states.publish(joint_state(EPOCH, dict(still, arm=0.001), still))
         message = self.recorders['effort'].wait(1)[0]
         self.assertEqual(by_name(message, message.position)['arm'], 0.001)
-        self.assertClose(by_name(message, message.position)['reducer'], -0.05, CLOSED_FORM, 'sum')
+        self.assertClose([by_name(message, message.position)['reducer']], [-0.05], CLOSED_FORM, 'sum')
         status = self.status(lambda s: 'violate' in s.message, 'the violation', True)
         self.assertEqual(status.level, DiagnosticStatus.WARN)
         self.assertIn("positions violate coupling 'reducer' by 0.05 m or rad", status.message)
