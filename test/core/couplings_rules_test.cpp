@@ -69,7 +69,11 @@ TEST(CouplingRules, RateOnlyTiesNoPositions) {
   const Mechanism mechanism = shafts.mechanism();
   const Dynamics dynamics(mechanism, shafts.scene);
   EXPECT_FALSE(dynamics.closuresDetermine());
-  EXPECT_EQ(dynamics.judge(dynamics.given()).freedom, 1);
+  EXPECT_EQ(dynamics.given().coordinates, (std::vector<bool>{true, true}));
+  EXPECT_EQ(dynamics.judge(dynamics.given()).freedom, 0);
+  Given driver = dynamics.given();
+  driver.coordinates[1] = false;
+  EXPECT_EQ(dynamics.judge(driver).freedom, 1);
   Dynamics::Workspace workspace = dynamics.makeWorkspace();
   Motion motion(2);
   motion.q << 0.4, 77;

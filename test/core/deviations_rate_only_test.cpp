@@ -141,7 +141,8 @@ TEST(DeviationsOfRatesAlone, WheelsMatchDrawnMotions) {
   motion.q << 0.3, 0.2, 0.5, 0.1, 0.2;
   motion.qd << 0, 0, 0, 9, 12;
   motion.qdd << 0, 0, 0, 3, -5;
-  const std::string wheel = ", axis: [0, 1, 0], radius: 0.09, normal: false, plane: {link: world}}";
+  const std::string wheel =
+      ", axis: [0, 1, 0], radius: 0.09, normal: false, plane: {link: world, point: [0, 0, -0.09]}}";
   expectTiedSpread(
       wheeledPlatform(),
       tiedScene("gravity: [1, 2, -9.81]\nrolling: [{name: l, link: left" + wheel +
