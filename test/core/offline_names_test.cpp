@@ -96,9 +96,10 @@ TEST_F(OfflineToolNames, AMisspeltNameHasFileAndKeyInFrontAndTheNearestBehind) {
             "s.yaml: assembly[0].name: no joint 'crnk'; did you mean 'crank'?");
   EXPECT_EQ(scene(closed + "reactions: [pins]"),
             "s.yaml: reactions[0]: no joint or closure 'pins'; did you mean 'pin'?");
-  EXPECT_EQ(scene("closures: [{name: pin, type: revolut}]"),
-            "s.yaml: closures[0].type: 'revolut' is not one of fixed, revolute, prismatic, "
-            "cylindrical, universal, spherical, planar, distance; did you mean 'revolute'?");
+  EXPECT_EQ(
+      scene("closures: [{name: pin, type: revolut}]"),
+      "s.yaml: closures[0].type: 'revolut' is not one of fixed, revolute, prismatic, "
+      "cylindrical, universal, spherical, planar, distance, gear, rack; did you mean 'revolute'?");
 }
 
 TEST_F(OfflineToolNames, OptionsAreNamed) {
