@@ -259,6 +259,7 @@ void useFreeJoints(Values& values) {
   FreeJoints joints(ball(), settings);
   MotionEstimator estimator(ball(), settings);
   Motion motion(static_cast<Eigen::Index>(ball().coordinates().size()), ball().orientations());
+  const std::vector<bool> needed(ball().coordinates().size(), true);
   sensor_msgs::MultiDOFJointState message;
   message.header.stamp.sec = values.integer<std::uint32_t>();
   for (std::size_t left = values.count(32); left > 0; --left) {
@@ -276,7 +277,7 @@ void useFreeJoints(Values& values) {
     estimator.push(sample.stamp_ns, sample.coordinates, sample.q, sample.qd, sample.count);
     while (estimator.ready()) {
       const std::int64_t at = estimator.evaluate(motion);
-      if (!joints.set(at, estimator, motion, nullptr) && !motion.finite())
+      if (!joints.set(at, estimator, needed, motion, nullptr) && !motion.finite())
         failFuzz("a motion that is not finite");
     }
   }
