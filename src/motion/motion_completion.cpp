@@ -126,6 +126,18 @@ void countOneSided(const Recording& recording, CompletionReport& report) {
   }
 }
 
+// Powers of times that are ages apart overflow.
+void checkEstimates(const MotionTable& motion) {
+  for (Eigen::Index row = 0; row < motion.velocities.rows(); ++row) {
+    if (motion.positions.row(row).allFinite() && motion.velocities.row(row).allFinite() &&
+        motion.accelerations.row(row).allFinite())
+      continue;
+    throw MotionError("motion: what is estimated in row " + std::to_string(row + 1) +
+                      " is not finite; times reach from " + numberText(motion.times.front()) +
+                      " to " + numberText(motion.times.back()) + " s");
+  }
+}
+
 }  // namespace
 
 std::size_t firstTimeThatDoesNotIncrease(const std::vector<double>& times) {
@@ -172,6 +184,7 @@ MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion,
     recording.smooth(joint, settings.covariances, take);
     did(1);
   }
+  checkEstimates(motion);
   if (report != nullptr) {
     *report = CompletionReport();
     report->estimated = true;

@@ -305,5 +305,22 @@ TEST(MotionCompletion, RefusesTablesThatDoNotFitTheRobot) {
   EXPECT_EQ(refusal(motion), "motion: velocities are 11 x 2, expected 12 rows x 2 joints");
 }
 
+// Powers of such times overflow.
+TEST(MotionCompletion, TimesThatAreAgesApartAreRefused) {
+  MotionTable motion;
+  motion.joints = {"hinge"};
+  motion.times = {0, 0.5, 5.5e16};
+  motion.positions.resize(3, 1);
+  motion.positions << 3.1, -2.1, -3;
+  try {
+    completeMotion(twoJoints(), motion);
+    ADD_FAILURE() << "completed";
+  } catch (const MotionError& error) {
+    EXPECT_STREQ(error.what(),
+                 "motion: what is estimated in row 1 is not finite; times reach from 0 to "
+                 "5.5e+16 s");
+  }
+}
+
 }  // namespace
 }  // namespace virtual_work_dynamics
