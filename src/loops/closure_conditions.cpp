@@ -42,9 +42,16 @@ Eigen::Matrix3d rotationOf(const Eigen::Vector3d& rpy) {
       .toRotationMatrix();
 }
 
-Frame frameOf(const Mechanism& mechanism, const LinkFrame& from, const std::string& place) {
+// The keys by which a scene names the links of the parent and the child frame.
+std::pair<std::string, std::string> linkKeysOf(const Closure& closure) {
+  if (traitsOf(closure.type).touches()) return {"plane.link", "link"};
+  if (closure.type == ClosureType::kCylinder) return {"link_a", "link_b"};
+  return {"parent.link", "child.link"};
+}
+
+Frame frameOf(const Mechanism& mechanism, const LinkFrame& from, const std::string& key) {
   Frame frame;
-  frame.link = linkNamed(mechanism, from.link, place + ".link");
+  frame.link = linkNamed(mechanism, from.link, key);
   frame.R_LF = rotationOf(from.rpy);
   frame.p_LoFo_L = from.xyz;
   return frame;
@@ -75,8 +82,10 @@ std::vector<Condition> rowsOf(const Closure& closure) {
 }
 
 std::shared_ptr<const ConditionSet> makeSet(const Mechanism& mechanism, const Closure& closure) {
-  const Frame parent = frameOf(mechanism, closure.parent, placeOf(closure) + ": parent");
-  const Frame child = frameOf(mechanism, closure.child, placeOf(closure) + ": child");
+  const auto [parent_key, child_key] = linkKeysOf(closure);
+  const std::string place = placeOf(closure) + ": ";
+  const Frame parent = frameOf(mechanism, closure.parent, place + parent_key);
+  const Frame child = frameOf(mechanism, closure.child, place + child_key);
   if (parent.link == child.link) {
     throw SceneError(placeOf(closure) + ": both frames are on link " +
                      inQuotes(closure.parent.link));

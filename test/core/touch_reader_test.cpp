@@ -172,5 +172,19 @@ TEST(TouchReader, RefusesWhatNoMechanismCanHave) {
             "rolling: 'w' cannot be assembled from the given start: it stays open by 1 m");
 }
 
+TEST(TouchReader, UnknownLinksAreNamedByTheKeysOfTheScene) {
+  const std::string known = "known are 'link_0', 'link_1', 'link_2' and 'link_3'";
+  const std::string none = "actuated: []\n";
+  const auto contact = [](const std::string& link, const std::string& plane) {
+    return "contacts: [{name: c, link: " + link + ", plane: {link: " + plane + "}}]";
+  };
+  EXPECT_EQ(refusalOf(contact("toe", "link_0"), none),
+            "contacts: 'c': link: no link 'toe'; " + known);
+  EXPECT_EQ(refusalOf(contact("link_3", "floor"), none),
+            "contacts: 'c': plane.link: no link 'floor'; " + known);
+  EXPECT_EQ(refusalOf("cylinders: [{name: c, link_a: link_0, link_b: boom}]", none),
+            "cylinders: 'c': link_b: no link 'boom'; " + known);
+}
+
 }  // namespace
 }  // namespace virtual_work_dynamics
