@@ -199,8 +199,7 @@ class Launching(LaunchTest):
         for example, effort in efforts.items():
             frame = self.first(launch, effort).header.frame_id
             self.assertEqual(frame.startswith(example + '/'), example != 'by_name', frame)
-        for example in examples:
-            efforts[example].wait(20)
+        self.recorded(launch, *(efforts[example] for example in examples))
         launch.end()
         for example in examples:
             self.assertIn('/%s/inverse_dynamics/effort' % example,
