@@ -56,10 +56,12 @@ def _shade(axes, times, doubted):
 
 
 def history_rows(loads, part):
-    """What is drawn over time: names of quantities, forces above moments."""
-    names = (('radial_force', 'axial_force') if part.quantity('radial_force') else ('force',),
-             ('tilting_moment', 'effort') if part.quantity('tilting_moment') else ('moment', 'effort'))
-    rows = [[name for name in row if loads.matters(loads.get(part, name))] for row in names]
+    """What is drawn over time: names of quantities, forces above moments, the effort with its like."""
+    forces = ['radial_force', 'axial_force'] if part.quantity('radial_force') else ['force']
+    moments = ['tilting_moment'] if part.quantity('tilting_moment') else ['moment']
+    effort = part.quantity('effort')
+    (forces if effort and effort.unit == 'N' else moments).append('effort')
+    rows = [[name for name in row if loads.matters(loads.get(part, name))] for row in (forces, moments)]
     return [row for row in rows if row]
 
 
@@ -71,7 +73,7 @@ def history(loads, part, doubted, path):
         figure, all_axes = _axes(9.2, 1.9 * len(rows) + 0.4, rows=len(rows), sharex=True, squeeze=False)
         for axes, names in zip(all_axes[:, 0], rows):
             _shade(axes, times, np.any([doubted[name] for name in names], axis=0))
-            for name, color in zip(names, ('#14596b', '#c8553d')):
+            for name, color in zip(names, ('#14596b', '#c8553d', '#1d2733')):
                 load = loads.get(part, name)
                 _curve(axes, times, load.quantity.values, load.pieces, color, load.quantity.words)
                 axes.set_ylabel(load.quantity.unit)

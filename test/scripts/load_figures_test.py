@@ -10,6 +10,8 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 from vwd_loads import bearings, rainflow, spectrum, statistics  # noqa: E402 (the path has to be set first)
 from vwd_loads.pieces import gap_length, pieces_of, weights_of  # noqa: E402
+from vwd_loads.plots import history_rows  # noqa: E402
+from vwd_loads.quantities import Quantity  # noqa: E402
 
 # ASTM E1049-85, example of the rainflow count: figure X1.6 and its table.
 PUBLISHED_SERIES = (-2, 1, -3, 5, -1, 3, -4, 4, -2)
@@ -170,6 +172,35 @@ class Spectra(unittest.TestCase):
         three = spectrum.density_of([self.sine(times)] * 3, times, [slice(0, 10000)], clock)
         np.testing.assert_allclose(three.density, 3 * one.density, rtol=1e-12)
         self.assertIsNone(spectrum.density_of([self.sine(times)], times, [slice(0, 20)], clock))
+
+
+class Drawn(unittest.TestCase):
+    """What a picture over time shows; loads that all matter, of a joint that slides or turns."""
+
+    def __init__(self, *arguments):
+        super().__init__(*arguments)
+        self.units = {}
+
+    def quantity(self, name):
+        return Quantity(name, self.units[name], None, name) if name in self.units else None
+
+    def get(self, _, name):
+        return self.quantity(name)
+
+    def matters(self, quantity):
+        return quantity is not None
+
+    def test_what_shares_an_axis_has_one_unit(self):
+        bearing = {"radial_force": "N", "axial_force": "N", "tilting_moment": "N m"}
+        whole = {"force": "N", "moment": "N m"}
+        for units in (bearing, whole, dict(bearing, effort="N"), dict(bearing, effort="N m"),
+                      dict(whole, effort="N"), dict(whole, effort="N m"), {"effort": "N"}):
+            with self.subTest(units=units):
+                self.units = units
+                rows = history_rows(self, self)
+                for row in rows:
+                    self.assertEqual(len({units[name] for name in row}), 1, row)
+                self.assertEqual(sorted(sum(rows, [])), sorted(units))
 
 
 if __name__ == "__main__":
