@@ -28,6 +28,27 @@ double scaleOf(const NamedLoopResults& results) {
 
 class RandomLoopsTest : public testing::Test {
  protected:
+  // What has freedoms left is refused by both.
+  void checkAll(RandomLoops random) {
+    int solved = 0, too_few = 0;
+    for (int i = 0; i < 400; ++i) {
+      SCOPED_TRACE("case " + std::to_string(i));
+      const Case loops = random.next();
+      const MaximalCoordinatesOracle oracle(loops.mechanism, loops.scene, loops.motion);
+      if (oracle.freeMotions() > 0) {
+        ++too_few;
+        EXPECT_THROW(NamedLoopResults(loops.mechanism, loops.scene, loops.motion), SceneError);
+        continue;
+      }
+      ++solved;
+      check(loops, oracle);
+    }
+    EXPECT_GE(solved, 100);
+    EXPECT_GE(too_few, 20);
+    EXPECT_GE(compared_, 1000);
+  }
+
+ private:
   void check(const Case& loops, const MaximalCoordinatesOracle& oracle) {
     const NamedLoopResults results(loops.mechanism, loops.scene, loops.motion);
     const ClosedLoops& dynamics = results.dynamics();
@@ -77,44 +98,12 @@ class RandomLoopsTest : public testing::Test {
 };
 
 TEST_F(RandomLoopsTest, AgreeWithMaximalCoordinates) {
-  RandomLoops random(32);
-  int solved = 0, too_few = 0;
-  for (int i = 0; i < 400; ++i) {
-    SCOPED_TRACE("case " + std::to_string(i));
-    const Case loops = random.next();
-    const MaximalCoordinatesOracle oracle(loops.mechanism, loops.scene, loops.motion);
-    if (oracle.freeMotions() > 0) {
-      ++too_few;
-      EXPECT_THROW(NamedLoopResults(loops.mechanism, loops.scene, loops.motion), SceneError);
-      continue;
-    }
-    ++solved;
-    check(loops, oracle);
-  }
-  EXPECT_GE(solved, 100);
-  EXPECT_GE(too_few, 20);
-  EXPECT_GE(compared_, 1000);
+  checkAll(RandomLoops(32));
 }
 
 // Wheels, blades and points on planes, and cylinders, mixed with joints of all types.
 TEST_F(RandomLoopsTest, WithContactsAndCylindersAgreeWithMaximalCoordinates) {
-  RandomLoops random(17, true);
-  int solved = 0, too_few = 0;
-  for (int i = 0; i < 400; ++i) {
-    SCOPED_TRACE("case " + std::to_string(i));
-    const Case loops = random.next();
-    const MaximalCoordinatesOracle oracle(loops.mechanism, loops.scene, loops.motion);
-    if (oracle.freeMotions() > 0) {
-      ++too_few;
-      EXPECT_THROW(NamedLoopResults(loops.mechanism, loops.scene, loops.motion), SceneError);
-      continue;
-    }
-    ++solved;
-    check(loops, oracle);
-  }
-  EXPECT_GE(solved, 100);
-  EXPECT_GE(too_few, 20);
-  EXPECT_GE(compared_, 1000);
+  checkAll(RandomLoops(17, true));
 }
 
 }  // namespace

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +12,15 @@
 #include "robot_builder.h"
 
 namespace virtual_work_dynamics {
+
+/// Roundings of some ten operations.
+inline constexpr double kTenRoundings = 1e-13;
+
+/// A finite number, within the tolerance times its size or 1.
+inline void expectClose(double found, double expected, double tolerance = kTenRoundings) {
+  ASSERT_TRUE(std::isfinite(found));
+  EXPECT_NEAR(found, expected, tolerance * std::max(1.0, std::abs(expected)));
+}
 
 /// Balanced shafts side by side on the root link, which turn about z or slide along it, coupled by
 /// what a test says. joint_1 is the first one. There is no gravity.

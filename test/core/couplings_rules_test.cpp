@@ -15,15 +15,8 @@
 namespace virtual_work_dynamics {
 namespace {
 
-// Roundings of some ten operations.
-constexpr double kRounding = 1e-13;
 // A recursion and a factorization of trees in general position against another recursion.
 constexpr double kSameEfforts = 1e-12;
-
-void expectEqual(double found, double expected, double tolerance = kRounding) {
-  ASSERT_TRUE(std::isfinite(found));
-  EXPECT_NEAR(found, expected, tolerance * std::max(1.0, std::abs(expected)));
-}
 
 // Motors turn for hours: what cancels to rounding is no gap.
 TEST(CouplingRules, CloseAfterManyTurns) {
@@ -57,7 +50,7 @@ TEST(CouplingRules, WholeTurnsCount) {
     motion.q[0] = turned;
     ASSERT_TRUE(passive.complete(motion, dynamics, workspace)) << turned;
     EXPECT_EQ(motion.q[0], turned);
-    expectEqual(motion.q[1], turned / 50);
+    expectClose(motion.q[1], turned / 50);
   }
 }
 
@@ -81,9 +74,9 @@ TEST(CouplingRules, RateOnlyTiesNoPositions) {
   motion.qdd << 6.0 / 11, 0;
   ASSERT_TRUE(dynamics.complete(motion, workspace));
   EXPECT_EQ(motion.q[1], 77);
-  expectEqual(motion.qd[1], -0.1);
+  expectClose(motion.qd[1], -0.1);
   dynamics.compute(motion, workspace);
-  expectEqual(workspace.results().effort[0], 6);
+  expectClose(workspace.results().effort[0], 6);
   EXPECT_EQ(workspace.results().loops.residuals[0].position, 0);
 }
 
@@ -118,10 +111,10 @@ TEST(CouplingRules, CertificatesHoldOnTheTree) {
     EXPECT_LE(found.largest(), 1e-13);
     lagrange.compute(motion, load);
     for (int i = 0; i < 5; ++i) {
-      expectEqual(results.treeEffort(5)[i], lagrange.effort()[i], kSameEfforts);
+      expectClose(results.treeEffort(5)[i], lagrange.effort()[i], kSameEfforts);
     }
     EXPECT_GT(std::abs(results.effort[5]), 1e-3);
-    expectEqual(results.loops.actuated_positions[0],
+    expectClose(results.loops.actuated_positions[0],
                 motion.q[0] - 0.6 * motion.q[2] + 2 * motion.q[4], kSameEfforts);
     EXPECT_LE(std::abs(results.loops.actuated_velocities[0]), kSameEfforts * motion.qd.norm());
   }
@@ -145,11 +138,11 @@ TEST(CouplingRules, RedundantOnesAreFlagged) {
   EXPECT_EQ(determined, (std::vector<bool>{true, true, true, true, false, false, true}));
   EXPECT_EQ(found.dynamics.determinacy().redundant_constraints, 1);
   const Eigen::VectorXd& effort = found.dynamics.effort();
-  expectEqual(effort[0], 6);
-  expectEqual(effort[4] + 10 * effort[5], -60.0 / 11);
+  expectClose(effort[0], 6);
+  expectClose(effort[4] + 10 * effort[5], -60.0 / 11);
   EXPECT_GT(std::abs(effort[4]), 0.01);
   EXPECT_GT(std::abs(effort[5]), 0.01);
-  expectEqual(effort[6], 15);
+  expectClose(effort[6], 15);
 }
 
 // More motors than freedoms: the motors share, whatever the coupling then bears.
@@ -160,9 +153,9 @@ TEST(CouplingRules, CoupledMotorsShareTheLoad) {
   shafts.actuate(2);
   shafts.load(1, 10);
   ClosedLoopResults found(shafts.mechanism(), shafts.scene, Motion(2));
-  expectEqual(found.dynamics.effort()[0], 5);
-  expectEqual(found.dynamics.effort()[1], 5);
-  expectEqual(found.dynamics.effort()[2], 5);  // 10 - 5 on joint_1, -5 on joint_2
+  expectClose(found.dynamics.effort()[0], 5);
+  expectClose(found.dynamics.effort()[1], 5);
+  expectClose(found.dynamics.effort()[2], 5);  // 10 - 5 on joint_1, -5 on joint_2
   EXPECT_EQ(found.dynamics.effortDetermined(), (std::vector<bool>{false, false, false}));
 }
 
@@ -179,9 +172,9 @@ TEST(CouplingRules, ResidualsOfMotionsThatViolateThem) {
   motion.qdd << -1, 0;
   dynamics.compute(motion, workspace);
   const ClosureResidual& residual = workspace.results().loops.residuals[0];
-  expectEqual(residual.position, 0.01);
-  expectEqual(residual.velocity, 0.05);
-  expectEqual(residual.acceleration, 0.05);
+  expectClose(residual.position, 0.01);
+  expectClose(residual.velocity, 0.05);
+  expectClose(residual.acceleration, 0.05);
   EXPECT_EQ(dynamics.closureNames(), std::vector<std::string>{"rack"});
   EXPECT_NE(dynamics.whyOpen(motion, std::vector<bool>(2, true), workspace)
                 .find("the loops cannot be closed: coupling 'rack' stays open by 0.0"),

@@ -19,8 +19,8 @@
 namespace virtual_work_dynamics {
 namespace {
 
+using deviation_sources::expectSpread;
 using deviation_sources::kDraws;
-using deviation_sources::kStatistical;
 using deviation_sources::Sources;
 
 std::string tiedBody(const std::string& name) {
@@ -83,16 +83,7 @@ void expectTiedSpread(const Mechanism& mechanism, const Scene& scene, const Moti
     dynamics.compute(drawn, workspace);
     spread.add(numbersOf(workspace.results()));
   }
-  const std::vector<double> found = numbersOf(computed.motion());
-  double largest = 0;
-  for (const double value : found) {
-    if (std::isfinite(value)) largest = std::max(largest, value);
-  }
-  ASSERT_GT(largest, 0);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (std::isnan(found[i])) continue;
-    EXPECT_NEAR(found[i], spread.deviation(i), kStatistical * found[i] + 1e-6 * largest) << i;
-  }
+  expectSpread(numbersOf(computed.motion()), spread);
 }
 
 const char* const kTiedRates =

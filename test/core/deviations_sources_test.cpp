@@ -24,66 +24,66 @@ namespace {
 using deviation_sources::expectDrawn;
 using deviation_sources::Sources;
 
-TEST(DeviationsOfRoots, OpenChainsMatchDrawnMotions) {
-  for (const unsigned seed : {2u, 5u}) {
-    SCOPED_TRACE(seed);
-    RandomRobot robot(seed, 8);
-    const Mechanism mechanism = readUrdf(robot.urdf());
-    Motion motion = robot.motion(mechanism);
-    Sources sources(seed);
+// A tree whose root moves, by what is uncertain.
+struct MovedTree {
+  explicit MovedTree(unsigned seed) : robot(seed, 8), sources(seed) {
     motion.root = randomRootMotion(sources.generator);
-    Scene scene;
     scene.root_moves = true;
     scene.reactions = ReactionSelection::kNamed;
     scene.reaction_names = {kGround, "joint_1"};
     sources.ofRoot();
-    sources.ofCoordinates(motion.q.size(), seed == 2 ? 0 : 1);
-    expectDrawn(mechanism, scene, motion, sources);
+  }
+
+  RandomRobot robot;
+  Mechanism mechanism = readUrdf(robot.urdf());
+  Motion motion = robot.motion(mechanism);
+  Scene scene;
+  Sources sources;
+};
+
+struct MovedFourBar {
+  MovedFourBar() {
+    motion.root = randomRootMotion(sources.generator);
+    cut.scene.root_moves = true;
+    sources.ofRoot();
+  }
+
+  FourBar four_bar;
+  FourBar::Cut cut = four_bar.cut('C');
+  Motion motion = cut.motion(four_bar.turnings(1.1, 3.1, -4.2));
+  Sources sources{4};
+};
+
+TEST(DeviationsOfRoots, OpenChainsMatchDrawnMotions) {
+  for (const unsigned seed : {2u, 5u}) {
+    SCOPED_TRACE(seed);
+    MovedTree tree(seed);
+    tree.sources.ofCoordinates(tree.motion.q.size(), seed == 2 ? 0 : 1);
+    expectDrawn(tree.mechanism, tree.scene, tree.motion, tree.sources);
   }
 }
 
 TEST(DeviationsOfRoots, ClosedLoopsMatchDrawnMotions) {
-  const FourBar four_bar;
-  FourBar::Cut cut = four_bar.cut('C');
-  Motion motion = cut.motion(four_bar.turnings(1.1, 3.1, -4.2));
-  Sources sources(4);
-  motion.root = randomRootMotion(sources.generator);
-  cut.scene.root_moves = true;
-  sources.ofRoot();
-  sources.ofCoordinates(motion.q.size(), 0.1);
-  expectDrawn(cut.mechanism, cut.scene, motion, sources);
+  MovedFourBar four_bar;
+  four_bar.sources.ofCoordinates(four_bar.motion.q.size(), 0.1);
+  expectDrawn(four_bar.cut.mechanism, four_bar.cut.scene, four_bar.motion, four_bar.sources);
 }
 
 // A sensor on a link that joints move: their doubts are the root's, too.
 TEST(DeviationsOfRoots, BySensorsOnOtherLinksMatchDrawnMotions) {
   for (const unsigned seed : {2u, 5u}) {
     SCOPED_TRACE(seed);
-    RandomRobot robot(seed, 8);
-    const Mechanism mechanism = readUrdf(robot.urdf());
-    Motion motion = robot.motion(mechanism);
-    Sources sources(seed);
-    motion.root = randomRootMotion(sources.generator);
-    Scene scene;
-    scene.root_moves = true;
-    scene.reactions = ReactionSelection::kNamed;
-    scene.reaction_names = {kGround, "joint_1"};
-    sources.ofRoot();
-    sources.covariance.root *= 1e-4;  // so that what the joints do to it counts
-    sources.ofCoordinates(motion.q.size(), 1);
-    sources.covariance.root_link = static_cast<int>(mechanism.links().size()) - 1;
-    expectDrawn(mechanism, scene, motion, sources);
+    MovedTree tree(seed);
+    tree.sources.covariance.root *= 1e-4;  // so that what the joints do to it counts
+    tree.sources.ofCoordinates(tree.motion.q.size(), 1);
+    tree.sources.covariance.root_link = static_cast<int>(tree.mechanism.links().size()) - 1;
+    expectDrawn(tree.mechanism, tree.scene, tree.motion, tree.sources);
   }
-  const FourBar four_bar;
-  FourBar::Cut cut = four_bar.cut('C');
-  Motion motion = cut.motion(four_bar.turnings(1.1, 3.1, -4.2));
-  Sources sources(4);
-  motion.root = randomRootMotion(sources.generator);
-  cut.scene.root_moves = true;
-  sources.ofRoot();
-  sources.covariance.root *= 1e-6;
-  sources.ofCoordinates(motion.q.size(), 0.1);
-  sources.covariance.root_link = 1;
-  expectDrawn(cut.mechanism, cut.scene, motion, sources);
+  MovedFourBar four_bar;
+  four_bar.sources.covariance.root *= 1e-6;
+  four_bar.sources.ofCoordinates(four_bar.motion.q.size(), 0.1);
+  four_bar.sources.covariance.root_link = 1;
+  expectDrawn(four_bar.cut.mechanism, four_bar.cut.scene, four_bar.motion, four_bar.sources);
 }
 
 TEST(DeviationsOfRoots, BySensorsOnOtherLinksCoverFreeTurns) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "deviation_sources.h"
 #include "four_bar.h"
 #include "random_motions.h"
 #include "robot_builder.h"
@@ -18,21 +19,15 @@
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr int kDraws = 4000;
-// Five of the standard deviations that an estimate of a standard deviation from that many draws
-// has, 1 / sqrt(2 kDraws).
-constexpr double kStatistical = 5 / 89.4;
+using deviation_sources::everything;
+using deviation_sources::expectSpread;
+using deviation_sources::kDraws;
+
 // Differences over shifts of 1e-6 to 1e-3: half of the largest shift times the ratio of second to
 // first derivative, which the tests keep below 4.
 constexpr double kDifferences = 2e-3;
 // With shifts of 1e-6.
 constexpr double kSmallDifferences = 1e-5;
-
-Request all(const Mechanism& mechanism, const Scene& scene) {
-  Request request;
-  request.child_axes = request.root_axes = requestedReactions(mechanism, scene);
-  return request;
-}
 
 // A point mass on a massless rod about the axis y, which hangs down at q = 0.
 struct Pendulum {
@@ -171,7 +166,7 @@ TEST(Deviations, PartsOfEffortsNameTheirCause) {
 // Every deviation against the spread of results of drawn motions.
 void expectDrawn(const Mechanism& mechanism, const Scene& scene, const Motion& motion,
                  const MotionCovariance& covariance) {
-  const Request request = all(mechanism, scene);
+  const Request request = everything(mechanism, scene);
   const Deviations deviations(mechanism, scene, request);
   Deviations::Workspace computed = deviations.makeWorkspace();
   deviations.computeMotion(motion, covariance, computed);
@@ -185,18 +180,7 @@ void expectDrawn(const Mechanism& mechanism, const Scene& scene, const Motion& m
     dynamics.compute(drawn, workspace);
     spread.add(numbersOf(workspace.results()));
   }
-  const std::vector<double> found = numbersOf(computed.motion());
-  const double largest = *std::max_element(
-      found.begin(), found.end(), [](double a, double b) { return std::isnan(a) || a < b; });
-  ASSERT_GT(largest, 0);
-  std::size_t known = 0;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (std::isnan(found[i])) continue;
-    ++known;
-    // Components that the motion does not reach have rounding errors only.
-    EXPECT_NEAR(found[i], spread.deviation(i), kStatistical * found[i] + 1e-6 * largest) << i;
-  }
-  EXPECT_GE(known, found.size() / 4);
+  expectSpread(numbersOf(computed.motion()), spread);
 }
 
 TEST(Deviations, OpenChainsMatchDrawnMotions) {
@@ -223,7 +207,7 @@ TEST_P(EachCutOfPassiveJoints, ClosedLoopsMatchDrawnMotions) {
 TEST_P(EachCutDeviations, EffortMatchesTheFreeBodies) {
   const FourBar four_bar;
   const FourBar::Cut cut = four_bar.cut(GetParam());
-  const Deviations deviations(cut.mechanism, cut.scene, all(cut.mechanism, cut.scene));
+  const Deviations deviations(cut.mechanism, cut.scene, everything(cut.mechanism, cut.scene));
   Deviations::Workspace workspace = deviations.makeWorkspace();
   MotionCovariance covariance = randomCovariance(9, 3, 1e-6);
   const double crank[3] = {1.1, 3.1, -4.2};
@@ -294,7 +278,7 @@ TEST_P(EachCutDeviations, PositionsThatDoNotCloseHaveNone) {
 TEST_P(EachCutDeviations, WhatIsNotDeterminedHasNone) {
   const FourBar four_bar;
   const FourBar::Cut cut = four_bar.cut(GetParam());
-  const Request request = all(cut.mechanism, cut.scene);
+  const Request request = everything(cut.mechanism, cut.scene);
   Scene scene = cut.scene;
   scene.tolerances = {0.1, 0.1};
   const Deviations deviations(cut.mechanism, scene, request);
