@@ -85,6 +85,10 @@ Diagnostics::Before Diagnostics::count() const {
 }
 
 void Diagnostics::report(DiagnosticStatusWrapper& status) {
+  // Before those that the summary is of, which go on counting: what a value has is in the summary,
+  // or in an earlier one.
+  DiagnosticStatusWrapper counts;
+  addCounts(counts);
   const Before now = count();
   // A joint that has stopped counts as missing only while others go on, one that was never received
   // from the first joint state on.
@@ -106,7 +110,7 @@ void Diagnostics::report(DiagnosticStatusWrapper& status) {
   streams_.add(status);
   deviations_.add(status);
   thresholds_.add(status);
-  addCounts(status);
+  status.values.insert(status.values.end(), counts.values.begin(), counts.values.end());
   status.add("joints waited for", missing.empty() ? "none" : shortList(missing));
   status.add("subscribed outputs", outputs_);
   status.add("computed", plan_);

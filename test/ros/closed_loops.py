@@ -78,8 +78,7 @@ class LoopTest(NodeTest):
         kinds = {'effort': JointState, 'reactions': MultiDOFJointState,
                  'determinacy': DiagnosticArray, 'motion': JointTrajectory, 'joint_trajectory': JointTrajectory}
         scene = SLIDER_CRANK_SCENE if scene is None else scene
-        self.node = Node(self, robot, {'scene': scene, 'late_threshold': 1000,
-                                       **(parameters or {})})
+        self.node = Node(self, robot, {'scene': scene, **(parameters or {})})
         self.states = self.node.feed('joint_states', JointState)
         self.trajectories = self.node.feed('joint_trajectory', JointTrajectory)
         self.recorders = {topic: self.node.record(topic, kinds.get(topic, WrenchStamped))

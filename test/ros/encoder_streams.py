@@ -63,9 +63,7 @@ class StreamTest(NodeTest):
 
     def start(self, parameters=None):
         self.bodies = RigidBodies(ARM)
-        # As fast as they can be published, and however late the node gets a core.
-        self.node = Node(self, ARM, dict({'queue_size': {'input': 100000, 'output': 100000}},
-                                         **(parameters or {})))
+        self.node = Node(self, ARM, parameters)
         self.states = self.node.feed('joint_states', JointState)
         self.efforts = self.node.record('effort', JointState)
         self.node.wait_for_plan('effort')

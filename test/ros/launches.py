@@ -5,8 +5,10 @@ import shutil
 import stat
 import subprocess
 import tempfile
+import xmlrpc.client
 
 import rosbag
+import rosgraph
 import rospy
 
 from node_under_test import PACKAGE, NodeTest, Process, Recorder, read, wait_until
@@ -122,9 +124,22 @@ class LaunchTest(NodeTest):
     def recorded(self, launch, *recorders):
         """Waits until what these recorders have is also in bags of the launch."""
         for recorder in recorders:
-            wait_until(lambda: 'Subscribing to %s\n' % recorder.topic in launch.output(),
-                       launch.output)
+            wait_until(lambda: self.bags_listen(recorder.topic) or launch.ended(),
+                       lambda: 'bags to listen to %s; %s' % (recorder.topic, launch.output()))
+            self.assertFalse(launch.ended(), launch.output())
             recorder.wait(len(recorder.raw) + 20)
+
+    def bags_listen(self, topic):
+        """Whether all nodes that record the topic are connected to all that publish it."""
+        master = rosgraph.Master('/test')
+        publishers, subscribers, _ = (dict(part) for part in master.getSystemState())
+        bags = {node for node in subscribers.get(topic, []) if node.endswith('/recorder')}
+        connected = []
+        for node in publishers.get(topic, []):
+            _, _, bus = xmlrpc.client.ServerProxy(master.lookupNode(node)).getBusInfo('/test')
+            connected.append(bags <= {entry[1] for entry in bus
+                                      if entry[2] == 'o' and entry[4] == topic})
+        return bool(bags and connected) and all(connected)
 
     def motion(self):
         """A motion of the arm, which rests at zero; returns the name of its file."""

@@ -50,13 +50,17 @@ class Bags(NodeTest):
         return Process(self, [play, '--quiet', '--wait-for-subscribers', option, path,
                               '__name:=player', '__ns:=' + self.node.namespace])
 
-    def received(self):
-        """How many joint states have come, after all that was sent has been dealt with."""
+    def settled(self):
+        """Diagnostics from after all that the player has sent has been dealt with."""
         name = self.node.namespace + '/player'
         wait_until(lambda: name not in self.node.connections(self.topic, 'i'),
                    'the node to be done with the player')
         self.states.publish(joint_state(EPOCH, {'lamp': 0.0}))
-        values = self.node.wait_for_count('joint states of other robots', 1)
+        return self.node.wait_for_count('joint states of other robots', 1)
+
+    def received(self):
+        """How many joint states have come from the player, restarts and gaps."""
+        values = self.settled()
         self.assertEqual((values['joint states of other robots'], values['dropped']), ('1', '0'))
         return (int(values['joint states received']) - 1, int(values['restarts']),
                 int(values['gaps']))
@@ -92,16 +96,17 @@ class Bags(NodeTest):
         self.node.wait_for_count('restarts', 3)
         player.interrupt()
         player.wait()
-        values = self.node.wait_for_count('restarts', 3)
+        values = self.settled()
+        restarts = int(values['restarts'])
         # A round begins anew after a few joint states that could have come late; the results of all
         # rounds are right.
         self.assertEqual(values['gaps'], '0')
-        messages = self.efforts.messages()
+        messages = self.efforts.wait(int(values['samples computed']))
         self.assertNoGaps(messages)
         times = [message.header.stamp.to_nsec() for message in messages]
         self.assertLessEqual(set(times), set(stamps))
         starts = [i for i in range(1, len(times)) if times[i] <= times[i - 1]]
-        self.assertGreaterEqual(len(starts), 2)
+        self.assertGreaterEqual(len(starts), restarts - 1)
         for begin, end in zip([0] + starts, starts):
             # At most 10 joint states are taken for late ones, and LAG have no result at the end.
             self.assertGreaterEqual(end - begin, len(stamps) - 10 - LAG)
@@ -129,7 +134,7 @@ class Bags(NodeTest):
 
     def test_trajectory_publisher_started_anew(self):
         parameters = {'joints': COORDINATES, 'amplitudes': [0.1, 0.2, 0.02], 'duration': 0.2,
-                      'rate': 100, 'start_delay': 0, 'linger': 0.3}
+                      'rate': 100, 'start_delay': 0, 'linger': 1}
         name = self.node.namespace + '/trajectory_publisher'
         rospy.set_param(name, parameters)
         for _ in range(2):
@@ -145,7 +150,7 @@ class Bags(NodeTest):
             self.assertEqual(round_stamps,
                              [round_stamps[0] + STEP * i for i in range(len(round_stamps))])
         self.assertEqual(len(stamps), 2 * count - LAG)
-        self.assertGreater(stamps[count] - stamps[count - 1], 3 * 10 ** 8)
+        self.assertGreater(stamps[count] - stamps[count - 1], 10 ** 9)
         values = self.node.wait_for_count('gaps', 1)
         self.assertEqual((values['gaps'], values['restarts']), ('1', '0'))
 
@@ -174,10 +179,13 @@ class Bags(NodeTest):
             recorder.wait(count)
 
         def written():
-            with open(path + '.active', 'rb') as file:
-                content = file.read()
+            try:
+                with open(path + '.active', 'rb') as file:
+                    content = file.read()
+            except FileNotFoundError:  # it is complete
+                return True
             return all(recorder.raw[count - 30] in content for recorder in recorders)
-        wait_until(lambda: not os.path.exists(path + '.active') or written(), 'the recorder')
+        wait_until(written, 'the recorder')
 
     def test_recorded_bag_reads_back_as_it_was_published(self):
         live = {'effort': self.efforts}
@@ -218,13 +226,15 @@ class Bags(NodeTest):
             self.assertTrue(recorded[self.node.name + '/' + topic] == recorder.raw, topic)
 
     def test_points_played_at_a_rate_are_all_recorded(self):
-        self.node = Node(self, ARM, {'trajectory_rate': 1000})
+        # The recorder's queue of 100 is that of half a second, in which it gets a core.
+        count = 1200
+        self.node = Node(self, ARM, {'trajectory_rate': 200})
         trajectories = self.node.feed('joint_trajectory', JointTrajectory)
-        recorder, path = self.record('points', 3000, 'effort', 'reactions')
+        recorder, path = self.record('points', count, 'effort', 'reactions')
         self.node.wait_for_plan('effort', 'reactions')
         message = JointTrajectory(joint_names=COORDINATES)
         message.header.stamp = ros_time(EPOCH)
-        times = [10 ** 6 * i for i in range(3000)]
+        times = [10 ** 6 * i for i in range(count)]
         message.points = [trajectory_point(ns, COORDINATES, MOTION(EPOCH + ns)) for ns in times]
         trajectories.publish(message)
         # All at once, most would not come through the recorder's queue of 100, and it never ended.

@@ -132,7 +132,7 @@ class Deviations(StreamTest):
         self.node.record('effort_deviation', JointState)
         self.node.wait_for_plan('effort', 'effort_deviation')
         self.send(STAMPS[:200])
-        self.node.diagnostics(lambda values: [
+        wait_until(lambda: [
             status for status in self.node.statuses()
             if status.level == DiagnosticStatus.WARN and
             re.search("'(shoulder|elbow|slide)'.*(position|velocity|acceleration) of '",

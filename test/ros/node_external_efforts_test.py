@@ -40,8 +40,7 @@ class ExternalEfforts(StreamTest):
                 if status.level == DiagnosticStatus.WARN]
 
     def expect_warning(self, *parts):
-        wait_until(lambda: any(all(part in text for part in parts) for text in self.warnings()),
-                   lambda: '%s in %s' % (parts, self.warnings()))
+        self.assertEqual(self.node.wait_for_status(*parts).level, DiagnosticStatus.WARN)
 
     def test_residual_is_computed_less_measured_at_the_instants_of_results(self):
         self.start()
@@ -111,7 +110,7 @@ class ExternalEfforts(StreamTest):
         for message in messages + observed.wait(400 - LATEST):
             self.assertEqual(message.name, ['elbow', 'slide'])
             self.assertTrue(np.isfinite(message.effort).all())
-        wait_until(lambda: self.node.lines('WARN'), 'the warning')
+        self.node.wait_for_line('WARN', 'measured efforts')
         told = [line for line in self.node.lines('WARN') if 'measured efforts' in line]
         self.assertEqual(len(told), 1, self.node.lines('WARN'))
         self.assertIn("there are no measured efforts of 'shoulder', which", told[0])
@@ -185,9 +184,7 @@ class ExternalEfforts(StreamTest):
             message = self.message(i)
             message.velocity[COORDINATES.index('elbow')] = float('nan')
             self.states.publish(message)
-        wait_until(lambda: [line for line in self.node.lines('WARN')
-                            if "no position or no velocity of 'elbow'," in line],
-                   lambda: 'the warning in %s' % self.node.lines('WARN'))
+        self.node.wait_for_line('WARN', "no position or no velocity of 'elbow',")
 
     def test_efforts_beyond_the_limits_of_the_description(self):
         weak = ARM.replace('effort="100" velocity="5"', 'effort="1.5" velocity="5"')

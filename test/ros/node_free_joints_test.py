@@ -6,7 +6,7 @@ from geometry_msgs.msg import Quaternion, Transform, Twist, Vector3
 import numpy as np
 from sensor_msgs.msg import JointState, MultiDOFJointState
 
-from node_under_test import EPOCH, Node, NodeTest, joint_state, ros_time, run, wait_until
+from node_under_test import EPOCH, Node, NodeTest, joint_state, ros_time, run
 
 MS = 1000000
 GRAVITY = np.array([0.0, 0.0, -9.81])
@@ -103,8 +103,8 @@ class FreeJoints(NodeTest):
     def start(self, robot=BALL, scene=None, parameters=None):
         self.noise = np.random.default_rng(3)
         self.node = Node(self, robot, dict({
-            'scene': SCENE if scene is None else scene, 'diagnostic_period': 0.01,
-            'queue_size': {'input': 100000, 'output': 100000}}, **(parameters or {})))
+            'scene': SCENE if scene is None else scene, 'diagnostic_period': 0.01},
+                                           **(parameters or {})))
         self.turns = self.node.feed('multi_dof_joint_states', MultiDOFJointState)
         self.efforts = self.node.record('effort', JointState)
 
@@ -189,7 +189,7 @@ class FreeJoints(NodeTest):
         self.node.wait_for_count('joint states received', 300)
         last = self.efforts.wait(200)[-1]
         self.assertClose(last.velocity, [0] * 4, 1e-9, 'rates of what is held')
-        self.assertGreater(int(self.node.diagnostics()['samples with a joint held']), 50)
+        self.node.wait_for_count('samples with a joint held', 50)
 
     def test_floating(self):
         self.start(FLOATING, {'reactions': 'none'})
@@ -241,8 +241,7 @@ class FreeJoints(NodeTest):
             value = getattr(nearly.transforms[0].rotation, axis)
             setattr(nearly.transforms[0].rotation, axis, 1.0005 * value)
         self.turns.publish(nearly)
-        wait_until(lambda: [line for line in self.node.lines('WARN') if 'scaled to 1' in line],
-                   self.node.output)
+        self.node.wait_for_line('WARN', 'scaled to 1')
 
     def test_thresholds_of_angles_are_refused(self):
         node = Node(self, BALL, {'scene': SCENE, 'external_effort': {

@@ -4,11 +4,11 @@ import math
 
 from geometry_msgs.msg import Transform, Vector3
 import numpy as np
-from sensor_msgs.msg import JointState, MultiDOFJointState
+from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectory
 
 from closed_loops import LoopTest, SLIDER_CRANK_SCENE, SliderCrank
-from node_free_joints_test import BALL, FRAME, SCENE, FreeJoints, attitude, ball_efforts, wrist
+from node_free_joints_test import FRAME, SCENE, FreeJoints, attitude, ball_efforts, wrist
 from node_under_test import EPOCH, joint_state, ros_time, run, trajectory_point
 
 MS = 1000000

@@ -8,7 +8,7 @@ from sensor_msgs.msg import JointState, MultiDOFJointState
 from trajectory_msgs.msg import JointTrajectory
 
 from node_under_test import (EPOCH, Node, NodeTest, Polynomials, joint_state, read, ros_time, run,
-                             trajectory_point, vector, wait_until)
+                             trajectory_point, vector)
 from rigid_bodies import RigidBodies
 
 ARM = read('data', 'arm.urdf')
@@ -202,8 +202,7 @@ class LiveWrenches(NodeTest):
             self.assertIn(text, values['last drop'])
         self.assertEqual(int(node.diagnostics()['dropped']), len(bad))
         for text in ('its force.y is nan', "its frame 'left/hnad'"):
-            wait_until(lambda text=text: [line for line in node.lines('WARN') if text in line],
-                       lambda: node.output())
+            node.wait_for_line('WARN', text)
         node.trajectories.publish(trajectory([0, 50 * MS]))
         self.assertEqual(len(node.efforts.wait(2)), 2)
 

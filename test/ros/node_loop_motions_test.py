@@ -7,7 +7,7 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectory
 
-from closed_loops import (CLOSED_FORM, JOINTS, REACTIONS, SLIDER_CRANK, SLIDER_CRANK_SCENE, STEP,
+from closed_loops import (CLOSED_FORM, JOINTS, REACTIONS, SLIDER_CRANK_SCENE, STEP,
                           LoopTest, SliderCrank, by_name)
 from node_under_test import (EPOCH, Node, Polynomials, joint_state, ros_time, run, trajectory_point,
                              vector, wait_until)
@@ -124,15 +124,14 @@ class LoopMotions(LoopTest):
         self.states.publish(joint_state(EPOCH + STEP, shifted, dict.fromkeys(JOINTS, 0)))
         message = self.recorders['effort'].wait(2)[1]
         self.assertEqual(by_name(message, message.position), shifted)
-        status = self.status(lambda s: 'violate' in s.message, 'the violation')
+        status = self.node.wait_for_status('positions violate')
         self.assertEqual(status.level, DiagnosticStatus.WARN)
         self.assertIn("positions violate closure 'wrist_pin' by 0.001 m or rad", status.message)
         self.assertIn(self.node.name + '/loop_tolerance is 1e-06', status.message)
         self.assertEqual(self.node.wait_for_count('samples that violate a loop', 1)['dropped'], '0')
         # Some way from there again, in time.
         self.states.publish(joint_state(EPOCH + 2 * STEP, still.q, {**still.qd, 'rod_joint': 0.5}))
-        self.status(lambda s: "velocities violate closure 'wrist_pin' by 0.15 m/s" in s.message,
-                    'the velocities')
+        self.node.wait_for_status("velocities violate closure 'wrist_pin' by 0.15 m/s")
         self.assertEqual(len(self.recorders['effort'].wait(3)), 3)
 
     def test_trajectories(self):
@@ -241,7 +240,7 @@ class LoopMotions(LoopTest):
         for i in range(5):
             self.states.publish(joint_state(EPOCH + STEP * i, turned_over, dict.fromkeys(JOINTS, 0)))
         self.recorders['effort'].wait(5)
-        wait_until(lambda: self.node.lines('WARN'), 'a warning')
+        self.node.wait_for_line('WARN', 'leave closure')
         message = JointTrajectory(joint_names=['crank_joint'])
         message.header.stamp = ros_time(EPOCH)
         message.points = [trajectory_point(0, ['crank_joint'], (still.q, still.qd, still.qdd))]
@@ -256,8 +255,7 @@ class LoopMotions(LoopTest):
         self.node = Node(self, BOOM, {'scene': BOOM_SCENE, 'start_patience': 60,
                                       'estimator': {'acceleration': 'zero'}})
         efforts = self.node.record('effort', JointState)
-        wait_until(lambda: [line for line in self.node.lines('WARN') if 'waiting up to' in line],
-                   lambda: 'a warning; it says ' + self.node.output())
+        self.node.wait_for_line('WARN', 'waiting up to')
         states = self.node.feed('joint_states', JointState)
         states.publish(joint_state(EPOCH, boom_at(0.9)))
         self.node.wait_for_plan('effort')
@@ -279,9 +277,8 @@ class LoopMotions(LoopTest):
         wrong = {'crank_joint': 0.4, 'slider_joint': 7}
         self.states.publish(joint_state(EPOCH, wrong))
         self.assertMatches(self.recorders['effort'].wait(1)[0], still, CLOSED_FORM)
-        wait_until(lambda: self.node.lines('WARN'), 'a warning')
-        self.assertIn('joints slider_joint are given, but not rod_joint: they are ignored',
-                      self.node.lines('WARN')[0])
+        self.node.wait_for_line(
+            'WARN', 'joints slider_joint are given, but not rod_joint: they are ignored')
         self.states.publish(joint_state(EPOCH + STEP, {'rod_joint': 7}))
         self.node.diagnostics(lambda values: values['passive joints'] == 'given', 'all of them')
 

@@ -6,7 +6,7 @@ from diagnostic_msgs.msg import DiagnosticStatus
 import numpy as np
 
 from encoder_streams import COORDINATES, LATEST, MS, STEP, Encoders, StreamTest
-from node_under_test import EPOCH, run, wait_until
+from node_under_test import EPOCH, run
 
 COUNT = 2500
 STAMPS = [EPOCH + STEP * i for i in range(COUNT)]
@@ -84,8 +84,8 @@ class MessageOrder(StreamTest):
             # The other one believes that the elbow is elsewhere.
             self.publish(ns + MS, dict(q, elbow=q['elbow'] + 0.3))
         text = "positions of 'elbow' jump to and fro: are there two publishers?"
-        self.node.diagnostics(lambda values: text in self.node.statuses()[-1].message, text)
-        self.assertEqual(self.node.statuses()[-1].level, DiagnosticStatus.WARN)
+        self.assertEqual(self.node.wait_for_status(text).level, DiagnosticStatus.WARN)
+        self.node.wait_for_line('WARN', text)
         self.assertEqual([line for line in self.node.lines('WARN')], [text])
         # Results go on, and are finite.
         messages = self.efforts.wait(900)
@@ -98,10 +98,8 @@ class MessageOrder(StreamTest):
             self.publish(ns, encoders(ns)[0])
             self.publish(ns - 10 ** 9, encoders(ns)[0])
         self.node.wait_for_count('restarts', 199)
-        wait_until(lambda: [status for status in self.node.statuses()
-                            if status.level == DiagnosticStatus.WARN and 'went back' in
-                            status.message and 'two publishers with clocks of their own' in
-                            status.message], 'the warning')
+        status = self.node.wait_for_status('went back', 'two publishers with clocks of their own')
+        self.assertEqual(status.level, DiagnosticStatus.WARN)
 
     def test_joint_states_of_another_robot(self):
         self.start()

@@ -190,7 +190,6 @@ class Outputs(NodeTest):
                     'run time per sample, p99 (us)', 'run time per sample, worst (us)'):
             self.assertGreaterEqual(float(values[key]), 0, key)
         self.assertEqual(values['joints waited for'], 'none')
-        self.assertEqual(values['late outputs'], '0')
         status = self.node.statuses()[-1]
         self.assertEqual((status.level, status.message), (status.OK, 'running'))
         self.assertEqual(status.hardware_id, 'test_arm')

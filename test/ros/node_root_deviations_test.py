@@ -25,7 +25,7 @@ class RootDeviations(NodeTest):
         self.noise = np.random.default_rng(21)
         self.node = Node(self, robot, {
             'scene': {'root': 'moving', 'reactions': 'none'}, 'root': {'source': source},
-            'deviation_warn': 1e-9, 'queue_size': {'input': 100000, 'output': 100000}})
+            'deviation_warn': 1e-9})
         self.roots = self.node.feed(topic, kind)
         self.states = self.node.feed('joint_states', JointState)
         self.efforts = self.node.record('effort', JointState)

@@ -3,7 +3,7 @@
 from diagnostic_msgs.msg import DiagnosticStatus
 
 from encoder_streams import LAG, MS, STEP, Encoders, StreamTest, Swings
-from node_under_test import EPOCH, joint_state, run, wait_until
+from node_under_test import EPOCH, joint_state, run
 
 ARM_JOINTS = ['shoulder', 'elbow']
 COUNT = 2000  # of the arm: 4 s
@@ -134,9 +134,8 @@ class SlowJoints(StreamTest):
         values = self.values_after(COUNT)
         self.assertEqual(values['joints waited for'], 'slide')
         self.assertIn('waiting for joints: slide', self.node.statuses()[-1].message)
-        wait_until(lambda: [line for line in self.node.lines('WARN') if
-                            'joints slide have not been received in 5 s; nothing is published'
-                            in line], 'the warning')
+        self.node.wait_for_line(
+            'WARN', 'joints slide have not been received in 5 s; nothing is published')
         self.assertEqual(self.efforts.messages(), [])
         self.assertEqual(len(self.node.lines('WARN')), 1)
 

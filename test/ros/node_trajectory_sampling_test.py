@@ -144,9 +144,8 @@ class SampledTrajectories(NodeTest):
         self.start('effort', parameters={'queue_size': {'output': 100}})
         self.trajectories.publish(message(UNEVEN))
         self.recorders['effort'].wait(100)
-        self.assertTrue([line for line in self.node.lines('WARN')
-                         if '252 samples are more than %s/queue_size/output = 100' % self.node.name
-                         in line])
+        self.node.wait_for_line('WARN', '252 samples are more than %s/queue_size/output = 100' %
+                                self.node.name)
 
     def test_samples_behind_a_long_backlog_are_dropped(self):
         self.start('effort', parameters={'queue_size': {'output': 200}, 'trajectory_rate': 0.01})

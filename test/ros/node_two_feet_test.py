@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """A robot on two feet whose wrenches are measured: what is left for the root, and a foot that falls
 silent. Everything has noise and stamps that jitter, and rates of its own."""
+import time
+
 from geometry_msgs.msg import Vector3, WrenchStamped
 from nav_msgs.msg import Odometry
 import numpy as np
@@ -28,9 +30,8 @@ class TwoFeet(NodeTest):
             scene['applied_wrenches'] = [
                 {'name': side, 'link': side + '_foot', 'live': True,
                  'deviation': {'force': FORCE, 'torque': MOMENT}} for side in FEET]
-        self.node = Node(self, BIPED, dict({
-            'scene': scene, 'root': {'source': 'odometry'},
-            'queue_size': {'input': 100000, 'output': 100000}}, **(parameters or {})))
+        self.node = Node(self, BIPED, dict({'scene': scene, 'root': {'source': 'odometry'}},
+                                           **(parameters or {})))
         self.roots = self.node.feed('odom', Odometry)
         self.states = self.node.feed('joint_states', JointState)
         self.feet = {side: self.node.feed('inverse_dynamics/wrench/' + side, WrenchStamped)
@@ -155,6 +156,7 @@ class TwoFeet(NodeTest):
         silent, again = 2.0, 3.0
         self.send_foot('right', self.stamps(333, -0.05, silent))
         self.send_foot('right', self.stamps(333, again))
+        start = time.monotonic()
         sent = self.send_joints()
         # A wrench stands for 0.1 s: no result from then until the foot comes back.
         last = max(ns for ns in self.stamps(333, 0, silent))
@@ -173,7 +175,7 @@ class TwoFeet(NodeTest):
         self.assertIn(self.node.name + '/wrench/right is known from stamp', values['last drop'])
         self.assertIn('wrench_timeout is 0.1 s', values['last drop'])
         said = [line for line in self.node.lines('WARN') if 'no wrench' in line]
-        self.assertEqual(len(said), 1, said)
+        self.assertThrottled(said, start)
         # What comes after is as good as what came before.
         force, _ = self.residuals(
             [m for m in self.reactions.wait(count) if m.header.stamp.to_nsec() > first], 3.05 - 1.5)

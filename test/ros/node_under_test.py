@@ -31,6 +31,9 @@ PATIENCE = 90  # s
 HERE = os.path.dirname(os.path.abspath(__file__))
 # An instant to count from, with all its nanoseconds.
 EPOCH = 1600000000123456789
+# Of every node: reports soon, no message lost however late it gets a core, and nothing too late.
+PARAMETERS = {'diagnostic_period': 0.05, 'late_threshold': 1000,
+              'queue_size': {'input': 100000, 'output': 100000}}
 _numbers = itertools.count(1)
 
 
@@ -182,7 +185,7 @@ class Node(Process):
         self.name = self.namespace + '/inverse_dynamics'
         if robot is not None:
             rospy.set_param(self.namespace + '/robot_description', robot)
-        rospy.set_param(self.name, dict({'diagnostic_period': 0.05}, **(parameters or {})))
+        rospy.set_param(self.name, dict(PARAMETERS, **(parameters or {})))
         self._statuses = []
         self._new_status = threading.Condition()
         subscriber = rospy.Subscriber('/diagnostics', DiagnosticArray, self._take_diagnostics)
@@ -222,6 +225,19 @@ class Node(Process):
                 return values
             if time.monotonic() > end:
                 raise AssertionError('waited in vain for %s; the last report: %s' % (what, values))
+
+    def wait_for_status(self, *parts):
+        """The first DiagnosticStatus of all so far, or of those to come, that says these texts."""
+        return wait_until(
+            lambda: next((status for status in self.statuses()
+                          if all(part in status.message for part in parts)), None),
+            lambda: 'a report of %s; the last one: %s' % (parts, self.statuses()[-1:]))
+
+    def wait_for_line(self, severity, *parts):
+        """The first line of the log that says these texts."""
+        return wait_until(lambda: next((line for line in self.lines(severity)
+                                        if all(part in line for part in parts)), None),
+                          lambda: '%s in %s' % (parts, self.output()))
 
     def wait_for_plan(self, *topics):
         """Waits until exactly these outputs are subscribed to and computed from now on."""
@@ -315,6 +331,11 @@ class NodeTest(unittest.TestCase):
         for i, (message, ns) in enumerate(zip(messages, stamps)):
             self.assertEqual(message.header.stamp.to_nsec(), ns, 'message %d' % i)
         self.assertEqual(len(messages), len(stamps))
+
+    def assertThrottled(self, lines, start):
+        """One at the least, and no more than one a second since time.monotonic() was `start`."""
+        self.assertGreaterEqual(len(lines), 1)
+        self.assertLessEqual(len(lines), 1 + (time.monotonic() - start), lines)
 
     def assertNoGaps(self, messages):
         """Sequence numbers count up by one."""

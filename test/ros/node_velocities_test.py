@@ -43,10 +43,9 @@ class Velocities(StreamTest):
             self.assertLess(max(errors / alone), AS_POSITIONS_ALONE, kind)
             expected = ["velocities of '%s' are not used: they %s" % (name, text)
                         for name, (_, text) in wrong.items() if text]
-            self.node.diagnostics(
-                lambda values, expected=expected: all(
-                    text in self.node.statuses()[-1].message for text in expected), kind)
-            self.assertEqual(self.node.statuses()[-1].level, DiagnosticStatus.WARN)
+            self.assertEqual(self.node.wait_for_status(*expected).level, DiagnosticStatus.WARN)
+            for text in expected:
+                self.node.wait_for_line('WARN', text)
             # Once each, not once a second.
             self.assertEqual(sorted(self.node.lines('WARN')), sorted(expected))
             values = self.values_after(COUNT)

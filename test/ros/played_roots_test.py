@@ -2,16 +2,19 @@
 """Tables with the motion of a root link, as trajectory_publisher_node plays them."""
 import itertools
 import tempfile
+import xmlrpc.client
 
 from nav_msgs.msg import Odometry
 import numpy as np
+import rosgraph
 import rospy
 from sensor_msgs.msg import Imu, JointState, MultiDOFJointState
 from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import MultiDOFJointTrajectory
 
 from carried_arm import ARM, JOINTS, ROOT, CarriedArm, quaternion
-from node_under_test import (Node, NodeTest, Process, Recorder, executable, rotated, run, vector)
+from node_under_test import (Node, NodeTest, Process, Recorder, executable, rotated, run, vector,
+                             wait_until)
 
 STEP = 5000000  # ns, from row to row and from message to message
 ROWS = 101
@@ -63,11 +66,25 @@ class PlayedRoots(NodeTest):
         return Process(self, [executable('trajectory_publisher_node'), '__ns:=' + self.namespace,
                               '__name:=trajectory_publisher'])
 
-    def played(self, source, topic, kind, **others):
+    def begin(self, *topics):
+        """Lets the player begin, which waits for joint states to be listened to: once these topics are."""
+        name, master = self.namespace + '/trajectory_publisher', rosgraph.Master('/test')
+
+        def listened():
+            publishers = dict(master.getSystemState()[0])
+            names = [topic if topic[0] == '/' else self.namespace + '/' + topic for topic in topics]
+            if not all(name in publishers.get(topic, []) for topic in names):
+                return False
+            _, _, bus = xmlrpc.client.ServerProxy(master.lookupNode(name)).getBusInfo('/test')
+            return set(names) <= {entry[4] for entry in bus if entry[2] == 'o'}
+        wait_until(listened, 'subscribers of %s' % (topics,))
+        return self.record('joint_states', JointState)
+
+    def played(self, source, topic, kind, beside=(), **others):
         """Messages of the root with the time of each since the start, ns."""
-        states = self.record('joint_states', JointState)
         roots = self.record(topic, kind)
         player = self.play(source, **others)
+        states = self.begin(topic, *beside)
         messages = roots.wait(ROWS)
         self.assertEqual(player.wait(), 0, player.output())
         start = states.wait(ROWS)[0].header.stamp.to_nsec()
@@ -128,10 +145,12 @@ class PlayedRoots(NodeTest):
 
     def test_tf_beside_and_alone(self):
         frames = self.record('/tf', TFMessage)
-        self.played('odometry', 'odom', Odometry)
-        self.assertEqual(len(frames.messages()), 26)  # 0.5 s at 50 Hz
-        player = self.play('tf', {'wait_for_subscribers': 0, 'start_delay': 1})
-        messages = frames.wait(26 + ROWS)[26:]
+        self.played('odometry', 'odom', Odometry, beside=['/tf'])
+        count = 26  # 0.5 s at 50 Hz
+        self.assertEqual(len(frames.wait(count)), count)
+        player = self.play('tf')
+        self.begin('/tf')
+        messages = frames.wait(count + ROWS)[count:]
         self.assertEqual(player.wait(), 0, player.output())
         start = messages[0].transforms[0].header.stamp.to_nsec()
         for message in messages:
@@ -155,8 +174,11 @@ class PlayedRoots(NodeTest):
         self.namespace = node.namespace
         efforts = node.record('effort', JointState)
         node.wait_for_plan('effort')
-        player = self.play('trajectory', {'message': 'joint_trajectory', 'loop': False})
-        messages = efforts.wait(ROWS)
+        # Messages of two topics have no order: what comes before the root's has no result.
+        player = self.play('trajectory', {'message': 'joint_trajectory', 'loop': True,
+                                          'loop_pause': 1})
+        messages = efforts.wait(ROWS)[:ROWS]
+        player.interrupt()
         self.assertEqual(player.wait(), 0, player.output())
         start = messages[0].header.stamp.to_nsec()
         self.assertStamps(messages, [start + i * STEP for i in range(ROWS)])

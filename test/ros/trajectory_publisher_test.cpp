@@ -31,7 +31,7 @@ using trajectory_msgs::JointTrajectory;
 // Closed forms of order 1 computed in another order.
 constexpr double kClosedForm = 1e-14;
 // Long enough for a loaded machine; reached only by failures.
-constexpr double kPatience = 30;
+constexpr double kPatience = 90;
 
 /// Collects the messages of a topic.
 template <typename Message>
