@@ -11,7 +11,7 @@ add_library(benchmark_contenders STATIC
   ../test/core/loop_geometry.cpp
   ../test/core/maximal_coordinates_oracle.cpp
   ../test/core/newton_euler_oracle.cpp
-  ../src/offline/built_library.cpp
+  contenders/built_library.cpp
   contenders/check.cpp
   contenders/closed_scenes.cpp
   contenders/kdl.cpp

@@ -1,21 +1,34 @@
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "contenders/built_library.h"
 #include "contenders/offers.h"
 #include "contenders/own_arrays.h"
 #include "contenders/own_request.h"
-#include "offline/built_library.h"
 #include "virtual_work_dynamics/generated_code.h"
 
 namespace virtual_work_dynamics {
 namespace {
 
 constexpr char kName[] = "generated";
-// Of more joints the code is so long that a sample takes longer than by the plan.
-constexpr std::size_t kMostJoints = 60;
+// From some 60 joints on a sample takes longer than by the plan; of 100 the source has 2.2 MB.
+constexpr std::size_t kMostJoints = 100;
 
-BuiltLibrary build(const BenchmarkScene& scene, const Request& request, InstructionSet set) {
+// One sample and blocks are functions of one library, which is built once.
+std::shared_ptr<const BuiltLibrary> libraryOf(const BenchmarkScene& scene,
+                                              const std::string& outputs, const Request& request) {
+  static std::map<std::pair<std::string, std::string>, std::weak_ptr<const BuiltLibrary>> all;
+  std::weak_ptr<const BuiltLibrary>& kept = all[{scene.name, outputs}];
+  std::shared_ptr<const BuiltLibrary> library = kept.lock();
+  if (library) return library;
   GeneratedCodeOptions options;
   options.name = kName;
-  const GeneratedCode code = generateCode(scene.mechanism, ownScene(scene), request, options);
-  return BuiltLibrary(kName, code.header, code.source, optionsFor(set, kName));
+  library = std::make_shared<const BuiltLibrary>(
+      kName, generateCode(scene.mechanism, ownScene(scene), request, options),
+      chosenInstructionSet());
+  kept = library;
+  return library;
 }
 
 // The reactions are an argument where they are asked for.
@@ -29,9 +42,9 @@ class GeneratedSingle : public Contender {
   GeneratedSingle(const BenchmarkScene& scene, const std::string& outputs)
       : motions_(scene.motions),
         request_(ownRequest(scene, outputs)),
-        library_(build(scene, request_, chosenInstructionSet())),
-        efforts_(functionOf<Efforts>(library_, "generated_compute")),
-        everything_(functionOf<Everything>(library_, "generated_compute")),
+        library_(libraryOf(scene, outputs, request_)),
+        efforts_(functionOf<Efforts>(*library_, "generated_compute")),
+        everything_(functionOf<Everything>(*library_, "generated_compute")),
         effort_(Eigen::VectorXd::Zero(motions_[0].q.size())),
         reactions_(request_.child_axes.size()) {}
 
@@ -58,7 +71,7 @@ class GeneratedSingle : public Contender {
 
   const std::vector<Motion>& motions_;
   const Request request_;
-  BuiltLibrary library_;
+  const std::shared_ptr<const BuiltLibrary> library_;
   const Efforts efforts_;
   const Everything everything_;
   Eigen::VectorXd effort_;
@@ -69,7 +82,7 @@ class GeneratedSingle : public Contender {
 class GeneratedBlock : public Contender {
  public:
   GeneratedBlock(const BenchmarkScene& scene, const std::string& outputs)
-      : GeneratedBlock(scene, ownRequest(scene, outputs)) {}
+      : GeneratedBlock(scene, outputs, ownRequest(scene, outputs)) {}
 
   std::size_t samplesPerCall() const override { return samples_; }
 
@@ -95,12 +108,12 @@ class GeneratedBlock : public Contender {
                               double*, double*);
   static constexpr BlockLayout kLayout = BlockLayout::kStructureOfArrays;
 
-  GeneratedBlock(const BenchmarkScene& scene, const Request& request)
+  GeneratedBlock(const BenchmarkScene& scene, const std::string& outputs, const Request& request)
       : samples_(samplesOf<double>(
             4 * scene.mechanism.coordinates().size() + 6 * request.child_axes.size(), 1)),
-        library_(build(scene, request, chosenInstructionSet())),
-        efforts_(functionOf<Efforts>(library_, "generated_compute_block")),
-        everything_(functionOf<Everything>(library_, "generated_compute_block")),
+        library_(libraryOf(scene, outputs, request)),
+        efforts_(functionOf<Efforts>(*library_, "generated_compute_block")),
+        everything_(functionOf<Everything>(*library_, "generated_compute_block")),
         q_(arrayOf<double>(scene, &Motion::q, kLayout, samples_)),
         qd_(arrayOf<double>(scene, &Motion::qd, kLayout, samples_)),
         qdd_(arrayOf<double>(scene, &Motion::qdd, kLayout, samples_)),
@@ -108,7 +121,7 @@ class GeneratedBlock : public Contender {
         reactions_(kLayout, samples_, 6 * request.child_axes.size()) {}
 
   const std::size_t samples_;
-  BuiltLibrary library_;
+  const std::shared_ptr<const BuiltLibrary> library_;
   const Efforts efforts_;
   const Everything everything_;
   Array<double> q_, qd_, qdd_, effort_, reactions_;

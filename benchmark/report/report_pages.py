@@ -115,8 +115,8 @@ def not_measured(data):
     without = [scene for scene in data.scenes if GENERATED in data.methods
                and not any(row.way.method == GENERATED for row in data.of_scene(scene))]
     if without:
-        lines.append('Code was not generated where a robot has more than 60 moving joints, for it '
-                     'no longer stays in the caches: %s.' % (
+        lines.append('Code was not generated where a robot has more than 100 moving joints, for '
+                     'its source has 2 MB and more: %s.' % (
                          md.listed(scene_title(s) for s in without)))
     left_out = [scene for scene in data.scenes if LAGRANGE in data.methods
                 and not any(row.way.method == LAGRANGE for row in data.of_scene(scene))]

@@ -32,7 +32,6 @@ struct GeneratedCode {
   std::size_t fused = 0;                           ///< pairs of them that are fused
   std::size_t sines_and_cosines = 0;
   std::size_t functions = 0;  ///< among which the operations are divided
-  double largest_number = 0;  ///< largest magnitude of the constants in it
 };
 
 /// Generates the code of a mechanism, a scene and a request.

@@ -1,8 +1,5 @@
 #include "virtual_work_dynamics/generated_code.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/number_text.h"
 #include "base/printable.h"
 #include "generate/c_names.h"
@@ -42,16 +39,10 @@ void requireIdentifier(const std::string& name) {
   }
 }
 
-void noteNumber(const Term& term, GeneratedCode& code) {
-  if (!term.isNode()) code.largest_number = std::max(code.largest_number, std::abs(term.value()));
-}
-
 void count(const RecordedPlan& recording, const Program& program, GeneratedCode& code) {
   for (const ProgramPart& part : program.parts) {
     for (const std::uint32_t index : part.nodes) {
-      const Node& node = recording.graph.nodes()[index];
-      for (int i = 0; i < operandsOf(node); ++i) noteNumber(operandOf(node, i), code);
-      switch (node.operation) {
+      switch (recording.graph.nodes()[index].operation) {
         case Operation::kMulAdd:
         case Operation::kSubMul:
         case Operation::kMulSub:
@@ -73,7 +64,6 @@ void count(const RecordedPlan& recording, const Program& program, GeneratedCode&
       }
     }
   }
-  for (const GraphOutput& output : recording.graph.outputs) noteNumber(output.value, code);
   code.sines_and_cosines = recording.graph.angles().size();
   code.functions = program.parts.size();
 }

@@ -15,7 +15,6 @@ void checkForBag(const Arguments& arguments) {
       {arguments.no_efforts, "--no-efforts: a bag has the topics of the node"},
       {lagrange, "--method lagrange: its results are written as CSV only"},
       {arguments.certificates, "--certificates: they are written as CSV only"},
-      {arguments.compiled, "--compiled: a bag is computed as the node does it"},
       {!arguments.measured.empty(),
        "--measured: measured efforts of a bag are those of its joint states"},
       {!arguments.measured.topic.empty(),
@@ -53,7 +52,6 @@ void checkForRegressor(const Arguments& arguments) {
       {arguments.no_efforts, "--no-efforts"},
       {arguments.method == Method::kLagrange, "--method lagrange"},
       {arguments.certificates, "--certificates"},
-      {arguments.compiled, "--compiled"},
       {arguments.deviations, "--deviations"},
       {arguments.positions, "--positions"}};
   for (const auto& [given, option] : kRefused) {
@@ -99,11 +97,7 @@ void requireAgreement(const Arguments& arguments) {
   if (arguments.inertial_axes && arguments.deviations) {
     throw UsageError("--axes inertial: --deviations are of root or child axes");
   }
-  if (arguments.compiled && (arguments.check || arguments.explain)) {
-    throw UsageError("--compiled cannot be used with --check or --explain");
-  }
   if (arguments.method == Method::kLagrange) {
-    if (arguments.compiled) throw UsageError("--compiled cannot be used with --method lagrange");
     if (arguments.threads != 1) {
       throw UsageError("--threads: --method lagrange runs in one thread, not in " +
                        std::to_string(arguments.threads));

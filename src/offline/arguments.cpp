@@ -242,7 +242,6 @@ const std::map<std::string, Switch>& switches() {
   static const std::map<std::string, Switch> options{
       {"--certificates", [](Arguments& all) -> bool& { return all.certificates; }},
       {"--check", [](Arguments& all) -> bool& { return all.check; }},
-      {"--compiled", [](Arguments& all) -> bool& { return all.compiled; }},
       {"--copy-input", [](Arguments& all) -> bool& { return all.copy_input; }},
       {"--degrees", [](Arguments& all) -> bool& { return all.motion.degrees; }},
       {"--deviations", [](Arguments& all) -> bool& { return all.deviations; }},

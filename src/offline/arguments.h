@@ -53,7 +53,6 @@ struct Arguments {
   /// Topics that are read from a bag in place of the node's.
   std::vector<std::pair<std::string, std::string>> remap;
   Method method = Method::kVirtualWork;
-  bool compiled = false;  ///< whether rows are computed by code that is generated and compiled
   bool certificates = false;
   std::string regressor;                ///< folder to write the regressor to; empty: none
   std::vector<std::string> parameters;  ///< of the regressor: joints, links or names of links

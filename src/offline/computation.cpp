@@ -38,17 +38,14 @@ SampleRows samplesOf(const Dynamics& dynamics, std::size_t rows, int wanted) {
 }  // namespace
 
 Computation::Computation(const Dynamics& dynamics, CompletedMotion& motion, const RowLoads& loads,
-                         int threads, CompiledRows* compiled)
+                         int threads)
     : dynamics_(dynamics),
       motion_(motion),
       loads_(loads),
       ahead_(threads > 1 && motion.completes()),
       samples_(samplesOf(dynamics, rows(), ahead_ ? threads - 1 : threads)),
-      compiled_(compiled),
       block_loads_(loads.vary() ? samples_.capacity() : 0, loads.own()),
-      workspace_(dynamics.makeWorkspace()) {
-  if (compiled_) compiled_->makeRoom(samples_.capacity(), usefulThreads(threads, rows()));
-}
+      workspace_(dynamics.makeWorkspace()) {}
 
 void Computation::run(const Take& take) {
   Motion row(dynamics_.coordinates(), dynamics_.orientations());
@@ -61,7 +58,7 @@ void Computation::run(const Take& take) {
     }
     compute(now);
     for (std::size_t i = 0; i < now.count; ++i) {
-      const Results& results = read(i);
+      const Results& results = samples_.read(i);
       motion_.check(now.start + i, results);
       takeRow(motion_.file().table, now.start + i, row);
       take(now.start + i, row, loads_.vary() ? block_loads_[i] : loads_.own(), results);
@@ -77,13 +74,7 @@ void Computation::compute(const Block& block) {
   for (std::size_t i = 0; loads && i < block.count; ++i) {
     loads_.get(block.start + i, block_loads_[i]);
   }
-  by_compiled_ =
-      compiled_ && compiled_->compute(table, block.start, block.count, loads_.own(), loads);
-  if (!by_compiled_) samples_.compute(table, block.start, block.count, loads);
-}
-
-const Results& Computation::read(std::size_t index) {
-  return by_compiled_ ? compiled_->read(index) : samples_.read(index);
+  samples_.compute(table, block.start, block.count, loads);
 }
 
 Computation::Block Computation::complete(std::size_t start) {

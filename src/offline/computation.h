@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "dynamics/sample_rows.h"
-#include "offline/compiled_rows.h"
 #include "offline/completed_motion.h"
 #include "offline/row_loads.h"
 #include "virtual_work_dynamics/dynamics.h"
@@ -22,9 +21,8 @@ class Computation {
   /// @param motion must outlive it
   /// @param loads of the rows of `motion`; must outlive it
   /// @param threads total number; all of them compute when no row needs completion
-  /// @param compiled computes the rows, of an open chain, if it is given; must outlive it
-  Computation(const Dynamics& dynamics, CompletedMotion& motion, const RowLoads& loads, int threads,
-              CompiledRows* compiled = nullptr);
+  Computation(const Dynamics& dynamics, CompletedMotion& motion, const RowLoads& loads,
+              int threads);
 
   /// Receives a row.
   using Take = std::function<void(std::size_t row, const Motion& motion, const Load& load,
@@ -45,15 +43,12 @@ class Computation {
   std::size_t rows() const { return motion_.file().lines.size(); }
   Block complete(std::size_t start);
   void compute(const Block& block);
-  const Results& read(std::size_t index);
 
   const Dynamics& dynamics_;
   CompletedMotion& motion_;
   const RowLoads& loads_;
   const bool ahead_;  // whether a thread completes while others compute
   SampleRows samples_;
-  CompiledRows* const compiled_;
-  bool by_compiled_ = false;       // whether these have computed the last block
   std::vector<Load> block_loads_;  // of the rows of a block; none unless they vary
   Dynamics::Workspace workspace_;  // for completing rows
 };

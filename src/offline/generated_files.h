@@ -1,17 +1,11 @@
 #pragma once
 
-#include <cstddef>
-
 #include "offline/arguments.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/request.h"
 #include "virtual_work_dynamics/scene.h"
 
 namespace virtual_work_dynamics {
-
-/// Beyond so many operations a sample takes longer than by the library, whose code stays in the
-/// caches.
-constexpr std::size_t kMostWorthwhile = 14000;
 
 /// @throws UsageError when --generate names no source file of C or C++.
 void requireSourceName(const Arguments& arguments);

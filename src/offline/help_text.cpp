@@ -92,10 +92,6 @@ What is computed
   --loop-tolerance X    how far the motion may violate closed loops, relative to the loops' size
                         and to the largest rate and acceleration (default: 1e-6)
   --threads N           divides the rows among N threads (default: 1)
-  --compiled            makes code of the robot and the scene, has it compiled by cc, gcc or clang in a
-                        private folder that is removed, and computes with it. The result is the same,
-                        byte for byte; reading and writing take most of the time all the same. Where
-                        it is not possible, as of closed loops, a note says why.
 
 Output
   --output FILE         result as CSV (default: standard output); FILE is written as a whole or not

@@ -13,7 +13,6 @@
 #include "dynamics/given_joints.h"
 #include "dynamics/motion_start.h"
 #include "offline/check_report.h"
-#include "offline/compiled_rows.h"
 #include "offline/completed_motion.h"
 #include "offline/computation.h"
 #include "offline/extra_columns.h"
@@ -248,18 +247,6 @@ std::unique_ptr<ResultTable> tableOf(const Arguments& arguments, OutputFile& fil
   }
 }
 
-// What --compiled asks for; none where it is not asked for or not possible.
-std::unique_ptr<CompiledRows> compiledRows(const Arguments& arguments, const Mechanism& mechanism,
-                                           const Scene& scene, const Request& request) {
-  if (!arguments.compiled) return nullptr;
-  try {
-    return std::make_unique<CompiledRows>(mechanism, scene, request, chosenInstructionSet());
-  } catch (const Error& error) {
-    std::cerr << "note: --compiled: " << error.what() << "; computed without\n";
-    return nullptr;
-  }
-}
-
 void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene) {
   const Request written = requestOf(mechanism, scene, arguments);
   if (arguments.inertial_axes && !scene.root_moves) {
@@ -288,8 +275,6 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
     return ExtraColumns(arguments, mechanism, scene, dynamics, written, motion.file(),
                         std::move(measured), columns);
   });
-  const std::unique_ptr<CompiledRows> compiled =
-      compiledRows(arguments, mechanism, scene, dynamics.request());
   const bool reports = !arguments.report.empty();
   if (reports && columns.efforts.empty() && columns.reactions.empty()) {
     throw UsageError("--report: neither efforts nor reactions are asked for");
@@ -305,7 +290,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
   std::string warning;
   {
     Rows rows(motion.file(), columns, axesOf(arguments), dynamics.closed(), extra, *table);
-    Computation(dynamics, motion, loads, arguments.threads, compiled.get())
+    Computation(dynamics, motion, loads, arguments.threads)
         .run([&](std::size_t row, const Motion& at, const Load& load, const Results& results) {
           rows.write(row, at, load, lagrange ? lagrange->compute(at, load, results) : results);
         });

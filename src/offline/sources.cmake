@@ -4,10 +4,8 @@ foreach(file
     arguments.cpp
     bag_texts.cpp
     bag_topic.cpp
-    built_library.cpp
     certified_rows.cpp
     check_report.cpp
-    compiled_rows.cpp
     completed_motion.cpp
     computation.cpp
     deviation_rows.cpp

@@ -95,7 +95,6 @@ set(core_test_files
   test/core/non_holonomic_conditions_test.cpp
   test/core/offline_bags_test.cpp
   test/core/offline_certificates_test.cpp
-  test/core/offline_compiled_test.cpp
   test/core/offline_conditions_test.cpp
   test/core/offline_couplings_test.cpp
   test/core/offline_deviations_test.cpp

@@ -25,15 +25,14 @@ std::string takeUpTo(const std::string& divider, std::string& rest) {
   return text;
 }
 
-// Words that name other files or folders, more threads than a fuzzer has room for, or a compiler
-// are left out.
+// Words that name other files or folders, or more threads than a fuzzer has room for, are left out.
 std::vector<std::string> allowedWords(const std::string& line) {
   std::istringstream stream(line);
   std::vector<std::string> words;
   for (std::string word; stream >> word && words.size() < 16;) {
     bool allowed = true;
     for (const char* option :
-         {"--urdf", "--scene", "--motion", "--output", "--report", "--threads", "--compiled"}) {
+         {"--urdf", "--scene", "--motion", "--output", "--report", "--threads"}) {
       allowed = allowed && word.rfind(option, 0) != 0;
     }
     if (allowed) words.push_back(word);
