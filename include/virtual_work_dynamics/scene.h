@@ -198,6 +198,38 @@ struct Coupling {
   bool rate_only = false;  ///< ties velocities and accelerations alone, as a slipping belt does
 };
 
+/// Functions of time that say how something is driven.
+enum class DriveFunction {
+  kPolynomial,   ///< sum of coefficients times powers of t, also in pieces
+  kCosine,       ///< amplitude (1 - cos(2 pi t / period))
+  kSine,         ///< amplitude sin(2 pi t / period + phase)
+  kSineSweep,    ///< as sineSweepLaw()
+  kMinimumJerk,  ///< as minimumJerkLaw(), at rest before and after
+  kTable         ///< as tableLaw(), with the times as they are
+};
+
+/// A joint, or a closure's one free axis, whose motion is a function of the time t. Motions need
+/// not give it; what they say of it is not used. It counts as actuated: its effort is what drives
+/// it.
+struct DriveLaw {
+  std::string name;  ///< of a joint that moves, or of a closure with one free axis
+  DriveFunction function = DriveFunction::kPolynomial;
+  double offset = 0;           ///< added to the function, rad or m
+  double amplitude = 0;        ///< rad or m
+  double period = 0;           ///< s
+  double phase = 0;            ///< rad
+  double start_frequency = 0;  ///< Hz
+  double end_frequency = 0;    ///< Hz
+  double duration = 0;         ///< s
+  /// Of points and rows; of a polynomial where its pieces start, s. Of one without pieces: none.
+  std::vector<double> times;
+  /// Of each piece of a polynomial, in rad or m over powers of s; its t is zero where it starts.
+  std::vector<std::vector<double>> coefficients;
+  std::vector<double> positions;      ///< rad or m
+  std::vector<double> velocities;     ///< of a table, rad/s or m/s; none: not given
+  std::vector<double> accelerations;  ///< of a table, rad/s^2 or m/s^2; none: not given
+};
+
 /// Which of many solutions is reported for forces that rigid-body mechanics does not determine.
 enum class RedundancyPolicy {
   kMinimumNorm,  ///< the least sum of squares of the closures' forces and moments over `length`
@@ -271,6 +303,7 @@ struct Scene {
   /// What motions give, from which the closures determine the rest: joints, closures with one free
   /// axis, and "pose.<link>" for poses of links; see Given. None: the actuated joints.
   std::optional<std::vector<std::string>> given;
+  std::vector<DriveLaw> drives;  ///< see Drives; what they drive is given besides `given`
   /// Positions of joints from which the loops are assembled; other joints start at 0. Joints that
   /// motions give stay where they start.
   std::vector<NamedNumber> assembly;

@@ -11,6 +11,7 @@
 #include "loops/given_loops.h"
 #include "scene/input_checks.h"
 #include "scene/touch_rows.h"
+#include "virtual_work_dynamics/drives.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -41,6 +42,7 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
   given.coordinates = actuated;
   coupled.assign(actuated.size(), false);
   bends.assign(actuated.size(), true);
+  if (!scene.drives.empty()) Drives(mechanism, scene);  // refuses bad ones
   if (!needsClosedLoops(scene)) {
     chain.emplace(mechanism, scene, request, instruction_set);
     return;
@@ -63,9 +65,10 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
   for (const Coupling& coupling : scene.couplings) {
     if (coupling.rate_only) have_positions = false;
   }
-  // The axes of actuated closures would have to be given, too, and where there are no positions to
-  // be found all of them.
-  if (!scene.given && (!loops->actuatedClosures().empty() || !have_positions)) {
+  // The axes of actuated closures that have no drives would have to be given, too, and where there
+  // are no positions to be found all of them.
+  const bool axes_lack = loops->actuatedClosures().size() > given.closures.size();
+  if (!scene.given && (axes_lack || !have_positions)) {
     given.coordinates.assign(actuated.size(), true);
   }
   assembly = loops->assembly();
@@ -89,7 +92,7 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
 Dynamics::Dynamics(const Mechanism& mechanism, const Scene& scene, const Request& request,
                    InstructionSet instruction_set)
     : impl_(new Impl(mechanism, scene, request, instruction_set)) {
-  if (!scene.given) return;
+  if (!scene.given && given().closures.empty()) return;
   const auto problem = GivenJoints(mechanism, *this).problem(given());
   if (problem) throw GivenError(*problem);
 }

@@ -21,10 +21,14 @@ constexpr double kClearly = 0.5;
 std::vector<std::string> namesOf(const Mechanism& mechanism, const Scene& scene,
                                  const Given& given) {
   std::vector<std::string> names;
+  const auto add = [&](const std::string& name) {
+    const auto isIt = [&](const DriveLaw& drive) { return drive.name == name; };
+    if (std::none_of(scene.drives.begin(), scene.drives.end(), isIt)) names.push_back(name);
+  };
   for (std::size_t i = 0; i < given.coordinates.size(); ++i) {
-    if (given.coordinates[i]) names.push_back(mechanism.coordinateNames()[i]);
+    if (given.coordinates[i]) add(mechanism.coordinateNames()[i]);
   }
-  for (const std::size_t c : given.closures) names.push_back(scene.closures[c].name);
+  for (const std::size_t c : given.closures) add(scene.closures[c].name);
   for (const int link : given.links) names.push_back("pose." + mechanism.link(link).name);
   return names;
 }

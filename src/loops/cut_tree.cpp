@@ -11,6 +11,7 @@ Scene withoutLoops(const Scene& scene) {
   tree.couplings.clear();
   tree.actuated.reset();
   tree.given.reset();
+  tree.drives.clear();
   tree.assembly.clear();
   tree.redundancy = {};
   tree.reactions = ReactionSelection::kNone;

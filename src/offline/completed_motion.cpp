@@ -92,7 +92,7 @@ CompletedMotion::CompletedMotion(RecordedMotion recorded, const Mechanism& mecha
     : tolerance_(tolerance),
       file_(std::move(recorded.file)),
       row_(dynamics.coordinates(), dynamics.orientations()),
-      driven_row_(static_cast<Eigen::Index>(recorded.drivenNumbers())),
+      driven_row_(static_cast<Eigen::Index>(recorded.given.drivenNumbers())),
       passive_(mechanism, dynamics, recorded.given) {
   for (std::size_t i = 0; i < dynamics.closureNames().size(); ++i) {
     closures_.push_back(dynamics.closureLabel(i));
@@ -104,13 +104,17 @@ CompletedMotion::CompletedMotion(RecordedMotion recorded, const Mechanism& mecha
   }
   CompletionSettings completion = options.completion;
   completion.keep_positions = dynamics.closed();
-  completion.other_columns = recorded.drivenNumbers() > 0;
+  completion.other_columns = recorded.drivenColumns() > 0;
   completeDerivatives(mechanism, scene, completion, file_);
   completeRoots(mechanism, scene, completion, file_);
-  driven_ = takenFrom(file_.table, recorded.drivenNumbers());
-  if (positions_follow_ || !recorded.resting.empty() || dynamics.orientations() > 0) {
+  driven_ = takenFrom(file_.table, recorded.drivenColumns());
+  const DrivenRows& drives = recorded.drives;
+  drives.insertClosures(static_cast<Eigen::Index>(recorded.closureColumns()), driven_);
+  if (positions_follow_ || !recorded.resting.empty() || !drives.empty() ||
+      dynamics.orientations() > 0) {
     widen(mechanism, file_.table);
   }
+  drives.setCoordinates(file_.table);
   completeFreeTurns(mechanism, scene, completion, file_);
   for (const auto& [name, position] : recorded.resting) {
     file_.table.positions.col(mechanism.coordinateIndex(name)).setConstant(position);
@@ -120,7 +124,7 @@ CompletedMotion::CompletedMotion(RecordedMotion recorded, const Mechanism& mecha
   if (velocities_follow_) follow.push_back("velocities");
   if (accelerations_follow_) follow.push_back("accelerations");
   if (!follow.empty()) {
-    const bool all = !positions_follow_ || (recorded.drivenNumbers() == 0 &&
+    const bool all = !positions_follow_ || (recorded.given.drivenNumbers() == 0 &&
                                             recorded.given.coordinates == dynamics.actuated());
     std::cerr << "note: " << printable(file_.path) << ": of "
               << (all ? "passive joints" : joined(notGiven(mechanism, recorded.given)))

@@ -31,6 +31,7 @@
 #include "offline/row_loads.h"
 #include "offline/rows.h"
 #include "offline/task_inputs.h"
+#include "virtual_work_dynamics/drives.h"
 #include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/joint_types.h"
 
@@ -133,7 +134,9 @@ void printMotion(const MotionFile& motion) {
 RecordedMotion readStart(const Arguments& arguments, const Mechanism& mechanism, Scene& scene) {
   MotionSource source = arguments.motion;
   source.efforts = arguments.residuals;
-  RecordedMotion recorded = readRecordedMotion(source, mechanism, scene, arguments.recording);
+  RecordedMotion recorded = naming(scenePrefix(arguments), [&] {
+    return readRecordedMotion(source, mechanism, scene, arguments.recording);
+  });
   checkRoots(scene, recorded.file);
   if (!needsClosedLoops(scene)) return recorded;
   try {
@@ -203,6 +206,9 @@ void check(const Arguments& arguments, const Mechanism& mechanism, Scene scene) 
   const Dynamics dynamics =
       dynamicsOf(mechanism, scene, requestOf(mechanism, scene, arguments), arguments);
   if (scene.root_moves) printNames(std::cout, "root", {"moves as columns root.… say"});
+  if (!scene.drives.empty()) {
+    printNames(std::cout, "driven", Drives(mechanism, scene).names());
+  }
   if (dynamics.closed()) printLoops(std::cout, mechanism, scene, dynamics);
   printAssemblyDoubts(std::cout, dynamics);
   printReactions(dynamics.request());
@@ -255,7 +261,11 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
         "inertial axes");
   }
   RecordedMotion recorded = readStart(arguments, mechanism, scene);
-  if (arguments.deviations && recorded.drivenNumbers() > 0) {
+  if (arguments.deviations && recorded.given.drivenNumbers() > recorded.drivenColumns()) {
+    throw UsageError(
+        "--deviations: an axis of a closure has a drive, and they are those of joints");
+  }
+  if (arguments.deviations && recorded.drivenColumns() > 0) {
     throw UsageError("--deviations: the motion gives more than joints, whose errors are not known");
   }
   const Dynamics dynamics =

@@ -10,6 +10,7 @@
 #include "offline/arguments.h"
 #include "offline/free_turn_rows.h"
 #include "scene/closure_types.h"
+#include "scene/resolved_loops.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/unwrap.h"
 
@@ -29,8 +30,16 @@ Names poseColumns(const Link& link) {
   return columns;
 }
 
-void checkRest(const Mechanism& mechanism, const RecordingOptions& options) {
+bool hasDrive(const Scene& scene, const std::string& name) {
+  return std::any_of(scene.drives.begin(), scene.drives.end(),
+                     [&](const DriveLaw& drive) { return drive.name == name; });
+}
+
+void checkRest(const Mechanism& mechanism, const Scene& scene, const RecordingOptions& options) {
   for (const auto& [name, position] : options.rest) {
+    if (hasDrive(scene, name)) {
+      throw UsageError("--rest: " + inQuotes(name) + " has a drive, which says how it moves");
+    }
     if (mechanism.coordinateIndex(name) >= 0) continue;
     throw UsageError("--rest: robot " + inQuotes(mechanism.name()) + " has no joint " +
                      inQuotes(name) + " that moves by itself" +
@@ -49,7 +58,8 @@ class Choice {
     columns_ = NameSet(header.begin(), header.end());
     Names wanted;
     if (hasConditions()) wanted = chosen();
-    if (wanted.empty()) wanted = needed();
+    if (wanted.empty() && (scene_.drives.empty() || !hasConditions())) wanted = needed();
+    addDrivenClosures();
     return wanted;
   }
 
@@ -65,14 +75,14 @@ class Choice {
     for (std::size_t i = 0; i < all.size(); ++i) {
       const bool has = columns_.count(all[i]) > 0;
       if (has && !isFreeAngle(i)) wanted.push_back(all[i]);
-      given.coordinates[i] = has || rests(all[i]);
+      given.coordinates[i] = has || rests(all[i]) || hasDrive(scene_, all[i]);
     }
     for (std::size_t c = 0; c < scene_.closures.size(); ++c) {
       const Closure& closure = scene_.closures[c];
       if (columns_.count(closure.name) == 0 || !traitsOf(closure.type).free_axis) continue;
       if (mechanism_.jointIndex(closure.name) >= 0) continue;
       wanted.push_back(closure.name);
-      given.closures.push_back(c);
+      if (!hasDrive(scene_, closure.name)) given.closures.push_back(c);
     }
     for (std::size_t link = 1; link < mechanism_.links().size(); ++link) {
       const Names pose = poseColumns(mechanism_.links()[link]);
@@ -95,10 +105,17 @@ class Choice {
       const bool needs = !hasConditions() || !scene_.actuated ||
                          std::count(scene_.actuated->begin(), scene_.actuated->end(), name) > 0;
       const bool has = columns_.count(name) > 0;
-      if (!isFreeAngle(i) && (has || (needs && !rests(name)))) wanted.push_back(name);
-      motion_.given.coordinates.push_back(needs || has || rests(name));
+      const bool lacks = !rests(name) && !hasDrive(scene_, name);
+      if (!isFreeAngle(i) && (has || (needs && lacks))) wanted.push_back(name);
+      motion_.given.coordinates.push_back(needs || has || !lacks);
     }
     return wanted;
+  }
+
+  void addDrivenClosures() {
+    for (std::size_t c = 0; c < scene_.closures.size(); ++c) {
+      if (hasDrive(scene_, scene_.closures[c].name)) motion_.given.closures.push_back(c);
+    }
   }
 
   // Of a joint whose orientation is given instead.
@@ -120,10 +137,19 @@ class Choice {
   NameSet columns_;
 };
 
+// Takes from joint states what the scene says they give, as the node does: drives and they would
+// say too much.
+void leaveOutPassive(const Mechanism& mechanism, const Scene& scene, MotionSource& source) {
+  const std::vector<bool> given = resolveLoopScene(mechanism, scene).given.coordinates;
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (!given[i]) source.left_out.push_back(mechanism.coordinateNames()[i]);
+  }
+}
+
 // Turns angles in degrees into radians, with their derivatives.
 void makeRadians(const Mechanism& mechanism, const Scene& scene, RecordedMotion& motion) {
   MotionTable& table = motion.file.table;
-  const std::size_t joints = table.joints.size() - motion.drivenNumbers();
+  const std::size_t joints = table.joints.size() - motion.drivenColumns();
   const auto turn = [&](std::size_t column) {
     for (Eigen::MatrixXd* values : {&table.positions, &table.velocities, &table.accelerations}) {
       if (values->size() > 0) values->col(static_cast<Eigen::Index>(column)) *= kDegree;
@@ -133,7 +159,7 @@ void makeRadians(const Mechanism& mechanism, const Scene& scene, RecordedMotion&
     const int coordinate = mechanism.coordinateIndex(table.joints[i]);
     if (mechanism.unitOf(coordinate) == Unit::kRadian) turn(i);
   }
-  for (std::size_t i = 0; i < motion.given.closures.size(); ++i) {
+  for (std::size_t i = 0; i < motion.closureColumns(); ++i) {
     const Closure& closure = scene.closures[motion.given.closures[i]];
     if (traitsOf(closure.type).free_axis == Unit::kRadian) turn(joints + i);
   }
@@ -187,8 +213,9 @@ void checkQuaternions(const MotionFile& file, Eigen::Index first, const std::str
 void straighten(const Mechanism& mechanism, const Scene& scene, RecordedMotion& motion) {
   MotionTable& table = motion.file.table;
   Names wrapped = unwrapPositions(mechanism, table);
-  auto column = static_cast<Eigen::Index>(table.joints.size() - motion.drivenNumbers());
-  for (const std::size_t c : motion.given.closures) {
+  auto column = static_cast<Eigen::Index>(table.joints.size() - motion.drivenColumns());
+  for (std::size_t i = 0; i < motion.closureColumns(); ++i) {
+    const std::size_t c = motion.given.closures[i];
     const bool turns = traitsOf(scene.closures[c].type).free_axis == Unit::kRadian;
     if (turns && unwrapPin(table.times, table.positions.col(column))) {
       wrapped.push_back(scene.closures[c].name);
@@ -212,10 +239,12 @@ void straighten(const Mechanism& mechanism, const Scene& scene, RecordedMotion& 
 
 MotionStart RecordedMotion::start(const Mechanism& mechanism) const {
   const auto coordinates = static_cast<Eigen::Index>(mechanism.coordinates().size());
-  const auto numbers = static_cast<Eigen::Index>(drivenNumbers());
-  MotionStart start{given, Motion(coordinates), Motion(numbers)};
+  const auto columns = static_cast<Eigen::Index>(drivenColumns());
+  const auto closures = static_cast<Eigen::Index>(closureColumns());
+  MotionStart start{given, Motion(coordinates),
+                    Motion(static_cast<Eigen::Index>(given.drivenNumbers()))};
   const MotionTable& table = file.table;
-  const Eigen::Index joints = static_cast<Eigen::Index>(table.joints.size()) - numbers;
+  const Eigen::Index joints = static_cast<Eigen::Index>(table.joints.size()) - columns;
   for (Eigen::Index i = 0; i < joints; ++i) {
     const std::string& name = table.joints[static_cast<std::size_t>(i)];
     start.motion.q[mechanism.coordinateIndex(name)] = table.positions(0, i);
@@ -231,23 +260,33 @@ MotionStart RecordedMotion::start(const Mechanism& mechanism) const {
       }
     }
   }
-  if (numbers > 0) start.driven.q = table.positions.row(0).tail(numbers);
+  drives.placeFirst(start.motion.q);
+  if (columns > 0) {
+    const Eigen::VectorXd in_file = table.positions.row(0).tail(columns);
+    start.driven.q.head(closures) = in_file.head(closures);
+    start.driven.q.tail(columns - closures) = in_file.tail(columns - closures);
+  }
+  const Eigen::VectorXd by_drives = drives.firstOfClosures();
+  start.driven.q.segment(closures, by_drives.size()) = by_drives;
   return start;
 }
 
 RecordedMotion readRecordedMotion(const MotionSource& source, const Mechanism& mechanism,
                                   const Scene& scene, const RecordingOptions& options) {
-  checkRest(mechanism, options);
+  checkRest(mechanism, scene, options);
   RecordedMotion motion;
   Choice choice(mechanism, scene, options, motion);
   MotionSource taken = source;
   for (const auto& joint : options.rest) taken.left_out.push_back(joint.first);
+  for (const DriveLaw& drive : scene.drives) taken.left_out.push_back(drive.name);
+  if (!scene.drives.empty() && needsClosedLoops(scene)) leaveOutPassive(mechanism, scene, taken);
   motion.file =
       readMotion(taken, mechanism, [&](const Names& header) { return choice.choose(header); });
   const NameSet given(motion.file.table.joints.begin(), motion.file.table.joints.end());
   for (const auto& joint : options.rest) {
     if (given.count(joint.first) == 0) motion.resting.push_back(joint);
   }
+  motion.drives = DrivenRows(mechanism, scene, motion.given, source.degrees, motion.file);
   if (source.degrees) makeRadians(mechanism, scene, motion);
   checkFreeTurns(mechanism, motion.given, motion.file);
   straighten(mechanism, scene, motion);

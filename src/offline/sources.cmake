@@ -9,6 +9,7 @@ foreach(file
     completed_motion.cpp
     computation.cpp
     deviation_rows.cpp
+    driven_rows.cpp
     effort_comparison.cpp
     extra_columns.cpp
     free_turn_rows.cpp

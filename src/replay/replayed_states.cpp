@@ -35,7 +35,8 @@ ReplayedStates::ReplayedStates(const RobotTask& task, const InverseDynamicsParam
       loop_limits_(parameters.loop_limits),
       loops_(task.everything, task.reactions.size(), parameters.loop_limits),
       estimator_(task.mechanism, task.estimator),
-      completer_(task.mechanism, task.scene, task.everything, parameters.loop_limits.tolerance),
+      completer_(task.mechanism, task.scene, task.everything, parameters.loop_limits.tolerance,
+                 parameters.drive_start),
       wrenches_(task.mechanism, task.scene, parameters.wrench_timeout),
       roots_(parameters.root, task.mechanism, parameters.frame_prefix, task.scene.gravity,
              task.estimator, counters_),
@@ -52,7 +53,7 @@ ReplayedStates::ReplayedStates(const RobotTask& task, const InverseDynamicsParam
                        }),
       scene_inputs_(task.mechanism, task.scene, parameters.frame_prefix, parameters.root,
                     counters_) {
-  if (task.everything.closed()) estimator_.waitFor(completer_.needed());
+  if (completer_.needsSome()) estimator_.waitFor(completer_.needed());
   for (const auto& [coordinate, position] : task.rest) estimator_.setRest(coordinate, position);
   loops_.setPassiveGiven(completer_.allGiven());
   computation_.measureEfforts(*task.efforts);
@@ -306,7 +307,7 @@ void ReplayedStates::leaveForeign(const std::string& text) {
 }
 
 void ReplayedStates::dropSample(Outcome outcome, ActivePlan& plan, std::int64_t stamp_ns) {
-  const bool open = outcome == Outcome::kOpenLoop;
+  const bool open = outcome == Outcome::kOpenLoop || outcome == Outcome::kNoDrive;
   dropPoint(outcome, open ? completer_.problem(plan.dynamics, plan.workspace) : "",
             "stamp " + stampText(stamp_ns));
 }
@@ -317,6 +318,8 @@ void ReplayedStates::dropPoint(Outcome outcome, const std::string& open_loop,
   switch (outcome) {
     case Outcome::kOpenLoop:
       return here().drop(DropReason::kOpenLoop, open_loop + at);
+    case Outcome::kNoDrive:
+      return here().drop(DropReason::kNoDrive, open_loop + at);
     case Outcome::kNoWrench: {
       const std::size_t i = samples_.unknownWrench();
       return here().drop(

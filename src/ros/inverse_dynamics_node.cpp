@@ -38,7 +38,8 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       checks_{parameters.self_check.cross_check_rate > 0, parameters.self_check.certificates},
       estimator_(task_.mechanism, task_.estimator),
       loops_(task_.everything, task_.reactions.size(), parameters.loop_limits),
-      completer_(task_.mechanism, task_.scene, task_.everything, parameters.loop_limits.tolerance),
+      completer_(task_.mechanism, task_.scene, task_.everything, parameters.loop_limits.tolerance,
+                 parameters.drive_start),
       wrenches_(task_.mechanism, task_.scene, parameters.wrench_timeout),
       root_messages_(parameters.root, task_.mechanism, parameters.frame_prefix, task_.scene.gravity,
                      task_.estimator, counters_),
@@ -77,7 +78,7 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
   task_.log(parameters);
   joint_states_.measureEfforts(*task_.efforts);
   ros::NodeHandle node;
-  if (task_.everything.closed()) estimator_.waitFor(completer_.needed());
+  if (completer_.needsSome()) estimator_.waitFor(completer_.needed());
   for (const auto& [coordinate, position] : task_.rest) estimator_.setRest(coordinate, position);
   loops_.setPassiveGiven(completer_.allGiven());
   if (!task_.closure_frames.transforms.empty()) {
@@ -267,9 +268,9 @@ void InverseDynamicsNode::dropPoint(Outcome outcome, const std::string& open_loo
   dropResult(trajectory_subscriber_, outcome, open_loop, where);
 }
 
-// Why the loops of the latest motion stay open, if that is the outcome.
+// Why the latest motion cannot be completed, if that is the outcome.
 std::string InverseDynamicsNode::openLoop(Outcome outcome, ActivePlan& plan) const {
-  if (outcome != Outcome::kOpenLoop) return "";
+  if (outcome != Outcome::kOpenLoop && outcome != Outcome::kNoDrive) return "";
   return completer_.problem(plan.dynamics, plan.workspace);
 }
 
@@ -278,6 +279,8 @@ void InverseDynamicsNode::dropResult(const ros::Subscriber& source, Outcome outc
   const std::string topic = source.getTopic();
   if (outcome == Outcome::kOpenLoop) {
     drop(topic, DropReason::kOpenLoop, open_loop + ", at " + where);
+  } else if (outcome == Outcome::kNoDrive) {
+    drop(topic, DropReason::kNoDrive, open_loop + ", at " + where);
   } else if (outcome == Outcome::kNoWrench) {
     drop(topic, DropReason::kNoWrench,
          wrench_inputs_.problem(samples_.unknownWrench()) + ", at " + where);

@@ -207,6 +207,15 @@ double readStartPatience(PrivateParameters& parameters, double fallback) {
   return patience;
 }
 
+double readDriveStart(PrivateParameters& parameters, double fallback) {
+  constexpr double kLatest = 9e9;  // whose nanoseconds are a stamp
+  const double start = parameters.number("drive_start", fallback);
+  if (!(start >= 0 && start <= kLatest)) {
+    throw parameterError("drive_start", numberText(start) + " s is no stamp");
+  }
+  return start;
+}
+
 double readDeviationWarn(PrivateParameters& parameters, double fallback) {
   const double warn = parameters.number("deviation_warn", fallback);
   if (!(warn > 0)) throw parameterError("deviation_warn", numberText(warn) + " is not positive");
@@ -288,6 +297,7 @@ InverseDynamicsParameters readInverseDynamicsParameters(PrivateParameters parame
       readRate(parameters, "trajectory_sampling", "Hz", result.trajectory_sampling, 100000);
   result.diagnostic_period = readPeriod(parameters, "diagnostic_period", result.diagnostic_period);
   result.wrench_timeout = readPeriod(parameters, "wrench_timeout", result.wrench_timeout);
+  result.drive_start = readDriveStart(parameters, result.drive_start);
   result.root = readRoot(parameters);
   result.late_threshold = readPeriod(parameters, "late_threshold", result.late_threshold);
   result.self_check = readSelfCheck(parameters);

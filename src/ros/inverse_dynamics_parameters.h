@@ -60,6 +60,7 @@ struct InverseDynamicsParameters {
   double trajectory_sampling = 0;  ///< Hz, of the motion between points; 0: at the points
   double diagnostic_period = 1.0;  ///< s
   double wrench_timeout = 0.1;     ///< longest time that a live wrench stands for, s
+  double drive_start = 0;          ///< stamp of the time zero of drives, s; 0: the first one
   RootSettings root;               ///< how the node learns of the motion of a root that moves
   double late_threshold = 0.001;   ///< s, from receipt of a joint state to its published result
   double start_patience = 0;       ///< s to wait for joint states where loops cannot be assembled

@@ -84,14 +84,16 @@ bool JointStateComputation::push(const JointSample& sample, Drop drop) {
   if (verdict == Verdict::kRestartedBack) {
     counters_.restarts.add();
     free_joints_.restart(sample.stamp_ns);
+    completer_.drives().beginAnew(sample.stamp_ns);
     if (efforts_) efforts_->restart();
     user_.noteRestart(sample.stamp_ns);
   }
+  completer_.drives().begin(sample.stamp_ns);
   counters_.accepted_joint_states.add();
   user_.noteSeen(sample.coordinates, sample.count);
   if (completer_.saw(sample.coordinates, sample.count)) {
     estimator_.waitFor(completer_.needed());
-    user_.noteAllGiven();
+    if (completer_.allGiven()) user_.noteAllGiven();
   }
   return true;
 }

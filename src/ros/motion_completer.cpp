@@ -28,7 +28,7 @@ std::vector<bool> namedBy(const TrajectoryMotion& trajectory, std::size_t coordi
 constexpr double MotionCompleter::kNearlyClosed;
 
 MotionCompleter::MotionCompleter(const Mechanism& mechanism, const Scene& scene,
-                                 const Dynamics& dynamics, double tolerance)
+                                 const Dynamics& dynamics, double tolerance, double drive_start)
     : mechanism_(mechanism),
       scene_(scene),
       dynamics_(dynamics),
@@ -38,18 +38,29 @@ MotionCompleter::MotionCompleter(const Mechanism& mechanism, const Scene& scene,
       nearly_closed_(std::max(tolerance, kNearlyClosed)),
       usual_(dynamics.given()),
       rule_(mechanism, dynamics),
+      drives_(mechanism, scene, usual_, drive_start),
       joint_states_(mechanism, dynamics),
       trajectories_(mechanism, dynamics),
       samples_(mechanism, dynamics),
-      all_given_(GivenJoints::givesAll(usual_) || dynamics.closureNames().empty()),
+      all_given_((GivenJoints::givesAll(usual_) || dynamics.closureNames().empty()) &&
+                 usual_.drivenNumbers() == 0),
       needed_(usual_.coordinates),
       seen_(needed_.size(), false),
       motion_(dynamics.coordinates(), dynamics.orientations()) {
   if (all_given_) needed_.assign(needed_.size(), true);
+  for (std::size_t i = 0; i < needed_.size(); ++i) {
+    if (drives_.coordinates()[i]) needed_[i] = false;
+  }
+  needs_clock_ = drives_.any() && std::count(needed_.begin(), needed_.end(), true) == 0;
 }
 
 bool MotionCompleter::saw(const int* coordinates, int count) {
-  if (all_given_) return false;
+  if (needs_clock_) {
+    needs_clock_ = false;
+    for (int i = 0; i < count; ++i) needed_[static_cast<std::size_t>(coordinates[i])] = true;
+    return true;
+  }
+  if (all_given_ || drives_.any()) return false;
   for (int i = 0; i < count; ++i) seen_[static_cast<std::size_t>(coordinates[i])] = true;
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     if (!seen_[i] && !needed_[i]) return false;
@@ -59,8 +70,9 @@ bool MotionCompleter::saw(const int* coordinates, int count) {
   return true;
 }
 
-bool MotionCompleter::complete(Motion& motion, const Dynamics& dynamics,
+bool MotionCompleter::complete(Motion& motion, std::int64_t stamp_ns, const Dynamics& dynamics,
                                Dynamics::Workspace& workspace) {
+  if (!drives_.set(stamp_ns, motion)) return false;
   if (!closed_) return true;
   if (static_motion_) {
     motion.qd.setZero();
@@ -70,13 +82,13 @@ bool MotionCompleter::complete(Motion& motion, const Dynamics& dynamics,
   if (!started_) startBy(motion);
   evaluated_ = true;
   latest_ = &joint_states_;
-  return joint_states_.complete(motion, dynamics, workspace);
+  return joint_states_.complete(motion, drives_.numbers(), dynamics, workspace);
 }
 
 void MotionCompleter::startBy(const Motion& motion) {
   started_ = true;
   try {
-    const Scene started = startedBy(mechanism_, scene_, {usual_, motion, Motion()});
+    const Scene started = startedBy(mechanism_, scene_, {usual_, motion, drives_.numbers()});
     joint_states_.moveTo(Dynamics(mechanism_, started, Request()).assembly());
   } catch (const AssemblyError&) {
     // The loops are closed from the scene's assembly, and complete() tells how far they stay open.
@@ -111,13 +123,19 @@ std::optional<std::string> MotionCompleter::openStates() {
          (evaluated_ ? "where the loops were closed last" : "the assembly");
 }
 
-MotionCompleter::Choice MotionCompleter::choose(const std::vector<bool>& named) const {
+// What is given with these coordinates.
+Given MotionCompleter::with(std::vector<bool> coordinates) const {
   Given given;
-  given.coordinates = either(GivenJoints::resting(dynamics_), named);
+  given.coordinates = either(std::move(coordinates), drives_.coordinates());
+  given.closures = usual_.closures;  // driven ones
+  return given;
+}
+
+MotionCompleter::Choice MotionCompleter::choose(const std::vector<bool>& named) const {
+  const Given given = with(either(GivenJoints::resting(dynamics_), named));
   std::optional<std::string> problem = rule_.problem(given);
   if (!problem) return {given, problem};
-  Given alone;
-  alone.coordinates = named;
+  const Given alone = with(named);
   if (!rule_.problem(alone)) return {alone, std::nullopt};
   return {given, problem};
 }
@@ -164,9 +182,11 @@ void MotionCompleter::setGiven(const Given& given, PassiveJoints& joints) const 
 void MotionCompleter::complete(TrajectoryMotion& trajectory, const Dynamics& dynamics,
                                Dynamics::Workspace& workspace) {
   trajectory.open.clear();
+  trajectory.undriven.clear();
+  drive(trajectory);
   if (!closed_) return;
   const Given& given = chosenBy(trajectory).given;
-  if (!GivenJoints::givesAll(given)) {
+  if (!GivenJoints::givesAll(given) || given.drivenNumbers() > 0) {
     setGiven(given, trajectories_);
     follow(trajectory, dynamics, workspace);
   } else if (closures_determine_ && !static_motion_ && !trajectory.completion.empty()) {
@@ -177,18 +197,39 @@ void MotionCompleter::complete(TrajectoryMotion& trajectory, const Dynamics& dyn
   if (!trajectory.completion.empty()) trajectory.completion += "; passive joints from the closures";
 }
 
+// Sets what is driven at the points. Those at which it is not known are open.
+void MotionCompleter::drive(TrajectoryMotion& trajectory) {
+  if (!drives_.any()) return;
+  MotionTable& table = trajectory.table;
+  for (std::size_t i = 0; i < trajectory.stamps_ns.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    takeRow(table, i, motion_);
+    if (!drives_.set(trajectory.stamps_ns[i], motion_)) {
+      for (std::vector<bool>* points : {&trajectory.open, &trajectory.undriven}) {
+        points->resize(trajectory.stamps_ns.size(), false);
+        (*points)[i] = true;
+      }
+      if (trajectory.problem.empty()) trajectory.problem = drives_.problem();
+    }
+    table.positions.row(row) = motion_.q;
+    table.velocities.row(row) = motion_.qd;
+    table.accelerations.row(row) = motion_.qdd;
+  }
+}
+
 void MotionCompleter::startSamples(const TrajectoryMotion& trajectory) {
   if (!closed_) return;
   const Given& given = chosenBy(trajectory).given;
-  samples_give_all_ = GivenJoints::givesAll(given);
+  samples_give_all_ = GivenJoints::givesAll(given) && given.drivenNumbers() == 0;
   samples_follow_ = closures_determine_ || !samples_give_all_;
   if (!samples_follow_) return;
   setGiven(samples_give_all_ ? usual_ : given, samples_);
   if (evaluated_) samples_.moveTo(joint_states_.position(), joint_states_.references());
 }
 
-bool MotionCompleter::completeSample(Motion& motion, const Dynamics& dynamics,
-                                     Dynamics::Workspace& workspace) {
+bool MotionCompleter::completeSample(Motion& motion, std::int64_t stamp_ns,
+                                     const Dynamics& dynamics, Dynamics::Workspace& workspace) {
+  if (!drives_.set(stamp_ns, motion)) return false;
   if (!closed_ || !samples_follow_) return true;
   if (static_motion_) {
     motion.qd.setZero();
@@ -196,7 +237,7 @@ bool MotionCompleter::completeSample(Motion& motion, const Dynamics& dynamics,
   }
   if (samples_give_all_) samples_.moveTo(motion.q);
   latest_ = &samples_;
-  return samples_.complete(motion, dynamics, workspace);
+  return samples_.complete(motion, drives_.numbers(), dynamics, workspace);
 }
 
 void MotionCompleter::follow(TrajectoryMotion& trajectory, const Dynamics& dynamics,
@@ -215,7 +256,8 @@ void MotionCompleter::follow(TrajectoryMotion& trajectory, const Dynamics& dynam
       motion_.qd.setZero();
       motion_.qdd.setZero();
     }
-    trajectory.open[i] = !trajectories_.complete(motion_, dynamics, workspace);
+    trajectory.open[i] = !drives_.set(trajectory.stamps_ns[i], motion_) ||
+                         !trajectories_.complete(motion_, drives_.numbers(), dynamics, workspace);
     if (trajectory.open[i] && trajectory.problem.empty()) {
       trajectory.problem = problem(dynamics, workspace);
     }

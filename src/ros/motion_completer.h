@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "dynamics/given_joints.h"
+#include "ros/live_drives.h"
 #include "ros/rejection.h"
 #include "ros/trajectory_conversion.h"
 #include "virtual_work_dynamics/dynamics.h"
@@ -20,6 +22,9 @@ namespace virtual_work_dynamics {
 /// Joint states give what the scene says, and count as giving all joints once each of them has been
 /// seen; until then other joints are ignored. Joint states and trajectories are followed
 /// independently.
+///
+/// What the scene drives is part of no message, and of none is it used. The time of the drives
+/// begins with the first joint state, or the first point of a trajectory that comes before.
 class MotionCompleter {
  public:
   /// Largest relative residual of positions of all joints from which loops are closed later on;
@@ -28,21 +33,29 @@ class MotionCompleter {
 
   /// @param dynamics of the mechanism and the scene, with any request; all three must outlive this
   /// @param tolerance of relative residuals; joint states within it are never far from closed
+  /// @param drive_start see LiveDrives
   MotionCompleter(const Mechanism& mechanism, const Scene& scene, const Dynamics& dynamics,
-                  double tolerance = kNearlyClosed);
+                  double tolerance = kNearlyClosed, double drive_start = 0);
 
   const Mechanism& mechanism() const { return mechanism_; }
-  /// The coordinates that joint states have to show.
+  /// The coordinates that joint states have to show. Where they need to show none, it is those of
+  /// the first joint state, whose stamps then are the instants of results.
   const std::vector<bool>& needed() const { return needed_; }
+  /// Whether needed() is not all coordinates, so that it has to be told to those who wait for them.
+  bool needsSome() const { return closed_ || drives_.any(); }
   /// Whether joint states give all joints.
   bool allGiven() const { return all_given_; }
   /// Takes note of the coordinates of a joint state. Returns whether needed() has changed.
   bool saw(const int* coordinates, int count);
+  /// The drives that set what is driven.
+  LiveDrives& drives() { return drives_; }
 
   /// Completes the motion of joint states unless they give all joints, and leaves the workspace at
   /// its position. Returns false when that is not possible; see problem(). The first motion says
   /// where the joint states start, see startedBy(); further ones do not allocate.
-  bool complete(Motion& motion, const Dynamics& dynamics, Dynamics::Workspace& workspace);
+  /// @param stamp_ns of the motion, for what is driven
+  bool complete(Motion& motion, std::int64_t stamp_ns, const Dynamics& dynamics,
+                Dynamics::Workspace& workspace);
   /// Takes note of the results of a motion of joint states. Where all joints are given and leave
   /// the loops open, later completions do not start there, but where loops were closed last. Does
   /// not allocate.
@@ -51,7 +64,7 @@ class MotionCompleter {
   std::optional<std::string> openStates();
   /// Why the latest motion could not be completed.
   std::string problem(const Dynamics& dynamics, Dynamics::Workspace& workspace) const {
-    return latest_->whyOpen(dynamics, workspace);
+    return drives_.failed() ? drives_.problem() : latest_->whyOpen(dynamics, workspace);
   }
 
   /// Checks that the trajectory names what determines the rest, with joints that the scene says are
@@ -72,7 +85,8 @@ class MotionCompleter {
   /// Gives a sample's other joints the motion that the closures demand, which is not that of a
   /// curve through the points, even where these give it. Returns false when that is not possible;
   /// see problem(). Does not allocate.
-  bool completeSample(Motion& motion, const Dynamics& dynamics, Dynamics::Workspace& workspace);
+  bool completeSample(Motion& motion, std::int64_t stamp_ns, const Dynamics& dynamics,
+                      Dynamics::Workspace& workspace);
 
  private:
   // What a trajectory gives by its names, and what is wrong with that.
@@ -81,6 +95,8 @@ class MotionCompleter {
     std::optional<std::string> problem;
   };
   void startBy(const Motion& motion);
+  Given with(std::vector<bool> coordinates) const;
+  void drive(TrajectoryMotion& trajectory);
   std::optional<std::size_t> turnIn(const std::vector<bool>& given) const;
   Choice choose(const std::vector<bool>& named) const;
   const Choice& chosenBy(const TrajectoryMotion& trajectory);
@@ -98,12 +114,14 @@ class MotionCompleter {
   const double nearly_closed_;
   const Given usual_;  // what motions give unless they give all
   const GivenJoints rule_;
+  LiveDrives drives_;
   PassiveJoints joint_states_, trajectories_, samples_;
   const PassiveJoints* latest_ = &joint_states_;  // completed something last
   std::vector<bool> named_;                       // by the trajectory of choice_
   Choice choice_;
   bool samples_give_all_ = false, samples_follow_ = false;
   bool all_given_;
+  bool needs_clock_;        // as joint states need not show anything
   bool started_ = false;    // whether a joint state was to be completed
   bool evaluated_ = false;  // whether a joint state was completed
   bool open_ = false, open_told_ = false;

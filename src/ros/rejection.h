@@ -29,16 +29,17 @@ enum class DropReason : std::size_t {
   kNoRoot,
   kNoBody,
   kNoTurn,
+  kNoDrive,
   kInternal
 };
 
 /// The reasons as diagnostics show them, in the order of DropReason.
-constexpr std::array<const char*, 22> kDropReasonNames = {
+constexpr std::array<const char*, 23> kDropReasonNames = {
     "array length",   "not finite",     "no known joint", "joint twice",    "zero stamp",
     "equal stamp",    "too late",       "no points",      "times",          "joint never seen",
     "overflow",       "passive joints", "open loop",      "no time yet",    "backlog",
     "unknown frame",  "no wrench",      "orientation",    "no root motion", "no such body",
-    "no orientation", "internal"};
+    "no orientation", "drive",          "internal"};
 
 constexpr std::size_t index(DropReason reason) {
   return static_cast<std::size_t>(reason);
@@ -48,7 +49,7 @@ constexpr std::size_t index(DropReason reason) {
 constexpr bool concernsResult(DropReason reason) {
   return reason == DropReason::kOverflow || reason == DropReason::kOpenLoop ||
          reason == DropReason::kNoWrench || reason == DropReason::kNoRoot ||
-         reason == DropReason::kNoTurn;
+         reason == DropReason::kNoTurn || reason == DropReason::kNoDrive;
 }
 
 /// Why a message is dropped, with a line that names the culprit.

@@ -18,6 +18,7 @@
 #include "ros/private_parameters.h"
 #include "ros/start_position.h"
 #include "ros/topic_names.h"
+#include "virtual_work_dynamics/drives.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/joint_types.h"
 #include "virtual_work_dynamics/momentum_observer.h"
@@ -46,7 +47,7 @@ EstimatorSettings checkedSettings(const Mechanism& mechanism, EstimatorSettings 
   return settings;
 }
 
-std::vector<std::pair<int, double>> restOf(const Mechanism& mechanism,
+std::vector<std::pair<int, double>> restOf(const Mechanism& mechanism, const Scene& scene,
                                            const std::vector<RestingJoint>& joints) {
   std::vector<std::pair<int, double>> rest;
   for (const RestingJoint& joint : joints) {
@@ -55,6 +56,10 @@ std::vector<std::pair<int, double>> restOf(const Mechanism& mechanism,
       throw parameterError("rest", "robot " + inQuotes(mechanism.name()) + " has no joint " +
                                        inQuotes(joint.name) + " that moves by itself" +
                                        nameHelp(joint.name, mechanism.coordinateNames()));
+    }
+    for (const DriveLaw& drive : scene.drives) {
+      if (drive.name != joint.name) continue;
+      throw parameterError("rest", inQuotes(joint.name) + " has a drive, which says how it moves");
     }
     rest.emplace_back(coordinate, joint.position);
   }
@@ -163,9 +168,9 @@ RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
       reaction_topics(reactionTopics(reactions)),
       wrench_topics(wrenchTopics(liveWrenches(scene))),
       estimator(checkedSettings(mechanism, parameters.estimator, scene)),
-      rest(restOf(mechanism, parameters.rest)),
+      rest(restOf(mechanism, scene, parameters.rest)),
       everything(movableDynamics(mechanism, scene, parameters.robot_description_key)) {
-  if (everything.given().drivenNumbers() > 0) {
+  if (everything.given().drivenNumbers() > Drives(mechanism, scene).closures().size()) {
     throw SceneError(
         "given: joint states have no axes of closures and no poses of links: name joints");
   }
@@ -181,15 +186,19 @@ RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
   }
   external = externalRecord(mechanism, everything, asked, estimator.max_gap);
   if (asked.effort_limits) limits = limitRecord(mechanism, everything, estimator.max_gap);
-  outputs =
-      makeOutputs(mechanism, everything,
-                  {reactions, reaction_topics, parameters.frame_prefix, parameters.twist,
-                   parameters.loop_limits.condition, scene, deviations, parameters.marker_rate,
-                   parameters.root, efforts, external, limits, asked.observed,
-                   not_observed.empty() ? asked.observer_gain : 0, estimator.max_gap});
+  outputs = makeOutputs(
+      mechanism, everything,
+      {reactions, reaction_topics, parameters.frame_prefix, parameters.twist,
+       parameters.loop_limits.condition, scene, deviates() ? deviations : nullptr,
+       parameters.marker_rate, parameters.root, efforts, external, limits, asked.observed,
+       not_observed.empty() ? asked.observer_gain : 0, estimator.max_gap});
   plan_lines = everything.closed()
                    ? loopLines(mechanism, scene, everything, parameters.loop_limits.condition)
                    : everything.summary().lines();
+}
+
+bool RobotTask::deviates() const {
+  return everything.given().drivenNumbers() == 0;
 }
 
 std::vector<bool> RobotTask::waitedFor(std::vector<bool> needed) const {
@@ -210,6 +219,8 @@ std::vector<std::string> RobotTask::units() const {
 std::vector<bool> RobotTask::following() const {
   std::vector<bool> follow = GivenJoints::resting(everything);
   follow.flip();
+  const std::vector<bool> driven = Drives(mechanism, scene).coordinates();
+  for (std::size_t i = 0; i < follow.size(); ++i) follow[i] = follow[i] || driven[i];
   return follow;
 }
 
@@ -237,6 +248,10 @@ void RobotTask::log(const InverseDynamicsParameters& parameters) const {
   if (!exact.empty()) {
     ROS_INFO("%s takes as exact the applied wrenches that the scene gives no deviation: %s",
              privateName("effort_deviation").c_str(), shortList(exact).c_str());
+  }
+  if (!deviates()) {
+    ROS_INFO("%s is not offered: axes of closures have drives",
+             privateName("effort_deviation").c_str());
   }
   if (!not_observed.empty()) {
     ROS_INFO("%s is not offered: %s", privateName("external_effort").c_str(),

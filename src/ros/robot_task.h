@@ -30,9 +30,13 @@ struct RobotTask {
   /// rad or m, of each coordinate.
   std::vector<std::string> units() const;
 
-  /// Whether the closures determine each coordinate from those that motions give; none in an open
-  /// chain.
+  /// Whether each coordinate is none that a trajectory gives: the closures determine it from those
+  /// that motions give, or it has a drive.
   std::vector<bool> following() const;
+
+  /// Whether the deviations of results follow from those of joints: not where axes of closures have
+  /// drives.
+  bool deviates() const;
 
   Mechanism mechanism;
   Scene scene;

@@ -28,7 +28,9 @@ SampleComputation::SampleComputation(const Dynamics& dynamics, const Scene& scen
 
 MotionCovariance SampleComputation::makeCovariance() const {
   MotionCovariance covariance;
-  covariance.coordinates.resize(static_cast<std::size_t>(motion_.q.size()));
+  // Those of coordinates that have a drive stay zero.
+  covariance.coordinates.assign(static_cast<std::size_t>(motion_.q.size()),
+                                Eigen::Matrix3d::Zero());
   covariance.turns.assign(motion_.orientations.size(), TurnCovariance::Zero());
   covariance.wrenches = wrench_covariances_;
   return covariance;
@@ -40,7 +42,9 @@ SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan, std::int
   records_.counters.samples.add();
   if (!setRoot(stamp_ns, motion_.root, covariance)) return Outcome::kNoRoot;
   const auto start = Clock::now();
-  if (!completer_.complete(motion_, plan.dynamics, plan.workspace)) return Outcome::kOpenLoop;
+  if (!completer_.complete(motion_, stamp_ns, plan.dynamics, plan.workspace)) {
+    return whyIncomplete();
+  }
   placeRoot(motion_);
   const Outcome outcome = computeOne(plan, stamp_ns, start, covariance, true);
   if (outcome == Outcome::kDone) completer_.took(motion_, plan.workspace.results());
@@ -51,6 +55,7 @@ SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan,
                                                       const TrajectoryMotion& trajectory,
                                                       std::size_t point) {
   takePoint(trajectory, point);
+  if (trajectory.isUndriven(point)) return Outcome::kNoDrive;
   if (trajectory.isOpen(point)) return Outcome::kOpenLoop;
   if (trajectory.isRootless(point)) return Outcome::kNoRoot;
   return computeOne(plan, trajectory.stamps_ns[point], Clock::now(), nullptr);
@@ -64,8 +69,9 @@ SampleComputation::Outcome SampleComputation::computeSample(ActivePlan& plan,
   records_.counters.sampled.add();
   if (!setRoot(trajectory.samples->stampNs(sample), motion_.root)) return Outcome::kNoRoot;
   const auto start = Clock::now();
-  if (!completer_.completeSample(motion_, plan.dynamics, plan.workspace)) {
-    return Outcome::kOpenLoop;
+  const std::int64_t stamp_ns = trajectory.samples->stampNs(sample);
+  if (!completer_.completeSample(motion_, stamp_ns, plan.dynamics, plan.workspace)) {
+    return whyIncomplete();
   }
   placeRoot(motion_);
   return computeOne(plan, trajectory.samples->stampNs(sample), start, nullptr);
@@ -77,12 +83,17 @@ SampleComputation::Outcome SampleComputation::computeNext(ActivePlan& plan,
   const std::size_t place = point % plan.points.capacity();
   if (place == 0) computeBlock(plan, trajectory, point);
   takePoint(trajectory, point);
+  if (trajectory.isUndriven(point)) return Outcome::kNoDrive;
   if (trajectory.isOpen(point)) return Outcome::kOpenLoop;
   if (trajectory.isRootless(point)) return Outcome::kNoRoot;
   if (!motion_.finite()) return Outcome::kNotFinite;
   if (!setLoad(trajectory.stamps_ns[point])) return Outcome::kNoWrench;
   return finish(plan, trajectory.stamps_ns[point], plan.points.read(place),
                 as_sample ? Of::kBoth : Of::kTrajectory);
+}
+
+SampleComputation::Outcome SampleComputation::whyIncomplete() const {
+  return completer_.drives().failed() ? Outcome::kNoDrive : Outcome::kOpenLoop;
 }
 
 void SampleComputation::takePoint(const TrajectoryMotion& trajectory, std::size_t point) {

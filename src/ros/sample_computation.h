@@ -46,7 +46,7 @@ class SampleComputation {
 
   /// What became of a sample. Messages change only when it is kDone. kNoTurn is for who sets the
   /// motion: how a joint that turns freely does so is not known.
-  enum class Outcome { kDone, kNotFinite, kOpenLoop, kNoWrench, kNoRoot, kNoTurn };
+  enum class Outcome { kDone, kNotFinite, kOpenLoop, kNoDrive, kNoWrench, kNoRoot, kNoTurn };
 
   /// Computes the sample of joint states whose motion is motion() and writes messages of samples.
   /// @param covariance of all coordinates of motion(); it gets those of the root and of live
@@ -72,6 +72,7 @@ class SampleComputation {
  private:
   using Clock = std::chrono::steady_clock;
 
+  Outcome whyIncomplete() const;
   void takePoint(const TrajectoryMotion& trajectory, std::size_t point);
   bool setRoot(std::int64_t stamp_ns, RootMotion& motion, MotionCovariance* covariance = nullptr);
   void placeRoot(Motion& motion);

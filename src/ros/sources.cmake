@@ -26,6 +26,7 @@ foreach(file
     loop_record.cpp
     loop_report.cpp
     marker_output.cpp
+    live_drives.cpp
     motion_completer.cpp
     node_program.cpp
     output_topics.cpp

@@ -16,6 +16,7 @@
 #include "dynamics/given_joints.h"
 #include "dynamics/motion_start.h"
 #include "ros/joint_state_conversion.h"
+#include "ros/live_drives.h"
 #include "ros/private_name.h"
 #include "scene/resolved_loops.h"
 #include "virtual_work_dynamics/dynamics.h"
@@ -34,7 +35,8 @@ class StartFinder {
         scene_(scene),
         usual_(resolveLoopScene(mechanism, scene).given),
         conversion_(mechanism),
-        seen_(usual_.coordinates.size(), false),
+        driven_(mechanism, scene, usual_, 0),
+        seen_(driven_.coordinates()),
         motion_(static_cast<Eigen::Index>(seen_.size())) {}
 
   void take(const sensor_msgs::JointState& message) {
@@ -44,6 +46,7 @@ class StartFinder {
       seen_[static_cast<std::size_t>(sample.coordinates[i])] = true;
       motion_.q[sample.coordinates[i]] = sample.q[i];
     }
+    driven_.set(sample.stamp_ns, motion_);
     news_ = true;
   }
 
@@ -51,7 +54,7 @@ class StartFinder {
   std::optional<Scene> find() {
     if (!news_) return std::nullopt;
     news_ = false;
-    MotionStart start{usual_, motion_, Motion()};
+    MotionStart start{usual_, motion_, driven_.numbers()};
     start.given.coordinates = seen_;
     for (std::size_t i = 0; i < seen_.size(); ++i) {
       if (usual_.coordinates[i] && !seen_[i]) return std::nullopt;
@@ -74,6 +77,7 @@ class StartFinder {
   const Scene& scene_;
   const Given usual_;
   JointStateConversion conversion_;
+  LiveDrives driven_;
   std::vector<bool> seen_;
   Motion motion_;
   bool news_ = false, told_ = false;

@@ -89,7 +89,7 @@ void TrajectoryComputation::play(ActivePlan& plan, const TrajectoryMotion& traje
   } else if (!trajectory.samples) {
     dropPoint(outcome, trajectory, place);
   } else {
-    const bool open = outcome == Outcome::kOpenLoop;
+    const bool open = outcome == Outcome::kOpenLoop || outcome == Outcome::kNoDrive;
     user_.dropPoint(outcome, open ? completer_.problem(plan.dynamics, plan.workspace) : "",
                     "stamp " + stampText(trajectory.samples->stampNs(place)));
   }

@@ -26,6 +26,7 @@ struct TrajectoryMotion {
   std::string completion;               ///< what had to be filled in, and how; empty: nothing
   bool has_velocities = false;          ///< whether the message has them at every point
   std::vector<bool> open;               ///< points whose loops cannot be closed; empty: no point
+  std::vector<bool> undriven;           ///< of these: whether a drive has no motion there
   std::string problem;                  ///< why the first such point cannot be closed
   std::vector<bool> rootless;  ///< points whose root's motion is not known; empty: no point
   /// Where the results of samples are wanted, between the points too; empty: at the points.
@@ -34,6 +35,7 @@ struct TrajectoryMotion {
   /// Number of results of samples.
   std::size_t results() const { return samples ? samples->count() : stamps_ns.size(); }
   bool isOpen(std::size_t point) const { return point < open.size() && open[point]; }
+  bool isUndriven(std::size_t point) const { return point < undriven.size() && undriven[point]; }
   bool isRootless(std::size_t point) const { return point < rootless.size() && rootless[point]; }
 };
 

@@ -1,6 +1,7 @@
 #include "scene/closure_reader.h"
 
 #include "scene/closure_types.h"
+#include "scene/drive_reader.h"
 #include "scene/touch_reader.h"
 #include "scene/yaml_values.h"
 
@@ -218,6 +219,8 @@ bool readLoopEntry(const std::string& key, const YAML::Node& value, Scene& scene
     scene.free_motion = readBool(value, key);
   } else if (key == "given") {
     scene.given = readNames(value, key, "names of joints and closures");
+  } else if (key == "drives") {
+    scene.drives = readList(value, key, readDrive);
   } else if (key == "assembly") {
     scene.assembly = readNamedNumbers(value, key, "position");
   } else if (key == "redundancy") {

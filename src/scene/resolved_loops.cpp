@@ -9,6 +9,7 @@
 #include "base/number_text.h"
 #include "base/printable.h"
 #include "scene/closure_types.h"
+#include "scene/driven.h"
 #include "scene/lookup.h"
 #include "scene/touch_checks.h"
 #include "virtual_work_dynamics/error.h"
@@ -80,8 +81,9 @@ class Resolver {
     loops_.zero_at.assign(closures, false);
     loops_.start.setZero(static_cast<Eigen::Index>(coordinates));
     loops_.placed.assign(coordinates, false);
-    readActuated();
-    readGiven();
+    const std::vector<Driven> driven = drivenBy(mechanism_, scene_);
+    readActuated(driven);
+    readGiven(driven);
     readAssembly();
     readRedundancy();
     return std::move(loops_);
@@ -151,20 +153,21 @@ class Resolver {
     }
   }
 
-  // Cylinders are actuators whether they are named or not.
-  void readActuated() {
-    for (std::size_t c = 0; c < scene_.closures.size(); ++c) {
-      if (scene_.closures[c].type == ClosureType::kCylinder) loops_.actuated_closures.push_back(c);
-    }
+  // Cylinders and what is driven are actuators whether they are named or not.
+  void readActuated(const std::vector<Driven>& driven) {
     if (!scene_.actuated && scene_.free_motion) {
       throw SceneError("free_motion: every joint is actuated unless 'actuated' says which are");
     }
-    if (!scene_.actuated) return;
     std::set<std::string> seen;
     std::vector<bool> closures(scene_.closures.size(), false);
-    for (const std::size_t c : loops_.actuated_closures) closures[c] = true;
-    loops_.actuated_closures.clear();
-    for (std::size_t i = 0; i < scene_.actuated->size(); ++i) {
+    for (std::size_t c = 0; c < closures.size(); ++c) {
+      closures[c] = scene_.closures[c].type == ClosureType::kCylinder;
+    }
+    for (const Driven& drive : driven) {
+      if (drive.coordinate < 0) closures[drive.closure] = true;
+      if (drive.coordinate >= 0) loops_.actuated[static_cast<std::size_t>(drive.coordinate)] = true;
+    }
+    for (std::size_t i = 0; scene_.actuated && i < scene_.actuated->size(); ++i) {
       const std::string& name = (*scene_.actuated)[i];
       requireOnce("actuated", seen, name);
       const int c = closureIndex(name);
@@ -188,14 +191,20 @@ class Resolver {
     return closure;
   }
 
-  void readGiven() {
+  void readGiven(const std::vector<Driven>& driven) {
     loops_.given.coordinates = loops_.actuated;
+    if (scene_.given) loops_.given.coordinates.assign(loops_.actuated.size(), false);
+    for (const Driven& drive : driven) {
+      if (drive.coordinate < 0) loops_.given.closures.push_back(drive.closure);
+      if (drive.coordinate < 0) continue;
+      loops_.given.coordinates[static_cast<std::size_t>(drive.coordinate)] = true;
+    }
     if (!scene_.given) return;
-    loops_.given.coordinates.assign(loops_.actuated.size(), false);
     std::set<std::string> seen;
     for (std::size_t i = 0; i < scene_.given->size(); ++i) {
       const std::string& name = (*scene_.given)[i];
       requireOnce("given", seen, name);
+      requireNoDrive(name);
       const int c = closureIndex(name);
       if (c >= 0) {
         loops_.given.closures.push_back(freeAxisOf("given", name, c));
@@ -204,6 +213,13 @@ class Resolver {
       } else {
         choose("given", name, entryOf("given", i), loops_.given.coordinates);
       }
+    }
+  }
+
+  void requireNoDrive(const std::string& name) const {
+    for (const DriveLaw& drive : scene_.drives) {
+      if (drive.name != name) continue;
+      throw SceneError("given: " + inQuotes(name) + " has a drive, which says how it moves");
     }
   }
 

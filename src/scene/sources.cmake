@@ -3,6 +3,10 @@ vwd_core(
   closure_reader.cpp
   closure_types.cpp
   couplings.cpp
+  drive_functions.cpp
+  drive_jumps.cpp
+  drive_reader.cpp
+  drives.cpp
   input_checks.cpp
   joint_terms.cpp
   joint_types.cpp

@@ -45,6 +45,8 @@ set(core_test_files
   test/core/dirty_descriptions_test.cpp
   test/core/dirty_faults.cpp
   test/core/dirty_text_faults.cpp
+  test/core/driven_mechanisms_test.cpp
+  test/core/drives_test.cpp
   test/core/dynamics_test.cpp
   test/core/dynamics_use_test.cpp
   test/core/effort_doubts_test.cpp
@@ -98,6 +100,7 @@ set(core_test_files
   test/core/offline_conditions_test.cpp
   test/core/offline_couplings_test.cpp
   test/core/offline_deviations_test.cpp
+  test/core/offline_drives_test.cpp
   test/core/offline_errors_test.cpp
   test/core/offline_loops_checks_test.cpp
   test/core/offline_free_turns_test.cpp

@@ -35,6 +35,7 @@ MAPS = {
     "kContactKeys": ("contacts",),
     "kCylinderKeys": ("cylinders",),
     "kCouplingKeys": ("couplings",),
+    "kDriveKeys": ("drives",),
     "kRedundancyKeys": ("redundancy",),
 }
 # Lists of {name, <quantity>} that readNamedNumbers() reads.
@@ -46,7 +47,7 @@ STRUCTS = {"": "Scene", "moments_about": "MomentPoint", "applied_wrenches": "App
            "tolerances": "Tolerances",
            "rolling": "Touch", "contacts": "Touch",
            "closures.parent": "LinkFrame", "closures.child": "LinkFrame", "springs": "PointSpring",
-           "couplings": "Coupling",
+           "couplings": "Coupling", "drives": "DriveLaw",
            "redundancy": "Redundancy"}
 # Members that have other names, or other values, than their keys.
 MEMBERS = {"motion": "static_motion", "root": "root_moves", "payload": "payloads"}
@@ -60,6 +61,7 @@ TABLES = {"Top level": [""], "moments_about": ["moments_about"],
           "couplings": ["couplings", "couplings.terms"],
           "rolling": ["rolling", "rolling.plane"], "knife_edges": ["knife_edges"],
           "contacts": ["contacts"], "cylinders": ["cylinders"],
+          "drives": ["drives"],
           "assembly": ["assembly"],
           "redundancy": ["redundancy", "redundancy.stiffness", "redundancy.effort_weights"]}
 HEAD = "| key | value | default | meaning |"
