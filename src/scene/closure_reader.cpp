@@ -220,6 +220,8 @@ bool readLoopEntry(const std::string& key, const YAML::Node& value, Scene& scene
     scene.given = readNames(value, key, "names of joints and closures");
   } else if (key == "assembly") {
     scene.assembly = readNamedNumbers(value, key, "position");
+  } else if (key == "contact_intervals") {
+    scene.contact_intervals = readBool(value, key);
   } else if (key == "redundancy") {
     scene.redundancy = readRedundancy(value);
   } else {

@@ -33,6 +33,7 @@ MAPS = {
     "kPlaneKeys": ("rolling.plane",),
     "kKnifeEdgeKeys": ("knife_edges",),
     "kContactKeys": ("contacts",),
+    "kGapKeys": ("contacts.gap",),
     "kCylinderKeys": ("cylinders",),
     "kCouplingKeys": ("couplings",),
     "kRedundancyKeys": ("redundancy",),
@@ -59,7 +60,7 @@ TABLES = {"Top level": [""], "moments_about": ["moments_about"],
           "closures": ["closures", ("closures.parent", "closures.child")], "springs": ["springs"],
           "couplings": ["couplings", "couplings.terms"],
           "rolling": ["rolling", "rolling.plane"], "knife_edges": ["knife_edges"],
-          "contacts": ["contacts"], "cylinders": ["cylinders"],
+          "contacts": ["contacts", "contacts.gap"], "cylinders": ["cylinders"],
           "assembly": ["assembly"],
           "redundancy": ["redundancy", "redundancy.stiffness", "redundancy.effort_weights"]}
 HEAD = "| key | value | default | meaning |"
