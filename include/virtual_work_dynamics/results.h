@@ -96,7 +96,8 @@ struct LoopResults {
   /// The least and the most that each result can be while contacts press inside their friction
   /// cones and cables pull, with this motion; empty unless Request::intervals. Both are the result
   /// where it is determined. Infinite where nothing bounds it; NaN where it does not exist, and
-  /// where no forces hold. Never too narrow: too wide by at most about 1e-9 of the largest force.
+  /// where no forces hold. Never too narrow: friction cones count as up to 1e-4 wider than they
+  /// are.
   ForceBounds least, most;
 
   /// By closure, then by coupling: Determinacy::condition of the loops that are solved together
