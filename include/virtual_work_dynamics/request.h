@@ -17,6 +17,11 @@ struct Request {
   /// LoopResults::effort_determined and what follows it. Which results have a value at all is
   /// always found.
   bool determinacy = true;
+  /// With closed loops, where contacts press or cables pull: whether forces that rigid-body
+  /// mechanics does not determine can be chosen so that all of them hold, Hold::kCanHold.
+  bool can_hold = false;
+  /// Besides, the interval that each result can be in, LoopResults::least.
+  bool intervals = false;
   /// Moments in child axes stay about the child frame's origin, whatever Scene::moments_about says:
   /// for consumers that take the wrench's axes and point from one frame.
   bool child_axes_about_origin = false;

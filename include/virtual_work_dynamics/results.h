@@ -60,9 +60,17 @@ constexpr double kCloseToSingular = 1e4;
 /// Whether a force acts as that can which makes it: see ClosedLoopDynamics::oneSided().
 enum class Hold {
   kHolds,
-  kWrongWay,     ///< a contact would have to pull, or a cable to push
-  kOutsideCone,  ///< more would have to act along the plane than friction allows
-  kNotDecidable  ///< rigid-body mechanics does not determine the force
+  kWrongWay,      ///< a contact would have to pull, or a cable to push
+  kOutsideCone,   ///< more would have to act along the plane than friction allows
+  kNotDecidable,  ///< rigid-body mechanics does not determine the force
+  kCanHold,       ///< nor does it, but what it leaves open can be chosen so that all forces hold
+  kCannotHold     ///< nor does it, and no choice of what it leaves open makes all forces hold
+};
+
+/// A bound of each result of one sample, in the order of Results; see LoopResults::least.
+struct ForceBounds {
+  Eigen::VectorXd effort;
+  std::vector<Wrench> child_axes, root_axes;
 };
 
 /// What closed loops add to the results of one sample; empty in an open chain.
@@ -82,8 +90,15 @@ struct LoopResults {
   /// longer at rest; what the force reaches then has no value.
   std::vector<bool> springs_directed;
 
-  /// By what ClosedLoopDynamics::oneSided() names.
+  /// By what ClosedLoopDynamics::oneSided() names; the last two of Hold are for Request::can_hold.
   std::vector<Hold> holds;
+
+  /// The least and the most that each result can be while contacts press inside their friction
+  /// cones and cables pull, with this motion; empty unless Request::intervals. Both are the result
+  /// where it is determined. Infinite where nothing bounds it; NaN where it does not exist, and
+  /// where no forces hold. Never too narrow: friction cones count as up to 1e-4 wider than they
+  /// are.
+  ForceBounds least, most;
 
   /// By closure, then by coupling: Determinacy::condition of the loops that are solved together
   /// with its own.

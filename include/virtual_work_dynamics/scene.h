@@ -129,6 +129,12 @@ enum class Slip {
   kAll       ///< both: there is no friction
 };
 
+/// Distances of a point above its plane at which a program closes and opens its contact, m.
+struct Gap {
+  double close = 0;  ///< at or below it: closed
+  double open = 0;   ///< above it: open; more than `close`. In between it stays as it is.
+};
+
 /// What a wheel, a blade or a point on a plane has besides its frames.
 struct Touch {
   double radius = 0;       ///< of a wheel, m; without a tube it touches with a sharp edge
@@ -140,6 +146,8 @@ struct Touch {
   std::optional<double> roller_angle;
   std::optional<double> friction;  ///< coefficient; none: the cone is not checked
   bool closed = true;              ///< false: what touches is lifted and bears nothing
+  /// Of a contact that programs close and open by where the motion has its point.
+  std::optional<Gap> gap;
 };
 
 /// What wheels with teeth have besides their frames. The pitch point lies where circles or lines of
@@ -308,6 +316,8 @@ struct Scene {
   /// motions give stay where they start.
   std::vector<NamedNumber> assembly;
   Redundancy redundancy;
+  /// True: programs find the intervals that forces can be in; see Request::intervals.
+  bool contact_intervals = false;
 };
 
 /// Whether a scene has closures, springs, couplings or passive joints, or says what motions give,

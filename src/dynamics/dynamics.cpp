@@ -25,6 +25,7 @@ Request everything(const Mechanism& mechanism, const Scene& scene) {
   Request request;
   request.child_axes = requestedReactions(mechanism, scene);
   request.root_axes = request.child_axes;
+  request.can_hold = request.intervals = scene.contact_intervals;
   return request;
 }
 

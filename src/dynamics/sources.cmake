@@ -1,4 +1,5 @@
 vwd_core(
+  contact_gaps.cpp
   covariance_sizes.cpp
   description_shares.cpp
   deviations.cpp

@@ -54,6 +54,10 @@ ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compil
   loops.actuated_velocities.setZero(more_efforts);
   if (!plan.couplings.empty()) loops.tree_effort.setZero(plan.assembly.size());
   loops.tree_wrenches.resize(plan.tree.applied_wrenches.size());
+  if (plan.request.can_hold || plan.request.intervals) {
+    ranges_.emplace(plan.request, plan.closure_names, plan.couplings.size(), plan.holds,
+                    solvers.kinematics, solvers.forces, results);
+  }
 }
 
 void ClosedLoopDynamics::Workspace::Impl::compute(const Motion& motion, const Load& load) {
@@ -83,10 +87,15 @@ void ClosedLoopDynamics::Workspace::Impl::report() {
   collect();
   react();
   setDeterminacy();
-  if (plan.request.determinacy || results.singular()) setDetermined();
+  if (plan.request.determinacy || plan.request.intervals || results.singular()) setDetermined();
   setExistence();
   plan.holds.judge(solvers.forces, results.loops.holds);
+  if (ranges_) {
+    ranges_->find(solvers.kinematics, solvers.forces, child_axes_, root_axes_,
+                  {determined.effort, determined.child_axes, determined.root_axes}, results);
+  }
   leaveOutSprings();
+  if (plan.request.intervals && !all_exist_) ForceRanges::leaveOut(results);
   if (plan.request.determinacy) publishFlags();
 }
 

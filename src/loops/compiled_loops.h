@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "loops/completion.h"
+#include "loops/force_ranges.h"
 #include "loops/forces.h"
 #include "loops/groups.h"
 #include "loops/holds.h"
@@ -140,6 +141,7 @@ struct ClosedLoopDynamics::Workspace::Impl {
   std::vector<ClosureWrench> closures_;  // by closure
   std::vector<double> effort_freedoms_;  // sums of squared changes over leastChange()
   bool all_exist_ = true;                // of the sample before
+  std::optional<ForceRanges> ranges_;    // where they are asked for
   Motion rest_;
 };
 

@@ -19,11 +19,7 @@ class LoopHolds {
   LoopHolds(const Scene& scene, const LoopKinematics& kinematics,
             const std::vector<LoopGroup>& groups);
 
-  const std::vector<std::string>& names() const { return names_; }
-  /// Judges the solutions of all groups. Does not allocate.
-  void judge(std::vector<LoopForces>& forces, std::vector<Hold>& holds) const;
-
- private:
+  /// What acts one way.
   struct Item {
     std::size_t group, local;    // of its closure
     int acting;                  // its unknown that acts one way
@@ -31,6 +27,14 @@ class LoopHolds {
     int along_begin, along_end;  // its unknowns along the plane
     std::optional<double> friction;
   };
+
+  const std::vector<std::string>& names() const { return names_; }
+  /// By name.
+  const std::vector<Item>& items() const { return items_; }
+  /// Judges the solutions of all groups. Does not allocate.
+  void judge(std::vector<LoopForces>& forces, std::vector<Hold>& holds) const;
+
+ private:
   static Hold judge(LoopForces& forces, const Item& item);
 
   std::vector<std::string> names_;

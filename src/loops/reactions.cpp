@@ -276,6 +276,19 @@ void LoopReactions::addChange(const LoopKinematics& kinematics, std::size_t grou
   });
 }
 
+void LoopReactions::getChanged(const LoopKinematics& kinematics, std::size_t group,
+                               const LoopForces& forces, const LoopForces::State& change,
+                               std::vector<Changed>& changed) {
+  changed.clear();
+  visitChanged(group, forces, change, [&](std::size_t item, const ClosureWrench& wrench) {
+    ClosureWrench reported = wrench;
+    kernel_->report(shapes_[item], child_axes_, kinematics.links().numbers(),
+                    kinematics.frameNumbers(), reported.force.data());
+    const Eigen::Vector3d &f = reported.force, &m = reported.moment;
+    changed.push_back({item, {f.x(), f.y(), f.z(), m.x(), m.y(), m.z()}});
+  });
+}
+
 void LoopReactions::addUnborne(const LoopKinematics& kinematics, std::size_t group,
                                const LoopForces& forces) {
   visitUnborne(kinematics, group, forces, [&](std::size_t item, const ClosureWrench& wrench) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,6 +47,15 @@ class LoopReactions {
   void reset();
   void addChange(const LoopKinematics& kinematics, std::size_t group, const LoopForces& forces,
                  const LoopForces::State& change);
+  /// What a change makes of a reaction as it is reported.
+  struct Changed {
+    std::size_t item;
+    std::array<double, 6> by;
+  };
+  /// Gets how a change of a group alters reactions; others stay. Does not allocate where `changed`
+  /// has room for size().
+  void getChanged(const LoopKinematics& kinematics, std::size_t group, const LoopForces& forces,
+                  const LoopForces::State& change, std::vector<Changed>& changed);
   /// Also once for each group that does not bear its load: what no multiplier balances is left to
   /// joints that move freely, as an effort that they do not have.
   void addUnborne(const LoopKinematics& kinematics, std::size_t group, const LoopForces& forces);

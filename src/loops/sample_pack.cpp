@@ -49,7 +49,7 @@ bool SamplePack::serves(const ClosedLoopDynamics::Impl& plan) {
          !plan.weighed_pass && plan.loops.policy == RedundancyPolicy::kMinimumNorm &&
          plan.kinematics.sets() == plan.closures && !plan.kinematics.drives() &&
          plan.kinematics.touching().empty() && plan.kinematics.meshing().empty() &&
-         plan.mechanism.orientations() == 0;
+         plan.mechanism.orientations() == 0 && !plan.request.can_hold && !plan.request.intervals;
 }
 
 SamplePack::SamplePack(const ClosedLoopDynamics::Impl& plan, const LoopSolvers& solvers)

@@ -13,6 +13,7 @@ vwd_core(
   cylinder_conditions.cpp
   driven_conditions.cpp
   force_choice.cpp
+  force_ranges.cpp
   forces.cpp
   gear_conditions.cpp
   given_loops.cpp

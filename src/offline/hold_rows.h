@@ -27,7 +27,7 @@ class HoldRows {
   };
 
   std::vector<std::string> names_;
-  std::vector<std::array<Found, 4>> found_;  // by Hold
+  std::vector<std::array<Found, 6>> found_;  // by Hold
 };
 
 }  // namespace virtual_work_dynamics

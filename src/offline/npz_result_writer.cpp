@@ -35,13 +35,15 @@ void NpzResultWriter::add(double value) {
 
 void NpzResultWriter::writeResults(const Eigen::VectorXd& effort,
                                    const std::vector<Wrench>& reactions,
-                                   const std::vector<double>& more) {
+                                   const std::vector<double>& more,
+                                   const std::vector<double>& bounds) {
   for (Eigen::Index i = 0; i < effort.size(); ++i) add(effort[i]);
   for (const Wrench& wrench : reactions) {
     for (int i = 0; i < 3; ++i) add(wrench.force[i]);
     for (int i = 0; i < 3; ++i) add(wrench.torque[i]);
   }
   for (const double value : more) add(value);
+  for (const double value : bounds) writer_.add(value);
 }
 
 void NpzResultWriter::finish() {

@@ -22,7 +22,7 @@ class NpzResultWriter : public ResultTable {
   void beginRow(double time) override;
   void writeStamp(std::int64_t stamp_ns) override;
   void writeResults(const Eigen::VectorXd& effort, const std::vector<Wrench>& reactions,
-                    const std::vector<double>& more) override;
+                    const std::vector<double>& more, const std::vector<double>& bounds) override;
   void finish() override;
 
  private:

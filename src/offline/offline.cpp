@@ -18,6 +18,7 @@
 #include "offline/extra_columns.h"
 #include "offline/generated_files.h"
 #include "offline/inputs.h"
+#include "offline/interval_columns.h"
 #include "offline/lagrange_rows.h"
 #include "offline/load_report.h"
 #include "offline/loop_report.h"
@@ -62,6 +63,7 @@ Request requestOf(const Mechanism& mechanism, const Scene& scene, const Argument
   (arguments.child_axes ? request.child_axes : request.root_axes) =
       naming(arguments.reactions ? "--" : scenePrefix(arguments),
              [&] { return requestedReactions(mechanism, scene); });
+  request.can_hold = request.intervals = scene.contact_intervals;
   return request;
 }
 
@@ -84,6 +86,7 @@ Columns columnsOf(const Dynamics& dynamics, const Request& written, const Argume
   }
   columns.reactions = arguments.child_axes ? written.child_axes : written.root_axes;
   if (dynamics.closed()) columns.more = loopColumns(columns, dynamics.closureNames());
+  if (written.intervals) columns.bounds = intervalColumns(columns);
   return columns;
 }
 
@@ -253,13 +256,27 @@ std::unique_ptr<ResultTable> tableOf(const Arguments& arguments, OutputFile& fil
   }
 }
 
-void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene) {
-  const Request written = requestOf(mechanism, scene, arguments);
+// Refuses what tables of results cannot have.
+void refuseForTables(const Arguments& arguments, const Scene& scene) {
   if (arguments.inertial_axes && !scene.root_moves) {
     throw UsageError(
         "--axes inertial: the scene does not say 'root: moving', and root axes are "
         "inertial axes");
   }
+  if (arguments.inertial_axes && scene.contact_intervals) {
+    throw UsageError("--axes inertial: contact_intervals are found in root axes and child axes");
+  }
+  for (const Closure& closure : scene.closures) {
+    if (!closure.touch.gap) continue;
+    throw SceneError(scenePrefix(arguments) + "contacts: " + inQuotes(closure.name) +
+                     ": by its gap the node and bags of results (--output BAG) close it; a table "
+                     "has one plan for all rows");
+  }
+}
+
+void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene) {
+  refuseForTables(arguments, scene);
+  const Request written = requestOf(mechanism, scene, arguments);
   RecordedMotion recorded = readStart(arguments, mechanism, scene);
   if (arguments.deviations && recorded.given.drivenNumbers() > recorded.drivenColumns()) {
     throw UsageError(

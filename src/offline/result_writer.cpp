@@ -32,6 +32,7 @@ std::vector<std::string> resultColumns(const Columns& columns) {
     }
   }
   names.insert(names.end(), columns.more.begin(), columns.more.end());
+  names.insert(names.end(), columns.bounds.begin(), columns.bounds.end());
   return names;
 }
 
@@ -57,13 +58,21 @@ void ResultWriter::writeStamp(std::int64_t stamp_ns) {
 }
 
 void ResultWriter::writeResults(const Eigen::VectorXd& effort, const std::vector<Wrench>& reactions,
-                                const std::vector<double>& more) {
+                                const std::vector<double>& more,
+                                const std::vector<double>& bounds) {
   for (Eigen::Index i = 0; i < effort.size(); ++i) appendCell(effort[i]);
   for (const Wrench& wrench : reactions) {
     for (int i = 0; i < 3; ++i) appendCell(wrench.force[i]);
     for (int i = 0; i < 3; ++i) appendCell(wrench.torque[i]);
   }
   for (const double value : more) appendCell(value);
+  for (const double value : bounds) {
+    if (std::isinf(value)) {
+      text_ += value > 0 ? ",inf" : ",-inf";
+    } else {
+      appendCell(value);
+    }
+  }
   text_ += '\n';
   if (text_.size() < kBytesAtOnce) return;
   file_.write(text_);

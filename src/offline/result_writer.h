@@ -21,6 +21,7 @@ struct Columns {
   std::vector<bool> residuals;         ///< as Dynamics::residuals(); empty: none is
   std::vector<std::string> reactions;  ///< names of joints, six columns each
   std::vector<std::string> more;       ///< names of columns
+  std::vector<std::string> bounds;     ///< names of columns whose numbers may be infinite
 
   /// The column of an effort, such as "effort.elbow"; a residual of free motions has no more than
   /// its name.
@@ -38,7 +39,7 @@ std::vector<std::string> resultColumns(const Columns& columns);
 std::string resultHeader(const Columns& columns);
 
 /// Writes results as CSV rows, each number with the fewest digits that read back equal; a number
-/// that is not finite becomes an empty cell.
+/// that is not finite becomes an empty cell, and a bound that is infinite "inf" or "-inf".
 class ResultWriter : public ResultTable {
  public:
   ResultWriter(OutputFile& file, const std::string& header) : file_(file), text_(header) {}
@@ -47,7 +48,7 @@ class ResultWriter : public ResultTable {
   /// In seconds with all nanoseconds.
   void writeStamp(std::int64_t stamp_ns) override;
   void writeResults(const Eigen::VectorXd& effort, const std::vector<Wrench>& reactions,
-                    const std::vector<double>& more) override;
+                    const std::vector<double>& more, const std::vector<double>& bounds) override;
   /// Hands the rest over to the file and commits it.
   void finish() override;
 

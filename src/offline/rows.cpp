@@ -8,6 +8,7 @@
 #include "base/printable.h"
 #include "dynamics/inertial_axes.h"
 #include "motion/free_columns.h"
+#include "offline/interval_columns.h"
 
 namespace virtual_work_dynamics {
 
@@ -73,7 +74,9 @@ void Rows::write(std::size_t row, const Motion& motion, const Load& load, const 
   extra_.add(row, motion, load, results, effort_, more_);
   table_.beginRow(file_.table.times[row]);
   if (columns_.stamps) table_.writeStamp(file_.stamps_ns[row]);
-  table_.writeResults(effort_, reactions_, more_);
+  bounds_.clear();
+  if (!columns_.bounds.empty()) addIntervals(results, columns_, child_axes_, bounds_);
+  table_.writeResults(effort_, reactions_, more_, bounds_);
   progress_.update(row + 1, file_.table.times.size());
 }
 

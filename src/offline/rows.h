@@ -68,7 +68,7 @@ class Rows {
   // The results that are written; those that only certificates need come after them.
   Eigen::VectorXd effort_;
   std::vector<Wrench> reactions_;
-  std::vector<double> more_;
+  std::vector<double> more_, bounds_;
   Progress progress_{std::cerr, ProgressLine::whereIs(STDERR_FILENO), "computing"};
   std::size_t overflowed_ = 0;
   std::size_t first_row_ = 0;

@@ -17,7 +17,8 @@ foreach(file
     help_text.cpp
     hold_rows.cpp
     inputs.cpp
-    joint_renaming.cpp
+    interval_columns.cpp
+  joint_renaming.cpp
     joint_state_rows.cpp
     lagrange_rows.cpp
     load_report.cpp

@@ -110,7 +110,7 @@ Audience audienceOf(const RobotTask& task, const Arguments& arguments, bool of_t
 void refuseTopics(const std::vector<std::string>& files, const std::vector<std::string>& names) {
   for (const std::string& file : files) {
     for (const BagConnection& connection : connectionsOf(file).connections) {
-      if (connection.topic == "/tf_static" ||
+      if (connection.topic == "/tf_static" || connection.topic == "/tf" ||
           std::find(names.begin(), names.end(), connection.topic) == names.end()) {
         continue;
       }

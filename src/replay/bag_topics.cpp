@@ -63,8 +63,9 @@ BagTopics::BagTopics(const RobotTask& task, const Audience& audience, const std:
     : task_(task), topics_(task.outputs.size()) {
   for (const std::size_t i : audience) {
     const Output& output = *task.outputs[i];
-    topics_[i] =
-        std::make_unique<Topic>(output.options(node + "/" + output.topic(), 0), node, writer);
+    const std::string topic = output.topic();
+    const std::string name = topic.front() == '/' ? topic : node + "/" + topic;
+    topics_[i] = std::make_unique<Topic>(output.options(name, 0), node, writer);
   }
   if (task.closure_frames.transforms.empty()) return;
   ros::AdvertiseOptions options;

@@ -15,8 +15,12 @@ using Names = std::vector<std::string>;
 
 // In the order of Hold, and of LoopRecord::Levels.
 constexpr const char* kFindings[LoopRecord::kHolds] = {
-    nullptr, "would have to act the other way", "is outside its friction cone",
-    "is not determined, so that nothing can be said of it"};
+    nullptr,
+    "would have to act the other way",
+    "is outside its friction cone",
+    "is not determined, so that nothing can be said of it",
+    "is not determined, but can hold",
+    "cannot hold, whatever is chosen that is not determined,"};
 constexpr const char* kLevels[LoopRecord::kLevels] = {"positions", "velocities", "accelerations"};
 
 std::string samples(std::uint64_t count) {
@@ -67,7 +71,8 @@ std::string loopNotes(const LoopRecord::Report& report, const Dynamics& dynamics
     for (std::size_t hold = 1; hold < LoopRecord::kHolds; ++hold) {
       const std::uint64_t count = report.holds[i][hold];
       if (count == 0) continue;
-      const bool open = static_cast<Hold>(hold) == Hold::kNotDecidable;
+      const bool open = static_cast<Hold>(hold) == Hold::kNotDecidable ||
+                        static_cast<Hold>(hold) == Hold::kCanHold;
       add(open ? "note: " : "warning: ", "the force of " + inQuotes(dynamics.oneSided()[i]) + " " +
                                              kFindings[hold] + " in " + samples(count));
     }

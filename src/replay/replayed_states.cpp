@@ -10,7 +10,6 @@
 #include "base/printable.h"
 #include "replay/input_bytes.h"
 #include "replay/loop_notes.h"
-#include "ros/contact_places.h"
 #include "ros/free_joint_conversion.h"
 #include "ros/message_copies.h"
 #include "ros/message_text.h"
@@ -52,7 +51,8 @@ ReplayedStates::ReplayedStates(const RobotTask& task, const InverseDynamicsParam
                                                              number);
                        }),
       scene_inputs_(task.mechanism, task.scene, parameters.frame_prefix, parameters.root,
-                    counters_) {
+                    counters_),
+      gaps_(task.mechanism, task.scene) {
   if (completer_.needsSome()) estimator_.waitFor(completer_.needed());
   for (const auto& [coordinate, position] : task.rest) estimator_.setRest(coordinate, position);
   loops_.setPassiveGiven(completer_.allGiven());
@@ -170,8 +170,12 @@ void ReplayedStates::listen(InputTopics& topics) {
   for (const auto& entry : scene_inputs_.contactTopics()) {
     const int closure = entry.second;
     add<std_msgs::Bool>(topics, "~" + entry.first, "",
-                        [this, closure, change](const std_msgs::Bool& message, ros::Time) {
+                        [this, closure, change](const std_msgs::Bool& message, ros::Time receipt) {
+                          const bool first = !scene_inputs_.closesSticking();
                           change(scene_inputs_.takeContact(closure, message));
+                          if (!first || !scene_inputs_.closesSticking()) return;
+                          place_ns_ = nanoseconds(receipt) +
+                                      static_cast<std::int64_t>(1e9 * task_.estimator.lag);
                         });
   }
   add<geometry_msgs::Vector3Stamped>(
@@ -190,6 +194,20 @@ void ReplayedStates::setAudience(const Audience& audience) {
   audience_ = audience;
   plan_ = std::make_unique<ActivePlan>(task_.mechanism, scene_inputs_.scene(), task_.outputs,
                                        task_.reactions, audience, PlanChecks());
+}
+
+// What is to stick does so where it is at an instant that is not before the message: results are
+// the estimator's lag behind the newest joint state.
+bool ReplayedStates::waitsForPlace() const {
+  return !joint_state_topic_.empty() && scene_inputs_.closesSticking() && latest_ns_ < place_ns_;
+}
+
+void ReplayedStates::publish(const ActivePlan& plan) {
+  latest_ = samples_.motion();
+  latest_ns_ = time_ns_;
+  publishPoint(plan);
+  gaps_.take(*latest_);
+  if (gaps_.hand(scene_inputs_)) of_change_ = of_joint_states_;
 }
 
 // Compiles a changed scene, when a result is needed.
@@ -218,6 +236,7 @@ void ReplayedStates::take(const BagMessage& message) {
   if (!is_state && begin == end) return;
   here_ = is_state ? of_joint_states_ : &happenings_[topic];
   here().next();
+  time_ns_ = message.time_ns;
   try {
     wrench_messages_.waitUntil(message.time_ns);
     if (is_state) return takeJointState(message);

@@ -21,6 +21,7 @@
 #include "replay/replayed_wrenches.h"
 #include "ros/active_plan.h"
 #include "ros/certificate_record.h"
+#include "ros/contact_places.h"
 #include "ros/counters.h"
 #include "ros/inverse_dynamics_parameters.h"
 #include "ros/joint_state_computation.h"
@@ -80,13 +81,10 @@ class ReplayedStates : private JointStateUser, private TrajectoryUser {
   using Outcome = SampleComputation::Outcome;
 
   ActivePlan& plan() override {
-    if (scene_inputs_.changed()) adaptPlan();
+    if (scene_inputs_.changed() && !waitsForPlace()) adaptPlan();
     return *plan_;
   }
-  void publish(const ActivePlan& plan) override {
-    latest_ = samples_.motion();
-    publishPoint(plan);
-  }
+  void publish(const ActivePlan& plan) override;
   void dropJointState(DropReason reason, const std::string& text) override;
   void dropFreeJoints(DropReason reason, const std::string& text) override;
   void leaveForeign(const std::string& text) override;
@@ -115,6 +113,7 @@ class ReplayedStates : private JointStateUser, private TrajectoryUser {
   void translate(trajectory_msgs::JointTrajectory& message) const;
   void takeFreeJoints(const sensor_msgs::MultiDOFJointState& message);
   void adaptPlan();
+  bool waitsForPlace() const;
 
   /// Of the topic of the message that is taken.
   Happenings& here() { return *here_; }
@@ -136,7 +135,11 @@ class ReplayedStates : private JointStateUser, private TrajectoryUser {
   TrajectoryComputation trajectories_;
   ReplayedWrenches wrench_messages_;
   SceneInputs scene_inputs_;
+  GapRecord gaps_;
   std::optional<Motion> latest_;  // of joint states
+  std::int64_t time_ns_ = 0;      // when the message was received that is taken
+  std::int64_t latest_ns_ = 0;    // when the message was received that it was computed at
+  std::int64_t place_ns_ = 0;     // from then on results are of instants at which contacts touch
   Audience audience_;
   std::unique_ptr<ActivePlan> plan_;
   std::multimap<std::string, Take> inputs_;  // by topic

@@ -12,8 +12,9 @@ bool isEmpty(const Request& request) {
   return !request.efforts && request.child_axes.empty() && request.root_axes.empty();
 }
 
-// Adds what certificates need to what outputs need.
-Request computed(const Request& request, PlanChecks checks) {
+// Adds what certificates and diagnostics need to what outputs need.
+Request computed(const Scene& scene, Request request, PlanChecks checks) {
+  request.can_hold = scene.contact_intervals;
   return checks.certificates && !isEmpty(request) ? Certifier::extended(request) : request;
 }
 
@@ -34,7 +35,7 @@ std::vector<std::size_t> placesOf(const std::vector<std::string>& names,
 ActivePlan::ActivePlan(const Mechanism& mechanism, const Scene& scene, const Outputs& all,
                        const std::vector<std::string>& reactions, Audience who, PlanChecks checks)
     : audience(std::move(who)),
-      dynamics(mechanism, scene, computed(requestFor(all, audience), checks)),
+      dynamics(mechanism, scene, computed(scene, requestFor(all, audience), checks)),
       workspace(dynamics.makeWorkspace()),
       points(dynamics, kPointsAtOnce) {
   for (const std::size_t i : audience) {

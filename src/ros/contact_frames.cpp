@@ -3,7 +3,8 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
-#include <chrono>
+#include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "ros/message_copies.h"
@@ -16,8 +17,7 @@ class ContactFramesMessage : public MessageOf<tf2_msgs::TFMessage> {
  public:
   ContactFramesMessage(const Dynamics& plan, const std::vector<std::string>& contacts,
                        const std::string& root_frame, const std::string& frame_prefix, double rate)
-      : period_(
-            std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / rate))) {
+      : period_ns_(static_cast<std::int64_t>(1e9 / rate)) {
     exists_ = false;
     const std::vector<std::string>& all = plan.request().root_axes;
     for (const std::string& contact : contacts) {
@@ -33,10 +33,10 @@ class ContactFramesMessage : public MessageOf<tf2_msgs::TFMessage> {
   void fill(const OutputSample& sample) override {
     exists_ = false;
     if (!sample.measured) return;
-    const Clock::time_point now = Clock::now();
-    if (now < due_) return;
+    const std::int64_t now = sample.stamp_ns;
+    if (latest_ns_ && now >= *latest_ns_ && now - *latest_ns_ < period_ns_) return;
     exists_ = true;
-    due_ = now + period_;
+    latest_ns_ = now;
     for (std::size_t i = 0; i < places_.size(); ++i) {
       message_.transforms[i].header.stamp = timeOf(sample.stamp_ns);
       copyPose(sample.results.poses[places_[i]], message_.transforms[i].transform);
@@ -44,10 +44,8 @@ class ContactFramesMessage : public MessageOf<tf2_msgs::TFMessage> {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  const Clock::duration period_;
-  Clock::time_point due_;
+  const std::int64_t period_ns_;  // of the samples' stamps
+  std::optional<std::int64_t> latest_ns_;
   std::vector<std::size_t> places_;
 };
 
@@ -65,7 +63,6 @@ class ContactFramesOutput : public Output {
     return ros::AdvertiseOptions::create<tf2_msgs::TFMessage>(topic, queue, {}, {},
                                                               ros::VoidConstPtr(), nullptr);
   }
-  bool isForLooking() const override { return true; }
   void addTo(Request& request) const override {
     for (const std::string& contact : contacts_) {
       std::vector<std::string>& names = request.root_axes;

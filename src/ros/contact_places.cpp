@@ -40,7 +40,7 @@ void placeContacts(const Mechanism& mechanism, const Motion& at,
   }
   const LoopResults sticking = loopsAt(mechanism, scene, motion);
   Scene slipping_scene = scene;
-  slipping_scene.free_motion = true;
+  slipping_scene.free_motion = scene.actuated.has_value();  // else nothing moves freely
   for (const std::size_t c : contacts) {
     slipping_scene.closures[c].touch.slip = Slip::kAll;
     slipping_scene.closures[c].touch.friction.reset();

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "dynamics/contact_gaps.h"
+#include "ros/scene_inputs.h"
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/scene.h"
@@ -50,6 +52,38 @@ class MotionSlot {
 
   std::atomic<State> state_{State::kEmpty};
   Motion motion_;
+};
+
+/// Hands what contacts with gaps come to from the computing thread to the one that compiles. The
+/// computing side neither waits nor allocates.
+class GapRecord {
+ public:
+  /// @throws SceneError as ContactGaps
+  GapRecord(const Mechanism& mechanism, const Scene& scene)
+      : gaps_(mechanism, scene), closed_(gaps_.contacts().size()) {}
+
+  /// For the computing thread: a motion that is computed.
+  void take(const Motion& motion) {
+    if (!gaps_.take(motion)) return;
+    for (std::size_t i = 0; i < closed_.size(); ++i) {
+      closed_[i].store(gaps_.contacts()[i].closed, std::memory_order_relaxed);
+    }
+    news_.store(true, std::memory_order_release);
+  }
+  /// For the compiling thread: sets them in a scene that changes, where one has changed, and
+  /// returns whether one has.
+  bool hand(SceneInputs& scene) {
+    if (!news_.exchange(false, std::memory_order_acquire)) return false;
+    for (std::size_t i = 0; i < closed_.size(); ++i) {
+      scene.setContact(gaps_.contacts()[i].closure, closed_[i].load(std::memory_order_relaxed));
+    }
+    return true;
+  }
+
+ private:
+  ContactGaps gaps_;
+  std::vector<std::atomic<bool>> closed_;  // by contact of gaps_
+  std::atomic<bool> news_{false};
 };
 
 }  // namespace virtual_work_dynamics

@@ -3,6 +3,7 @@
 #include <sensor_msgs/JointState.h>
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -17,10 +18,13 @@ class EffortMessage : public MessageOf<sensor_msgs::JointState> {
  public:
   EffortMessage(const Dynamics& plan, const std::string& frame,
                 std::shared_ptr<ThresholdRecord> limits)
-      : names_(plan.effortNames()),
+      : names_(namesOf(plan)),
         limits_(std::move(limits)),
         values_(static_cast<std::size_t>(plan.coordinates())),
         delivered_(deliveredEfforts(plan)) {
+    for (std::size_t i = 0; i < delivered_.size(); ++i) {
+      if (plan.residuals()[i]) undelivered_.push_back(static_cast<Eigen::Index>(i));
+    }
     message_.header.frame_id = frame;
     message_.name = names_;
     for (auto* values : {&message_.position, &message_.velocity, &message_.effort}) {
@@ -35,7 +39,8 @@ class EffortMessage : public MessageOf<sensor_msgs::JointState> {
     message_.position.clear();
     message_.velocity.clear();
     message_.effort.clear();
-    for (std::size_t i = 0; i < names_.size(); ++i) {
+    const std::size_t efforts = names_.size() - undelivered_.size();
+    for (std::size_t i = 0; i < efforts; ++i) {
       if (!sample.results.effortExists(i)) continue;
       if (!as_before) message_.name.push_back(names_[i]);
       const auto index = static_cast<Eigen::Index>(i);
@@ -47,10 +52,26 @@ class EffortMessage : public MessageOf<sensor_msgs::JointState> {
                                               : loops.actuated_velocities[closure]);
       message_.effort.push_back(sample.results.effort[index]);
     }
+    for (std::size_t i = 0; i < undelivered_.size(); ++i) {
+      if (!as_before) message_.name.push_back(names_[efforts + i]);
+      message_.position.push_back(sample.motion.q[undelivered_[i]]);
+      message_.velocity.push_back(sample.motion.qd[undelivered_[i]]);
+      message_.effort.push_back(0);
+    }
     if (limits_) recordLimits(sample);
   }
 
  private:
+  // Joints of which nothing delivers the effort come again under their own names, without one: tf
+  // follows these.
+  static std::vector<std::string> namesOf(const Dynamics& plan) {
+    std::vector<std::string> names = plan.effortNames();
+    for (std::size_t i = 0; i < plan.residuals().size(); ++i) {
+      if (plan.residuals()[i]) names.push_back(names[i].substr(std::strlen(kMotionResidual)));
+    }
+    return names;
+  }
+
   bool allExist(const Results& results) const {
     const std::vector<bool>& exists = results.loops.effort_exists;
     return std::find(exists.begin(), exists.end(), false) == exists.end();
@@ -69,6 +90,7 @@ class EffortMessage : public MessageOf<sensor_msgs::JointState> {
   const std::shared_ptr<ThresholdRecord> limits_;
   std::vector<double> values_;  // of the coordinates
   const std::vector<bool> delivered_;
+  std::vector<Eigen::Index> undelivered_;  // coordinates whose efforts are residuals
 };
 
 class EffortOutput : public Output {

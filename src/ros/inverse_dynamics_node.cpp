@@ -58,6 +58,7 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       scene_inputs_(task_.mechanism, task_.scene, parameters.frame_prefix, parameters.root,
                     counters_),
       place_(Motion(task_.everything.coordinates(), task_.everything.orientations())),
+      gaps_(task_.mechanism, task_.scene),
       plans_(compile(Audience(), task_.scene)),
       cross_check_(checks_.cross_check
                        ? std::make_unique<CrossCheck>(parameters.self_check.cross_check_rate)
@@ -151,6 +152,7 @@ void InverseDynamicsNode::updateStreams() {
 
 void InverseDynamicsNode::publish(const ActivePlan& plan) {
   place_.offer(samples_.motion());
+  gaps_.take(samples_.motion());
   publishPoint(plan);
   if (!sim_time_ && ros::Time::now() - receipt_ > late_threshold_) counters_.late.add();
 }
@@ -311,6 +313,7 @@ void InverseDynamicsNode::manage() {
     const Clock::time_point now = Clock::now();
     joint_watch_.setTime(now);
     if (audience_changed_) adaptPlan();
+    takeGaps(now);
     const bool news =
         scene_inputs_.changed() ? !waitsForPlace(now) : lacks_place_ && place_.motion();
     if (news) adaptScene();
@@ -377,6 +380,12 @@ bool InverseDynamicsNode::waitsForPlace(Clock::time_point now) {
   }
   place_.ask();
   return !place_.motion() && age.count() < task_.estimator.lag + kPlaceWait;
+}
+
+void InverseDynamicsNode::takeGaps(Clock::time_point now) {
+  if (!gaps_.hand(scene_inputs_) || closed_since_ != Clock::time_point()) return;
+  place_.clear();
+  closed_since_ = now - std::chrono::nanoseconds(ros::Duration(task_.estimator.lag).toNSec());
 }
 
 void InverseDynamicsNode::watchJoints(Clock::time_point now) {

@@ -101,6 +101,8 @@ class InverseDynamicsNode : private JointStateUser, private TrajectoryUser {
   void adaptPlan();
   void adaptScene();
   bool waitsForPlace(Clock::time_point now);
+  /// Contacts that close by their gap do so where the next sample has them.
+  void takeGaps(Clock::time_point now);
   void offerPlan(std::unique_ptr<ActivePlan> plan);
   void watchJoints(Clock::time_point now);
   std::unique_ptr<ActivePlan> compile(const Audience& audience, const Scene& scene) const;
@@ -139,6 +141,7 @@ class InverseDynamicsNode : private JointStateUser, private TrajectoryUser {
   MotionSlot place_;                  // of contacts that are to be closed where they are
   Clock::time_point closed_since_{};  // when the first one came; zero: none did
   bool lacks_place_ = false;          // so that one was refused
+  GapRecord gaps_;
   PlanSwitch plans_;
   std::unique_ptr<CrossCheck> cross_check_;  // null when off
 

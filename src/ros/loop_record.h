@@ -19,7 +19,7 @@ namespace virtual_work_dynamics {
 class LoopRecord {
  public:
   static constexpr std::size_t kLevels = 3;  // positions, velocities, accelerations
-  static constexpr std::size_t kHolds = 4;   // values of Hold
+  static constexpr std::size_t kHolds = 6;   // values of Hold
   /// One value for each level.
   using Levels = std::array<double, kLevels>;
 

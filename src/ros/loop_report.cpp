@@ -145,8 +145,12 @@ void LoopReport::addResiduals(DiagnosticStatusWrapper& status,
 // Says of each force that can act one way only how many samples are at odds with that.
 void LoopReport::addHolds(DiagnosticStatusWrapper& status, const LoopRecord::Report& report) const {
   static const char* const kWrong[LoopRecord::kHolds] = {
-      nullptr, "would have to act the other way", "is outside its friction cone",
-      "is not determined, so that nothing can be said of it"};
+      nullptr,
+      "would have to act the other way",
+      "is outside its friction cone",
+      "is not determined, so that nothing can be said of it",
+      "is not determined, but can hold",
+      "cannot hold, whatever is chosen that is not determined,"};
   for (std::size_t i = 0; i < one_sided_.size(); ++i) {
     std::string found;
     for (std::size_t hold = 1; hold < LoopRecord::kHolds; ++hold) {
@@ -155,7 +159,8 @@ void LoopReport::addHolds(DiagnosticStatusWrapper& status, const LoopRecord::Rep
       const std::string text =
           std::string(kWrong[hold]) + " in " + count(samples, "sample", "samples");
       found += (found.empty() ? "" : "; ") + text;
-      if (static_cast<Hold>(hold) == Hold::kNotDecidable) continue;
+      const auto judged = static_cast<Hold>(hold);
+      if (judged == Hold::kNotDecidable || judged == Hold::kCanHold) continue;
       status.mergeSummary(DiagnosticStatus::WARN,
                           "the force of " + inQuotes(one_sided_[i]) + " " + text);
     }

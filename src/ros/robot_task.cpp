@@ -83,6 +83,7 @@ Dynamics movableDynamics(const Mechanism& mechanism, const Scene& scene, const s
   Request request;
   request.child_axes = request.root_axes = requestedReactions(mechanism, scene);
   request.child_axes_about_origin = true;  // see requestFor()
+  request.can_hold = scene.contact_intervals;
   return Dynamics(mechanism, scene, request);
 }
 

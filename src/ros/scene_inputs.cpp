@@ -71,7 +71,7 @@ void SceneInputs::subscribe(ros::NodeHandle private_node, ros::CallbackQueueInte
   const std::map<std::string, int> contacts = contactTopics();
   for (std::size_t i = 0; i < scene_.closures.size(); ++i) {
     const auto closure = static_cast<int>(i);
-    if (!traitsOf(scene_.closures[i].type).touches()) continue;
+    if (!hasContactTopic(i)) continue;
     const std::string topic = contactTopic(closure);
     if (contacts.at(topic) != closure) {
       ROS_INFO("%s has no contact topic, as another one's has the same name",
@@ -117,23 +117,31 @@ std::string SceneInputs::contactTopic(int closure) const {
   return "contact/" + legalTopicName(scene_.closures[static_cast<std::size_t>(closure)].name);
 }
 
+bool SceneInputs::hasContactTopic(std::size_t closure) const {
+  const Closure& contact = scene_.closures[closure];
+  return traitsOf(contact.type).touches() && !contact.touch.gap;
+}
+
 std::map<std::string, int> SceneInputs::contactTopics() const {
   std::map<std::string, int> topics;
   for (std::size_t i = 0; i < scene_.closures.size(); ++i) {
     const auto closure = static_cast<int>(i);
-    if (traitsOf(scene_.closures[i].type).touches()) topics.emplace(contactTopic(closure), closure);
+    if (hasContactTopic(i)) topics.emplace(contactTopic(closure), closure);
   }
   return topics;
 }
 
 std::optional<Rejection> SceneInputs::takeContact(int closure, const std_msgs::Bool& message) {
-  const auto index = static_cast<std::size_t>(closure);
+  setContact(static_cast<std::size_t>(closure), message.data != 0);
+  return std::nullopt;
+}
+
+void SceneInputs::setContact(std::size_t index, bool closed) {
   Closure contact = wanted_.closures[index];
-  const bool closed = message.data != 0;
-  if (contact.touch.closed == closed) return std::nullopt;
+  if (contact.touch.closed == closed) return;
   contact.touch.closed = closed;
   Change change;
-  change.of = contactTopic(closure);
+  change.of = contactTopic(static_cast<int>(index));
   change.text = inQuotes(contact.name) + (closed ? " touches" : " is lifted");
   change.apply = [index, closed](Scene& scene) { scene.closures[index].touch.closed = closed; };
   const std::vector<TouchRow> rows = touchRows(contact);
@@ -142,7 +150,6 @@ std::optional<Rejection> SceneInputs::takeContact(int closure, const std_msgs::B
     change.sticks = index;
   }
   want(std::move(change));
-  return std::nullopt;
 }
 
 std::optional<Rejection> SceneInputs::takePayload(int link,

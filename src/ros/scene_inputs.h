@@ -69,10 +69,12 @@ class SceneInputs {
 
   /// @param closure index of the contact, wheel or blade whose topic it came by
   std::optional<Rejection> takeContact(int closure, const std_msgs::Bool& message);
+  /// Wants a contact closed or lifted.
+  void setContact(std::size_t closure, bool closed);
 
   /// The links that have a topic of payloads, by topic below the node's own.
   std::map<std::string, int> payloadTopics() const;
-  /// The closures that have a topic, in the same way.
+  /// The closures that have a topic, in the same way; not those that open and close by their gap.
   std::map<std::string, int> contactTopics() const;
 
  private:
@@ -95,6 +97,7 @@ class SceneInputs {
   bool isDescribed(int link) const;
   std::string payloadTopic(int link) const;
   std::string contactTopic(int closure) const;
+  bool hasContactTopic(std::size_t closure) const;
   void drop(const std::string& topic, const Rejection& rejection);
 
   const Mechanism& mechanism_;

@@ -223,6 +223,8 @@ bool readLoopEntry(const std::string& key, const YAML::Node& value, Scene& scene
     scene.drives = readList(value, key, readDrive);
   } else if (key == "assembly") {
     scene.assembly = readNamedNumbers(value, key, "position");
+  } else if (key == "contact_intervals") {
+    scene.contact_intervals = readBool(value, key);
   } else if (key == "redundancy") {
     scene.redundancy = readRedundancy(value);
   } else {

@@ -34,7 +34,7 @@ NameSet checkedNames(const Mechanism& mechanism, const Scene& scene) {
 
 bool needsClosedLoops(const Scene& scene) {
   return !scene.closures.empty() || !scene.springs.empty() || !scene.couplings.empty() ||
-         scene.actuated || scene.given || scene.free_motion;
+         scene.actuated || scene.given || scene.free_motion || scene.contact_intervals;
 }
 
 std::vector<std::string> requestedReactions(const Mechanism& mechanism, const Scene& scene) {

@@ -195,7 +195,7 @@ void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
   if (!contains(kSceneKeys, key)) {
     Names known = kSceneKeys;
     for (const char* other : {"closures", "springs", "couplings", "actuated", "free_motion",
-                              "given", "drives", "assembly", "redundancy"}) {
+                              "given", "drives", "assembly", "redundancy", "contact_intervals"}) {
       known.emplace_back(other);
     }
     known.insert(known.end(), touchKeys().begin(), touchKeys().end());

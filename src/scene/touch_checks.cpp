@@ -35,6 +35,14 @@ void requireSoundTouch(const Closure& closure, const std::string& place) {
       touch.slip != Slip::kAll) {
     throw SceneError(place + ": a point slips in all directions or in none");
   }
+  if (touch.gap && closure.type != ClosureType::kContact) {
+    throw SceneError(place + ": only a contact opens and closes by its gap");
+  }
+  if (touch.gap && !(std::isfinite(touch.gap->close) && std::isfinite(touch.gap->open) &&
+                     touch.gap->close < touch.gap->open)) {
+    throw SceneError(place + ": gap: close = " + numberText(touch.gap->close) +
+                     " is not less than open = " + numberText(touch.gap->open));
+  }
   if (touch.roller_angle && !std::isfinite(*touch.roller_angle)) {
     throw SceneError(place + ": roller_angle is not finite");
   }

@@ -10,7 +10,8 @@ const Names kPlaneKeys = {"link", "point", "normal"};
 const Names kRollingKeys = {"name",  "link", "centre", "axis", "radius",       "tube_radius",
                             "plane", "side", "normal", "slip", "roller_angle", "friction"};
 const Names kCylinderKeys = {"name", "link_a", "at_a", "link_b", "at_b", "pulls_only"};
-const Names kContactKeys = {"name", "link", "at", "plane", "slip", "friction", "closed"};
+const Names kContactKeys = {"name", "link", "at", "plane", "slip", "friction", "closed", "gap"};
+const Names kGapKeys = {"close", "open"};
 const Names kKnifeEdgeKeys = {"name", "link", "at", "direction", "plane", "normal"};
 
 // In the order of Slip.
@@ -120,6 +121,18 @@ Closure readKnifeEdge(const YAML::Node& node, const std::string& where) {
   return closure;
 }
 
+Gap readGap(const YAML::Node& node, const std::string& where) {
+  Gap gap;
+  bool has_close = false, has_open = false;
+  readMap(node, where, kGapKeys, [&](const auto& key, const auto& value, const auto& path) {
+    (key == "close" ? gap.close : gap.open) = readNumber(value, path);
+    (key == "close" ? has_close : has_open) = true;
+  });
+  requireKey(has_close, where, "close");
+  requireKey(has_open, where, "open");
+  return gap;
+}
+
 Closure readContact(const YAML::Node& node, const std::string& where) {
   Closure closure;
   closure.type = ClosureType::kContact;
@@ -129,6 +142,7 @@ Closure readContact(const YAML::Node& node, const std::string& where) {
     if (key == "slip" && readWord(value, path, kSlipsOfPoints) == 1) {
       closure.touch.slip = Slip::kAll;
     }
+    if (key == "gap") closure.touch.gap = readGap(value, path);
     if (key == "closed") closure.touch.closed = readBool(value, path);
   });
   requireCommon(closure, where);

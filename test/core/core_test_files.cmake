@@ -27,6 +27,9 @@ set(core_test_files
   test/core/compound_joints_test.cpp
   test/core/condition_examples_test.cpp
   test/core/coupled_examples_test.cpp
+  test/core/cone_program_test.cpp
+  test/core/contact_gaps_test.cpp
+  test/core/contact_intervals_test.cpp
   test/core/contacts_test.cpp
   test/core/cylinder_test.cpp
   test/core/couplings_random_test.cpp

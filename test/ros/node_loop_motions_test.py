@@ -171,8 +171,12 @@ class LoopMotions(LoopTest):
                 ns - EPOCH, ['crank_joint'], (motion.q, motion.qd, motion.qdd)))
         self.trajectories.publish(message)
         for ns, result in zip(times, self.recorders['effort'].wait(len(times))):
-            self.assertEqual(result.name, ['residual.motion.crank_joint'] + JOINTS[1:])
-            self.assertClose(result.effort, [at(ns).torque, 0, 0], CLOSED_FORM, 'residual')
+            self.assertEqual(result.name, ['residual.motion.crank_joint'] + JOINTS[1:] +
+                             ['crank_joint'])
+            self.assertClose(result.effort, [at(ns).torque, 0, 0, 0], CLOSED_FORM, 'residual')
+            # tf follows it by its own name.
+            self.assertEqual([result.position[3], result.velocity[3]],
+                             [result.position[0], result.velocity[0]])
         filled = self.recorders['joint_trajectory'].wait(1)[0]
         self.assertEqual([list(point.effort) for point in filled.points], [[0]] * len(times))
 

@@ -1,0 +1,123 @@
+#!/usr/bin/python3
+"""Intervals of forces of tables on many legs against SciPy's linear programs on balances of their own."""
+import csv
+import math
+import pathlib
+import random
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+from scipy.optimize import linprog
+
+from simulated_recordings import tool
+
+SIDES = 256  # of the pyramid that a cone counts as, see doc/conditions.md
+GRAVITY = 9.81
+TOLERANCE = 1e-7  # of the largest force; HiGHS meets its constraints to 1e-7
+TABLE = '''<robot name="table"><link name="floor"/><link name="top"><inertial>
+<origin xyz="{x} {y} 0"/><mass value="{mass}"/>
+<inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="stand" type="floating"><parent link="floor"/><child link="top"/></joint></robot>'''
+
+
+class Table:
+    """Feet anywhere on the floor, each with its friction, and a push that the table stands against."""
+
+    def __init__(self, seed):
+        r = random.Random(seed)
+        self.mass = r.uniform(1, 50)
+        self.centre = [r.uniform(-0.45, 0.45), r.uniform(-0.45, 0.45)]
+        self.height = r.uniform(0.3, 1.2)
+        self.feet = [[x + r.uniform(-0.1, 0.1), y + r.uniform(-0.1, 0.1)]
+                     for x, y in r.sample([(-0.4, -0.4), (-0.4, 0.4), (0.4, -0.4), (0.4, 0.4), (0, 0)],
+                                          r.choice([4, 4, 5]))]
+        self.friction = [r.choice([0.1, 0.3, 0.6, 1.0]) for _ in self.feet]
+        self.push = [r.choice([0, 0.1, 0.3]) * self.mass * GRAVITY * r.uniform(-1, 1) for _ in range(2)]
+
+    def files(self, folder):
+        (folder / 'r.urdf').write_text(TABLE.format(x=self.centre[0], y=self.centre[1], mass=self.mass))
+        contacts = ''.join(
+            f'  - {{name: foot_{i}, link: top, at: [{x}, {y}, {-self.height}], friction: {mu},'
+            ' plane: {link: floor}}\n'
+            for i, ((x, y), mu) in enumerate(zip(self.feet, self.friction)))
+        (folder / 's.yaml').write_text(
+            'actuated: []\nmotion: static\ncontact_intervals: true\nassembly: [{name: stand.z, position: %r}]\n'
+            'applied_wrenches: [{link: top, force: [%r, %r, 0]}]\ncontacts:\n%s'
+            % (self.height, self.push[0], self.push[1], contacts))
+        names = ['stand.x', 'stand.y', 'stand.z']
+        head = ['time'] + [f'position.{name}' for name in names]
+        head += [f'orientation.stand.{axis}' for axis in 'xyzw']
+        cells = [0, 0, 0, self.height, 0, 0, 0, 1]
+        with open(folder / 'm.csv', 'w', newline='') as file:
+            csv.writer(file).writerows([head, cells])
+
+    def balance(self):
+        """A x = b for the forces of the feet, by component; moments about the table's origin."""
+        A = np.zeros((6, 3 * len(self.feet)))
+        for i, (x, y) in enumerate(self.feet):
+            A[:3, 3 * i:3 * i + 3] = np.eye(3)
+            A[3:, 3 * i:3 * i + 3] = [[0, self.height, y], [-self.height, 0, -x], [-y, x, 0]]
+        weight = self.mass * GRAVITY
+        b = [-self.push[0], -self.push[1], weight,
+             weight * self.centre[1], -weight * self.centre[0], 0]
+        return A, np.array(b)
+
+    def cones(self):
+        """G x <= 0."""
+        rows = []
+        for i, mu in enumerate(self.friction):
+            for side in range(SIDES):
+                row = np.zeros(3 * len(self.feet))
+                angle = 2 * math.pi * side / SIDES
+                row[3 * i:3 * i + 3] = [math.cos(angle), math.sin(angle), -mu]
+                rows.append(row)
+        return np.array(rows)
+
+    def extreme(self, objective):
+        A, b = self.balance()
+        scale = self.mass * GRAVITY
+        return linprog(objective, A_ub=self.cones(), b_ub=np.zeros(SIDES * len(self.feet)), A_eq=A,
+                       b_eq=b / scale, bounds=(None, None), method='highs'), scale
+
+
+class ContactIntervals(unittest.TestCase):
+    def test_tables_agree_with_linear_programs(self):
+        holds = fails = 0
+        worst = 0
+        for seed in range(40):
+            table = Table(seed)
+            with tempfile.TemporaryDirectory() as name:
+                folder = pathlib.Path(name)
+                table.files(folder)
+                run = subprocess.run(
+                    [tool(), '--urdf', 'r.urdf', '--scene', 's.yaml', '--motion', 'm.csv'],
+                    cwd=folder, capture_output=True, text=True)
+                self.assertEqual(run.returncode, 0, run.stderr)
+            row = next(csv.DictReader(run.stdout.splitlines()))
+            any_forces, _ = table.extreme(np.zeros(3 * len(table.feet)))
+            can = any_forces.status == 0
+            self.assertIn('can hold' if can else 'cannot hold', run.stderr, f'{seed}: {run.stderr}')
+            if not can:
+                fails += 1
+                self.assertEqual(row['lower.foot_0.fx'], '', seed)
+                continue
+            holds += 1
+            for i in range(len(table.feet)):
+                for j, axis in enumerate('xyz'):
+                    objective = np.zeros(3 * len(table.feet))
+                    objective[3 * i + j] = 1
+                    least, scale = table.extreme(objective)
+                    most, _ = table.extreme(-objective)
+                    for bound, found in ((least.fun, 'lower'), (-most.fun, 'upper')):
+                        error = abs(float(row[f'{found}.foot_{i}.f{axis}']) / scale - bound)
+                        worst = max(worst, error)
+                        self.assertLess(error, TOLERANCE, (seed, i, axis, found))
+        self.assertGreater(holds, 8)
+        self.assertGreater(fails, 8)
+        print(f'{holds} tables hold, {fails} do not; intervals agree to {worst:.1e} of the weight')
+
+
+if __name__ == '__main__':
+    unittest.main()
