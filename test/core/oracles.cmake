@@ -23,6 +23,7 @@ vwd_add_objects(core_oracles OBJECT
   test/core/four_bar.cpp
   test/core/lagrange_multipliers_oracle.cpp
   test/core/loop_geometry.cpp
+  test/core/maximal_coordinates_freedoms.cpp
   test/core/maximal_coordinates_oracle.cpp
   test/core/newton_euler_oracle.cpp)
 vwd_add_objects(stability_scenes OBJECT
@@ -35,6 +36,7 @@ vwd_add_objects(stability_scenes OBJECT
   benchmark/stability/loop_judge.cpp
   benchmark/stability/loop_scenes.cpp
   benchmark/stability/mechanism_maker.cpp
+  benchmark/stability/mixed_loops.cpp
   benchmark/stability/motion_sweeps.cpp
   benchmark/stability/structure_sweeps.cpp
   benchmark/stability/structured_loops.cpp
