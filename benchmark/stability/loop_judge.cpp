@@ -65,6 +65,7 @@ void LoopVerdict::include(const LoopVerdict& other) {
   free_motions = std::max(free_motions, other.free_motions);
   components = std::max(components, other.components);
   open = std::max(open, other.open);
+  holds += other.holds;
   if (apart == 0) worst_apart = other.worst_apart;
   apart += other.apart;
   unborne = unborne || other.unborne;
@@ -357,7 +358,9 @@ void LoopJudge::complete(const Motion& motion, double limit, RandomNumbers& rand
 
 LoopVerdict LoopJudge::judgeForces(const Motion& motion) {
   const LoopComponents computed = compute(motion);
-  return compare(motion, computed, determinacy());
+  LoopVerdict verdict = compare(motion, computed, determinacy());
+  if (!dynamics_.results().loops.holds.empty()) compareHolds(exactOf(motion), verdict);
+  return verdict;
 }
 
 LoopVerdict LoopJudge::judge(const Motion& motion, RandomNumbers& random) {

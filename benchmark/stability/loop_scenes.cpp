@@ -68,6 +68,7 @@ SceneVerdict judgeCase(const ClosedCase& loops) {
   verdict.unclear = !found.clear;
   verdict.components = found.components;
   verdict.open = found.open;
+  verdict.holds = found.holds;
   verdict.condition = found.condition;
   if (found.clear) verdict.over_bound = found.errors.over_bound;
   if (found.apart > 0) {
@@ -108,6 +109,7 @@ void SceneVerdict::include(const SceneVerdict& other) {
   unclear += other.unclear;
   components += other.components;
   open += other.open;
+  holds += other.holds;
   over_bound = std::max(over_bound, other.over_bound);
   condition = std::max(condition, other.condition);
   wrong.insert(wrong.end(), other.wrong.begin(), other.wrong.end());

@@ -24,6 +24,7 @@ struct SceneVerdict {
   int unclear = 0;   ///< of these the rank is too close to its tolerance to say what is right
   int components = 0;              ///< number of efforts and components of reactions
   int open = 0;                    ///< of these, flagged as not determined
+  int holds = 0;                   ///< forces that can act one way only
   double over_bound = 0;           ///< largest error of what is determined, over its bound
   double condition = 0;            ///< largest
   std::vector<std::string> wrong;  ///< a line for each scene that is not right

@@ -85,6 +85,7 @@ int run(const Options& options) {
   std::printf("%d whose rank is too close to the tolerance to judge\n", sum.unclear);
   std::printf("%d components, %d of them not determined; largest error %.3g of the bound\n",
               sum.components, sum.open, sum.over_bound);
+  if (options.mixed) std::printf("%d forces that can act one way only\n", sum.holds);
   std::printf("largest condition %.3g\n%zu wrong\n", sum.condition, sum.wrong.size());
   return sum.wrong.empty() ? 0 : 1;
 }

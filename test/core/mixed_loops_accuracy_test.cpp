@@ -29,6 +29,7 @@ TEST(MixedLoopsAccuracy, AllKindsOfConditionsAgreeWithTheEquationsOfAllJoints) {
   EXPECT_GE(sum.free, 30);
   EXPECT_GE(sum.open, 10000);
   EXPECT_GE(sum.components - sum.open, 10000);
+  EXPECT_GE(sum.holds, 100);
   EXPECT_LE(sum.unclear, 20);
 }
 

@@ -34,6 +34,7 @@ vwd_add_objects(stability_scenes OBJECT
   benchmark/stability/held_sweeps.cpp
   benchmark/stability/linkage_sweeps.cpp
   benchmark/stability/loop_judge.cpp
+  benchmark/stability/loop_judge_holds.cpp
   benchmark/stability/loop_scenes.cpp
   benchmark/stability/mechanism_maker.cpp
   benchmark/stability/mixed_loops.cpp
@@ -41,4 +42,5 @@ vwd_add_objects(stability_scenes OBJECT
   benchmark/stability/structure_sweeps.cpp
   benchmark/stability/structured_loops.cpp
   benchmark/stability/sweeps.cpp
+  benchmark/stability/touch_sweeps.cpp
   benchmark/stability/worst_certificates.cpp)
