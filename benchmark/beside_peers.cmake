@@ -9,6 +9,7 @@ set(peers kdl)
 add_library(benchmark_contenders STATIC
   ../test/core/lagrange_multipliers_oracle.cpp  # without the checks of tests, as it is timed
   ../test/core/loop_geometry.cpp
+  ../test/core/maximal_coordinates_freedoms.cpp
   ../test/core/maximal_coordinates_oracle.cpp
   ../test/core/newton_euler_oracle.cpp
   contenders/built_library.cpp

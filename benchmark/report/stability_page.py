@@ -63,6 +63,12 @@ TITLES = {  # scene in the CSV: for readers
     'loop_parallel_axes': 'Spherical four-bar whose axes become parallel',
     'loop_gimbals': 'Gimbals whose axes become parallel',
     'loop_ladder': 'Ladder of four-bars',
+    'loop_small_wheels': 'Vehicle on two small wheels',
+    'loop_far_centre': 'Steered vehicle whose centre of turning moves to infinity',
+    'loop_toe_in': 'Wheels on one axle that become parallel',
+    'loop_flat_triangle': 'Plate on three contacts that come to lie in a line',
+    'loop_small_rack': 'Rack and small pinion',
+    'loop_flat_screw': 'Screw whose pitch goes to zero',
 }
 
 

@@ -65,6 +65,7 @@ void LoopVerdict::include(const LoopVerdict& other) {
   free_motions = std::max(free_motions, other.free_motions);
   components = std::max(components, other.components);
   open = std::max(open, other.open);
+  holds += other.holds;
   if (apart == 0) worst_apart = other.worst_apart;
   apart += other.apart;
   unborne = unborne || other.unborne;
@@ -86,6 +87,17 @@ LoopJudge::LoopJudge(const Mechanism& mechanism, const Scene& scene)
   if (size_ == 0) size_ = 1;
   const ErrorBound bound(mechanism_, withoutLoops(scene_));
   depth_ = *std::max_element(bound.depths().begin(), bound.depths().end());
+  if (scene_.free_motion) countResidualsAsActuated();
+}
+
+Eigen::Index LoopJudge::residuals() const {
+  return std::count(dynamics_.residual().begin(), dynamics_.residual().end(), true);
+}
+
+void LoopJudge::countResidualsAsActuated() {
+  for (std::size_t i = 0; i < dynamics_.residual().size(); ++i) {
+    if (dynamics_.residual()[i]) scene_.actuated->push_back(mechanism_.coordinateNames()[i]);
+  }
 }
 
 LoopComponents LoopJudge::compute(const Motion& motion) {
@@ -139,6 +151,12 @@ LoopJudge::Exact LoopJudge::exactOf(const Motion& motion) const {
     const auto effort = oracle.closureEffort(name);
     put({effort.value, effort.freedom, !slides(name)});
   }
+  for (std::size_t c = 0; c < scene_.couplings.size(); ++c) {
+    const std::string& first = scene_.couplings[c].terms.front().name;
+    const auto effort = oracle.couplingEffort(c);
+    const bool turns = mechanism_.joint(mechanism_.jointIndex(first)).type != JointType::kPrismatic;
+    put({effort.value, effort.freedom, turns});
+  }
   exact.length = oracle.length();
   exact.redundancy = oracle.redundancy();
   exact.free_motions = oracle.freeMotions();
@@ -150,7 +168,8 @@ LoopJudge::Exact LoopJudge::exactOf(const Motion& motion) const {
 
 bool LoopJudge::slides(const std::string& closure) const {
   return std::any_of(scene_.closures.begin(), scene_.closures.end(), [&](const Closure& other) {
-    return other.name == closure && other.type == ClosureType::kPrismatic;
+    return other.name == closure &&
+           (other.type == ClosureType::kPrismatic || other.type == ClosureType::kCylinder);
   });
 }
 
@@ -158,11 +177,10 @@ std::string LoopJudge::nameOf(std::size_t component) const {
   constexpr std::array<const char*, 6> kComponents = {"fx", "fy", "fz", "tx", "ty", "tz"};
   const std::size_t wrench = component / 6, in_child_axes = wrench % 2;
   if (wrench >= 2 * names_.size()) {
-    const std::size_t effort = component - 12 * names_.size();
-    const std::size_t coordinates = mechanism_.coordinates().size();
-    return "effort of " + (effort < coordinates
-                               ? mechanism_.coordinateNames()[effort]
-                               : dynamics_.actuatedClosures()[effort - coordinates]);
+    std::vector<std::string> efforts = mechanism_.coordinateNames();
+    for (const std::string& name : dynamics_.actuatedClosures()) efforts.push_back(name);
+    for (const Coupling& coupling : scene_.couplings) efforts.push_back(coupling.name);
+    return "effort of " + efforts.at(component - 12 * names_.size());
   }
   return kComponents[component % 6] +
          std::string(in_child_axes ? " in child axes of " : " in root axes of ") +
@@ -340,7 +358,9 @@ void LoopJudge::complete(const Motion& motion, double limit, RandomNumbers& rand
 
 LoopVerdict LoopJudge::judgeForces(const Motion& motion) {
   const LoopComponents computed = compute(motion);
-  return compare(motion, computed, determinacy());
+  LoopVerdict verdict = compare(motion, computed, determinacy());
+  if (!dynamics_.results().loops.holds.empty()) compareHolds(exactOf(motion), verdict);
+  return verdict;
 }
 
 LoopVerdict LoopJudge::judge(const Motion& motion, RandomNumbers& random) {

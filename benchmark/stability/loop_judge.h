@@ -4,6 +4,7 @@
 
 #ifdef VWD_HAS_REAL113
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,7 @@ struct ExactComponent {
 };
 
 /// The components of the reactions of ground, joints and closures, of each in root axes and in axes
-/// of the child, then all efforts.
+/// of the child, then all efforts, those of couplings last.
 using LoopComponents = std::vector<LoopComponent>;
 using ExactComponents = std::vector<ExactComponent>;
 
@@ -54,7 +55,9 @@ using ExactComponents = std::vector<ExactComponent>;
 /// counts and flags are judged. Everything exists where nothing moves freely, and in singular
 /// positions what is determined of a load that is borne; where a load is clearly not borne,
 /// something does not exist. Within a factor of 100 of the tolerances of rank and flags either
-/// answer is right.
+/// answer is right. What can only press or pull is judged by the exact forces, unless these are
+/// within 1e-6 of the largest from doing so. Coordinates whose efforts are residuals of a free
+/// motion count as actuated.
 class LoopJudge {
  public:
   LoopJudge(const Mechanism& mechanism, const Scene& scene);
@@ -68,6 +71,8 @@ class LoopJudge {
   // The parts of judge(), between which tests can put errors.
   LoopComponents compute(const Motion& motion);
   const Determinacy& determinacy() const { return dynamics_.determinacy(); }
+  /// Number of coordinates whose efforts are residuals of a free motion.
+  Eigen::Index residuals() const;
   LoopVerdict compare(const Motion& motion, const LoopComponents& computed,
                       const Determinacy& determinacy) const;
   /// By how much exact results move with the motion, relative to the largest of their kind.
@@ -91,9 +96,13 @@ class LoopJudge {
   long double lossOf(const Exact& exact, const Determinacy& found) const;
   void compareCountsAndFlags(const Exact& exact, const LoopComponents& computed,
                              const Determinacy& found, LoopVerdict& verdict) const;
+  void compareHolds(const Exact& exact, LoopVerdict& verdict) const;
+  std::optional<Hold> holdOf(const Closure& closure, const Exact& exact) const;
   void compareValues(const Exact& exact, const LoopComponents& computed, long double scale,
                      long double loss, LoopVerdict& verdict) const;
   void complete(const Motion& motion, double limit, RandomNumbers& random, LoopVerdict& verdict);
+
+  void countResidualsAsActuated();
 
   Mechanism mechanism_;
   Scene scene_;

@@ -20,6 +20,7 @@ struct LoopVerdict {
   int free_motions = 0;
   int components = 0;       ///< number of efforts and components of reactions
   int open = 0;             ///< number of components that are flagged as not determined
+  int holds = 0;            ///< number of forces that can act one way only and were judged
   int apart = 0;            ///< number of counts and flags that differ from the exact ones
   std::string worst_apart;  ///< name of one that differs
   double residual = 0;      ///< residual of completed motions over its limit

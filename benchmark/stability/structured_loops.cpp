@@ -17,22 +17,6 @@ constexpr int kTries = 50;  // for two links between which something moves
 const std::array<const char*, 5> kKinds = {"any axes", "parallel axes", "axes through one point",
                                            "axes in one line", "axes along the root's"};
 
-Matrix3l turn(int axis, long double angle) {
-  return Eigen::AngleAxis<long double>(angle, Vector3l::Unit(axis)).toRotationMatrix();
-}
-
-Matrix3l rotationOf(const Eigen::Vector3d& rpy) {
-  return turn(2, rpy.z()) * turn(1, rpy.y()) * turn(0, rpy.x());
-}
-
-// Roll is found after yaw is turned back, as near a pitch of a right angle each alone is uncertain.
-Eigen::Vector3d rpyOf(const Matrix3l& R) {
-  const long double yaw = std::atan2(R(1, 0), R(0, 0));
-  const Matrix3l back = turn(2, -yaw) * R;
-  return Vector3l(std::atan2(-back(1, 2), back(1, 1)), std::atan2(-R(2, 0), back(0, 0)), yaw)
-      .cast<double>();
-}
-
 // The coordinates that move a link.
 std::set<int> moversOf(const Mechanism& mechanism, int link) {
   std::set<int> movers;
@@ -45,6 +29,33 @@ std::set<int> moversOf(const Mechanism& mechanism, int link) {
 }
 
 }  // namespace
+
+Matrix3l StructuredLoops::turn(int axis, long double angle) {
+  return Eigen::AngleAxis<long double>(angle, Vector3l::Unit(axis)).toRotationMatrix();
+}
+
+Matrix3l StructuredLoops::rotationOf(const Eigen::Vector3d& rpy) {
+  return turn(2, rpy.z()) * turn(1, rpy.y()) * turn(0, rpy.x());
+}
+
+// Roll is found after yaw is turned back, as near a pitch of a right angle each alone is uncertain.
+Eigen::Vector3d StructuredLoops::rpyOf(const Matrix3l& R) {
+  const long double yaw = std::atan2(R(1, 0), R(0, 0));
+  const Matrix3l back = turn(2, -yaw) * R;
+  return Vector3l(std::atan2(-back(1, 2), back(1, 1)), std::atan2(-R(2, 0), back(0, 0)), yaw)
+      .cast<double>();
+}
+
+std::optional<std::pair<int, int>> StructuredLoops::linksThatMove(const Mechanism& mechanism) {
+  const int links = static_cast<int>(mechanism.links().size());
+  int parent = 0, child = 0;
+  for (int i = 0; i < kTries && moversOf(mechanism, parent) == moversOf(mechanism, child); ++i) {
+    parent = pick(links);
+    child = pick(links);
+  }
+  if (moversOf(mechanism, parent) == moversOf(mechanism, child)) return std::nullopt;
+  return std::make_pair(parent, child);
+}
 
 int StructuredLoops::pick(int count) {
   return std::min(count - 1, static_cast<int>(random_.uniform(0, count)));
@@ -92,6 +103,10 @@ void StructuredLoops::chooseStyle() {
   spread_of_sizes_ = random_.chance(0.2) ? random_.uniform(0, 1) : 0;
   special_positions_ = random_.chance(0.5);
   beside_ = random_.chance(0.5) ? std::pow(10, random_.uniform(-14, -1)) : 0;
+}
+
+std::string StructuredLoops::wayOfAxes() const {
+  return kKinds[static_cast<std::size_t>(axes_)];
 }
 
 Link StructuredLoops::link(int index) {
@@ -257,13 +272,9 @@ void StructuredLoops::freeMotion(ClosureType type, Vector3l& p, Matrix3l& R) {
 
 std::optional<Closure> StructuredLoops::closure(const Mechanism& mechanism,
                                                 const NewtonEulerOracle& bodies, int index) {
-  const int links = static_cast<int>(mechanism.links().size());
-  int parent = 0, child = 0;
-  for (int i = 0; i < kTries && moversOf(mechanism, parent) == moversOf(mechanism, child); ++i) {
-    parent = pick(links);
-    child = pick(links);
-  }
-  if (moversOf(mechanism, parent) == moversOf(mechanism, child)) return std::nullopt;
+  const std::optional<std::pair<int, int>> links = linksThatMove(mechanism);
+  if (!links) return std::nullopt;
+  const auto [parent, child] = *links;
   Closure closure;
   closure.name = "closure_" + std::to_string(index);
   closure.type = static_cast<ClosureType>(pick(kTypes));
@@ -370,8 +381,7 @@ ClosedCase StructuredLoops::next() {
     for (std::size_t i = 0; i < tree.coordinates().size(); ++i) {
       scene.assembly.push_back({tree.coordinateNames()[i], state.q[static_cast<Eigen::Index>(i)]});
     }
-    return {std::move(tree), std::move(scene), std::move(state),
-            kKinds[static_cast<std::size_t>(axes_)]};
+    return {std::move(tree), std::move(scene), std::move(state), wayOfAxes()};
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "description.h"
@@ -32,13 +33,19 @@ class StructuredLoops {
 
   ClosedCase next();
 
- private:
+ protected:
   enum class Axes { kAny, kParallel, kThroughOnePoint, kInOneLine, kAlongRoot };
 
   struct Placed {
     Matrix3l R;
     Vector3l o;
   };
+
+  static Matrix3l turn(int axis, long double angle);
+  static Matrix3l rotationOf(const Eigen::Vector3d& rpy);
+  static Eigen::Vector3d rpyOf(const Matrix3l& R);
+  /// Two links between which something moves, at random; none when there are none.
+  std::optional<std::pair<int, int>> linksThatMove(const Mechanism& mechanism);
 
   int pick(int count);
   Vector3l vector(double size);
@@ -48,6 +55,7 @@ class StructuredLoops {
   Vector3l alongAxis();
 
   void chooseStyle();
+  std::string wayOfAxes() const;  ///< how axes lie, in words
   Link link(int index);
   Joint joint(int index);
   Mechanism mechanism();

@@ -13,7 +13,8 @@
 namespace virtual_work_dynamics {
 namespace {
 
-const char kHelp[] = R"(Usage: structured_loops [--scenes N] [--seed S] [--first I] [--threads N]
+const char kHelp[] =
+    R"(Usage: structured_loops [--scenes N] [--seed S] [--first I] [--threads N] [--mixed]
 
 Computes random mechanisms with closed loops in which much is special (frames of closures on axes of
 joints, parallel and intersecting axes, copies of closures, sizes from 1e-6 to 1e6 m, masses from
@@ -24,6 +25,8 @@ the sums. Errors are judged as by `stability`: over 4 (L + n) eps condition S.
   --seed     of the scenes (1)
   --first    number of the first scene, so that one that is wrong can be repeated alone (1)
   --threads  (as many as there are processors)
+  --mixed    all kinds of conditions in one mechanism: wheels, blades, contacts, cylinders, gears,
+             racks and couplings, too, with roots that move, payloads and free motions
 Exit status: 0 all right, 1 some are wrong or something failed, 2 wrong usage.
 )";
 
@@ -31,6 +34,7 @@ constexpr std::size_t kMostLines = 50;
 
 struct Options {
   int scenes = 1000, seed = 1, first = 1, threads = 0;
+  bool mixed = false;
 };
 
 SceneVerdict judgeAll(const Options& options) {
@@ -45,7 +49,8 @@ SceneVerdict judgeAll(const Options& options) {
       const std::size_t index = static_cast<std::size_t>(options.first) + i;
       SceneVerdict verdict;
       try {
-        verdict = judgeScene(static_cast<std::uint32_t>(options.seed), index);
+        const auto seed = static_cast<std::uint32_t>(options.seed);
+        verdict = options.mixed ? judgeMixedScene(seed, index) : judgeScene(seed, index);
       } catch (const std::exception& error) {
         verdict.scenes = 1;
         verdict.wrong.push_back("scene " + std::to_string(index) + ": " + error.what());
@@ -73,12 +78,14 @@ int run(const Options& options) {
     std::printf("%s\n", sum.wrong[i].c_str());
   }
   std::printf("%d scenes: %d refused, as too few joints are actuated\n", sum.scenes, sum.refused);
+  if (options.mixed) std::printf("%d that move freely, with residuals\n", sum.free);
   std::printf("%d not judged, as all loops are below 1e-4 of the mechanism\n", sum.small);
   std::printf("%d in singular positions, of %d of which nothing bears the load\n", sum.singular,
               sum.unborne);
   std::printf("%d whose rank is too close to the tolerance to judge\n", sum.unclear);
   std::printf("%d components, %d of them not determined; largest error %.3g of the bound\n",
               sum.components, sum.open, sum.over_bound);
+  if (options.mixed) std::printf("%d forces that can act one way only\n", sum.holds);
   std::printf("largest condition %.3g\n%zu wrong\n", sum.condition, sum.wrong.size());
   return sum.wrong.empty() ? 0 : 1;
 }
@@ -91,6 +98,7 @@ int main(int argc, char** argv) {
   Options options;
   return runProgram("structured_loops", kHelp, argc, argv,
                     {count("--scenes", 8, options.scenes), count("--seed", 8, options.seed),
-                     count("--first", 8, options.first), count("--threads", 3, options.threads)},
+                     count("--first", 8, options.first), count("--threads", 3, options.threads),
+                     flag("--mixed", options.mixed)},
                     [&] { return run(options); });
 }

@@ -56,7 +56,7 @@ std::vector<Sweep> treeSweeps() {
 }
 
 std::vector<Sweep> loopSweeps() {
-  return joined({fourBarSweeps(), heldSweeps(), linkageSweeps()});
+  return joined({fourBarSweeps(), heldSweeps(), linkageSweeps(), touchSweeps()});
 }
 
 }  // namespace virtual_work_dynamics

@@ -43,6 +43,8 @@ std::vector<Sweep> fourBarSweeps();
 std::vector<Sweep> heldSweeps();
 /// Sweeps of closed loops in space, and of many loops.
 std::vector<Sweep> linkageSweeps();
+/// Sweeps of wheels, contacts, teeth and couplings.
+std::vector<Sweep> touchSweeps();
 
 /// All sweeps of trees, in the order of the table.
 std::vector<Sweep> treeSweeps();

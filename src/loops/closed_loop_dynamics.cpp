@@ -14,6 +14,9 @@ namespace virtual_work_dynamics {
 
 namespace {
 
+// Of their distance from the root, the least that is the size of what couplings tie.
+constexpr double kLeastOfReach = 1e-4;
+
 Request openTreeRequest(const Mechanism& mechanism, const Request& wanted) {
   Request request = treeRequest(mechanism, wanted);
   request.efforts = true;
@@ -32,6 +35,26 @@ Request weighedRequest(const Mechanism& mechanism, const std::vector<LoopGroup>&
     }
   }
   return request;
+}
+
+// Couplings alone have no frames that say how large their loops are: the joints that they tie do.
+double lengthOf(const Mechanism& mechanism, const std::vector<ResolvedCoupling>& couplings,
+                const std::vector<LoopGroup>& groups, const LoopKinematics& kinematics) {
+  if (kinematics.closures() > 0) return loopLength(groups, kinematics);
+  std::vector<Eigen::Vector3d> origins;
+  for (const ResolvedCoupling& coupling : couplings) {
+    for (const ResolvedCoupling::Term& term : coupling.terms) {
+      const int joint = mechanism.coordinates()[static_cast<std::size_t>(term.coordinate)];
+      origins.push_back(kinematics.originOf(joint + 1));
+    }
+  }
+  double longest = 0, farthest = 0;
+  for (const Eigen::Vector3d& a : origins) {
+    farthest = std::max(farthest, a.norm());
+    for (const Eigen::Vector3d& b : origins) longest = std::max(longest, (a - b).norm());
+  }
+  if (longest > kLeastOfReach * farthest) return longest;
+  return farthest > 0 ? farthest : 1;
 }
 
 }  // namespace
@@ -94,10 +117,11 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& of, const Scene& scene, const Re
 // The final size of the loops is known once they are closed.
 void ClosedLoopDynamics::Impl::close(const Scene& scene) {
   kinematics.setPosition(loops.start);
-  const double start_length = loops.length.value_or(loopLength(groups, kinematics));
+  const double start_length =
+      loops.length.value_or(lengthOf(mechanism, couplings, groups, kinematics));
   LoopCompletion completion(mechanism, kinematics, groups, loops.rank_tolerance, start_length);
   assembly = assemble(scene, loops, completion, kinematics);
-  length = loops.length.value_or(loopLength(groups, kinematics));
+  length = loops.length.value_or(lengthOf(mechanism, couplings, groups, kinematics));
   if (scene.free_motion) chooseResidual(scene);
   LoopSolvers solvers(mechanism, loops, groups, kinematics, length);
   way = kinematics.largestBent(assembly - loops.start, solvers.completion.scales());

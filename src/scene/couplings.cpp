@@ -57,8 +57,8 @@ bool turnsFreely(const Mechanism& mechanism, int joint) {
 // A sum of coordinates that is to be `offset`.
 struct Sum {
   std::map<int, long double> factors;  // by coordinate
+  std::map<int, long double> sizes;    // of the largest factor that went into each
   long double offset = 0, mimicked = 0;
-  long double size = 0;         // of the largest factor that went into it
   long double offset_size = 0;  // of the largest offset
 };
 
@@ -92,16 +92,19 @@ Sum sumOf(const Mechanism& mechanism, const Coupling& coupling, std::size_t inde
     const long double offset = static_cast<long double>(term.value) * joint.offset;
     sum.factors[joint.coordinate] += factor;
     sum.mimicked += offset;
-    sum.size = std::max(sum.size, std::abs(factor));
+    long double& size = sum.sizes[joint.coordinate];
+    size = std::max(size, std::abs(factor));
     sum.offset_size = std::max(sum.offset_size, std::abs(offset));
   }
   sum.offset -= sum.mimicked;
   return sum;
 }
 
+// Factors of different units differ in size as much as they like.
 void dropCancelled(Sum& sum) {
   for (auto it = sum.factors.begin(); it != sum.factors.end();) {
-    it = std::abs(it->second) <= kCancelled * sum.size ? sum.factors.erase(it) : std::next(it);
+    it = std::abs(it->second) <= kCancelled * sum.sizes[it->first] ? sum.factors.erase(it)
+                                                                   : std::next(it);
   }
 }
 

@@ -42,6 +42,19 @@ TEST(Couplings, GearOfChronoShafts) {
   }
 }
 
+// Factors of slides and turns have different units, so that none is small beside another.
+TEST(Couplings, FactorsCountHoweverSmallTheyAre) {
+  const double advance = 1e-13;  // m/rad
+  CoupledShafts shafts({{10, false}, {100, true}});
+  shafts.couple("screw", {{2, 1}, {1, -advance}});
+  shafts.actuate(1);
+  ClosedLoopResults found(shafts.mechanism(), shafts.scene);
+  Motion motion(2);
+  motion.qdd << 0, 1;
+  found.dynamics.compute(motion);
+  EXPECT_NEAR(found.dynamics.effort()[0], 100 * advance, 100 * advance * kClosedForm);
+}
+
 // The reducer of the same file, t0 = -50 / 100, truss C fixed: (1 - t0) w_B - w_A + t0 w_C = 0.
 TEST(Couplings, PlanetaryReducerOfChronoShafts) {
   const double t0 = -0.5, torque = 10;

@@ -18,14 +18,16 @@ PlacedFrame::PlacedFrame(const Mechanism& mechanism, const NewtonEulerOracle& bo
 
 SpringForce::SpringForce(const Mechanism& mechanism, const NewtonEulerOracle& bodies,
                          const PointSpring& spring) {
-  const auto point = [&](const std::string& name, const Eigen::Vector3d& at) {
+  const auto end = [&](const std::string& name, const Eigen::Vector3d& at, Vector3l& point) {
     const int link = mechanism.linkIndex(name);
-    return Vector3l(bodies.origin(link) + bodies.orientation(link) * at.cast<long double>());
+    const Vector3l r = bodies.orientation(link) * at.cast<long double>();
+    point = bodies.origin(link) + r;
+    return Vector3l(bodies.originVelocity(link) + bodies.angularVelocity(link).cross(r));
   };
-  a = point(spring.link_a, spring.at_a);
-  b = point(spring.link_b, spring.at_b);
-  const Vector3l r = b - a;
-  force_on_a = spring.stiffness * (r.norm() - spring.rest_length) * r.normalized();
+  const Vector3l v_a = end(spring.link_a, spring.at_a, a), v_b = end(spring.link_b, spring.at_b, b);
+  const Vector3l r = b - a, along = r.normalized();
+  const long double longer = r.norm() - spring.rest_length, faster = along.dot(v_b - v_a);
+  force_on_a = (spring.stiffness * longer + spring.damping * faster) * along;
 }
 
 }  // namespace virtual_work_dynamics

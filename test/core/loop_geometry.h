@@ -5,6 +5,15 @@
 
 namespace virtual_work_dynamics {
 
+/// Whether a closure touches in a point, or with teeth.
+inline bool isTouch(const Closure& closure) {
+  return closure.type == ClosureType::kRolling || closure.type == ClosureType::kKnifeEdge ||
+         closure.type == ClosureType::kContact;
+}
+inline bool isMesh(const Closure& closure) {
+  return closure.type == ClosureType::kGear || closure.type == ClosureType::kRack;
+}
+
 /// The pose of a frame on a link in the root link, in long double.
 struct PlacedFrame {
   Matrix3l R;

@@ -4,18 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tooth_geometry.h"
 #include "touch_geometry.h"
 
 namespace virtual_work_dynamics {
-
-namespace {
-
-bool touchesInAPoint(const Closure& closure) {
-  return closure.type == ClosureType::kRolling || closure.type == ClosureType::kKnifeEdge ||
-         closure.type == ClosureType::kContact;
-}
-
-}  // namespace
 
 template <typename Real>
 MaximalCoordinates<Real>::MaximalCoordinates(const Mechanism& mechanism, const Scene& scene,
@@ -24,33 +16,64 @@ MaximalCoordinates<Real>::MaximalCoordinates(const Mechanism& mechanism, const S
       scene_(scene),
       bodies_(mechanism, withoutLoops(scene), motion),
       pivot_tolerance_(pivot_tolerance) {
-  for (std::size_t k = 0; k < mechanism.joints().size(); ++k) {
-    const int child = mechanism.joints()[k].child_link;
-    cuts_.push_back({mechanism.joints()[k].name, mechanism.joints()[k].parent_link, child,
-                     bodies_.origin(child), bodies_.orientation(child)});
+  place();
+  other_flank_.assign(scene.closures.size(), false);
+  setUp(motion);
+  if (turnsFlanks()) setUp(motion);
+}
+
+template <typename Real>
+void MaximalCoordinates<Real>::place() {
+  for (std::size_t k = 0; k < mechanism_.joints().size(); ++k) {
+    const int child = mechanism_.joints()[k].child_link;
+    const Vector3l& o = bodies_.origin(child);
+    cuts_.push_back({mechanism_.joints()[k].name, mechanism_.joints()[k].parent_link, child, o,
+                     bodies_.orientation(child), o});
   }
-  cuts_.push_back({kGround, -1, 0, bodies_.origin(0), bodies_.orientation(0)});
-  for (const Closure& closure : scene.closures) {
-    const PlacedFrame frame(mechanism, bodies_, closure.child);
-    Cut cut{closure.name, mechanism.linkIndex(closure.parent.link),
-            mechanism.linkIndex(closure.child.link), frame.o, frame.R};
-    if (touchesInAPoint(closure)) {
-      const PlacedTouch touch(mechanism, bodies_, closure);
-      cut.o = touch.o;
+  const Vector3l& root = bodies_.origin(0);
+  cuts_.push_back({kGround, -1, 0, root, bodies_.orientation(0), root});
+  for (const Closure& closure : scene_.closures) {
+    const PlacedFrame frame(mechanism_, bodies_, closure.child);
+    Cut cut{closure.name,
+            mechanism_.linkIndex(closure.parent.link),
+            mechanism_.linkIndex(closure.child.link),
+            frame.o,
+            frame.R,
+            frame.o};
+    if (isTouch(closure)) {
+      const PlacedTouch touch(mechanism_, bodies_, closure);
+      cut.o = cut.reported = touch.o;
       cut.R = touch.R;
     }
+    if (isMesh(closure)) cut.o = PlacedTeeth(mechanism_, bodies_, closure).o;
     cuts_.push_back(cut);
   }
-  for (const Cut& cut : cuts_) length_ = std::max(length_, (cut.o - bodies_.origin(0)).norm());
-  for (std::size_t i = 0; i < mechanism.links().size(); ++i) {
-    length_ =
-        std::max(length_, (bodies_.centreOfMass(static_cast<int>(i)) - bodies_.origin(0)).norm());
+  for (const Cut& cut : cuts_) length_ = std::max(length_, (cut.o - root).norm());
+  for (std::size_t i = 0; i < mechanism_.links().size(); ++i) {
+    length_ = std::max(length_, (bodies_.centreOfMass(static_cast<int>(i)) - root).norm());
   }
   if (length_ == 0) length_ = 1;
+}
+
+template <typename Real>
+void MaximalCoordinates<Real>::setUp(const Motion& motion) {
   addBalances();
-  for (std::size_t c = 0; c < scene.closures.size(); ++c) addFreeDirections(c);
+  for (std::size_t c = 0; c < scene_.closures.size(); ++c) addFreeDirections(c);
   addPassiveCoordinates(motion);
   solve();
+}
+
+template <typename Real>
+bool MaximalCoordinates<Real>::turnsFlanks() {
+  bool turns = false;
+  for (std::size_t c = 0; c < scene_.closures.size(); ++c) {
+    if (!isMesh(scene_.closures[c])) continue;
+    const PlacedTeeth teeth(mechanism_, bodies_, scene_.closures[c]);
+    const Eigen::Index force = at(mechanism_.joints().size() + 1 + c);
+    if (x_.template segment<3>(force).dot(teeth.tangent.template cast<Real>()) >= 0) continue;
+    other_flank_[c] = turns = true;
+  }
+  return turns;
 }
 
 template <typename Real>
@@ -78,7 +101,15 @@ Real MaximalCoordinates<Real>::unborne() const {
 template <typename Real>
 typename MaximalCoordinates<Real>::Reaction MaximalCoordinates<Real>::childAxes(
     const std::string& name) const {
-  return reaction(name, cuts_[indexOf(name)].R.transpose());
+  const Cut& cut = cuts_[indexOf(name)];
+  return reaction(name, cut.R.transpose(), cut.o - cut.reported);
+}
+
+template <typename Real>
+typename MaximalCoordinates<Real>::Reaction MaximalCoordinates<Real>::rootAxes(
+    const std::string& name) const {
+  const Cut& cut = cuts_[indexOf(name)];
+  return reaction(name, bodies_.orientation(0).transpose(), cut.o - cut.reported);
 }
 
 template <typename Real>
@@ -125,9 +156,16 @@ typename MaximalCoordinates<Real>::Effort MaximalCoordinates<Real>::closureEffor
 }
 
 template <typename Real>
+typename MaximalCoordinates<Real>::Effort MaximalCoordinates<Real>::couplingEffort(
+    std::size_t coupling) const {
+  return effort(Vector::Unit(G_.cols(), columnOf(coupling)) * static_cast<Real>(unitOf(coupling)),
+                0);
+}
+
+template <typename Real>
 Real MaximalCoordinates<Real>::violationBy(
     const std::function<Wrench(const std::string&)>& wrench_of) const {
-  Vector x(G_.cols());
+  Vector x = Vector::Zero(G_.cols());
   for (std::size_t cut = 0; cut < cuts_.size(); ++cut) {
     const Wrench wrench = wrench_of(cuts_[cut].name);
     x.template segment<3>(at(cut)) = wrench.force.cast<Real>();
@@ -140,6 +178,7 @@ Real MaximalCoordinates<Real>::violationBy(
 template <typename Real>
 Scene MaximalCoordinates<Real>::withoutLoops(Scene scene) {
   scene.closures.clear();
+  scene.couplings.clear();
   scene.springs.clear();
   scene.actuated.reset();
   scene.assembly.clear();
@@ -187,7 +226,7 @@ void MaximalCoordinates<Real>::addBalances() {
   rows_ = 6 * links;
   const Eigen::Index most = rows_ + at(scene_.closures.size()) +
                             static_cast<Eigen::Index>(mechanism_.coordinates().size());
-  G_.setZero(most, at(cuts_.size()));
+  G_.setZero(most, columnOf(scene_.couplings.size()));
   b_.setZero(most);
   for (std::size_t cut = 0; cut < cuts_.size(); ++cut) {
     for (const int sign : {1, -1}) {
@@ -224,97 +263,6 @@ void MaximalCoordinates<Real>::addRow(const Vector& row, Real value) {
   G_.row(rows_) = row.transpose();
   b_[rows_] = value;
   ++rows_;
-}
-
-template <typename Real>
-void MaximalCoordinates<Real>::addFree(std::size_t cut, bool moment, const Vector3l& direction) {
-  Vector row = Vector::Zero(G_.cols());
-  row.template segment<3>(at(cut) + (moment ? 3 : 0)) = direction.template cast<Real>();
-  addRow(row, 0);
-}
-
-template <typename Real>
-bool MaximalCoordinates<Real>::actuated(const std::string& name) const {
-  if (!scene_.actuated) return mechanism_.jointIndex(name) >= 0;
-  return std::count(scene_.actuated->begin(), scene_.actuated->end(), name) > 0;
-}
-
-template <typename Real>
-void MaximalCoordinates<Real>::addFreeDirections(std::size_t c) {
-  using Type = ClosureType;
-  const Closure& closure = scene_.closures[c];
-  const bool cylinder = closure.type == Type::kCylinder;
-  if (actuated(closure.name) && !cylinder) return;  // one free direction carries the effort
-  const std::size_t cut = mechanism_.joints().size() + 1 + c;
-  const PlacedFrame parent(mechanism_, bodies_, closure.parent);
-  const Matrix3l& R = cuts_[cut].R;
-  const auto slide = [&](const Vector3l& direction) { addFree(cut, false, direction); };
-  const auto turn = [&](const Vector3l& direction) { addFree(cut, true, direction); };
-  const Type type = closure.type;
-  if (type == Type::kRevolute || type == Type::kCylindrical || type == Type::kPlanar) {
-    turn(R.col(2));
-  }
-  if (type == Type::kPrismatic || type == Type::kCylindrical) slide(R.col(2));
-  if (type == Type::kPlanar) {
-    slide(R.col(0));
-    slide(R.col(1));
-  }
-  if (type == Type::kUniversal) {
-    turn(parent.R.col(2));
-    turn(R.col(0));
-  }
-  const bool touch = touchesInAPoint(closure);
-  if (type == Type::kSpherical || type == Type::kDistance || cylinder || touch) {
-    for (int i = 0; i < 3; ++i) turn(Vector3l::Unit(i));
-  }
-  if (touch) {
-    for (const Vector3l& free : PlacedTouch(mechanism_, bodies_, closure).free) slide(free);
-  }
-  if (type == Type::kDistance || cylinder) {
-    const Vector3l rod = (cuts_[cut].o - parent.o).normalized();
-    const Vector3l across = rod.unitOrthogonal();
-    slide(across);
-    slide(rod.cross(across));
-  }
-}
-
-template <typename Real>
-typename MaximalCoordinates<Real>::Vector MaximalCoordinates<Real>::effortRow(
-    int coordinate) const {
-  Vector row = Vector::Zero(G_.cols());
-  for (std::size_t k = 0; k < mechanism_.joints().size(); ++k) {
-    const Joint& joint = mechanism_.joints()[k];
-    if (joint.coordinate != coordinate) continue;
-    const Vector3l axis = cuts_[k].R * joint.axis_K;
-    const bool slides = joint.type == JointType::kPrismatic;
-    row.template segment<3>(at(k) + (slides ? 0 : 3)) =
-        (joint.multiplier * axis * (slides ? 1 : length_)).template cast<Real>();
-  }
-  return row;
-}
-
-template <typename Real>
-void MaximalCoordinates<Real>::addPassiveCoordinates(const Motion& motion) {
-  terms_.assign(mechanism_.coordinates().size(), 0);
-  for (const JointTerms& terms : scene_.joints) {
-    const Joint& joint = mechanism_.joints()[mechanism_.jointIndex(terms.joint)];
-    const long double m = joint.multiplier;
-    const long double q = m * motion.q[joint.coordinate] + joint.offset;
-    const long double rate = scene_.static_motion ? 0 : motion.qd[joint.coordinate];
-    const long double acceleration = scene_.static_motion ? 0 : motion.qdd[joint.coordinate];
-    const long double s = std::clamp(m * rate / terms.coulomb_velocity, -1.0L, 1.0L);
-    terms_[joint.coordinate] +=
-        m * (terms.stiffness * (q - terms.rest) + terms.damping.value_or(0) * m * rate +
-             terms.coulomb.value_or(0) * s * (3 - s * s) / 2 +
-             terms.rotor_inertia * m * acceleration + terms.offset);
-  }
-  for (std::size_t i = 0; i < terms_.size(); ++i) {
-    if (actuated(mechanism_.coordinateNames()[i])) continue;
-    const Vector row = effortRow(static_cast<int>(i));
-    const bool turns = mechanism_.unitOf(static_cast<int>(i)) == Unit::kRadian;
-    const Real unit = turns ? static_cast<Real>(length_) : Real(1);
-    addRow(row / unit, static_cast<Real>(-terms_[i]) / unit);
-  }
 }
 
 template <typename Real>

@@ -14,10 +14,11 @@ namespace virtual_work_dynamics {
 /// Computes reactions of a mechanism with closures by cutting every joint. All six components of
 /// the wrench in each joint, in each closure and on the root link are unknown. The equations are
 /// the balances of force and moment of every link; and a free direction of a closure or a passive
-/// coordinate carries only its joints' springs and friction. They are one linear system in numbers
+/// coordinate carries only its joints' springs and friction, and what couplings exert on it, whose
+/// efforts are unknown as well. They are one linear system in numbers
 /// of type Real, solved with its null space by Gauss with full pivoting; motion and loads of the
-/// links are in long double. There is no tree recursion, no Jacobian of conditions and no
-/// multiplier.
+/// links are in long double. Teeth bear with the flank that the solution asks for. There is no tree
+/// recursion, no Jacobian of conditions and no multiplier.
 template <typename Real>
 class MaximalCoordinates {
  public:
@@ -64,11 +65,12 @@ class MaximalCoordinates {
     std::array<Real, 6> freedom;  ///< by how much null vectors change it, a moment over length()
   };
   /// The reaction of a joint, a closure or "ground" in root axes.
-  Reaction rootAxes(const std::string& name) const { return reaction(name, Matrix3l::Identity()); }
+  Reaction rootAxes(const std::string& name) const;
   /// The reaction in axes of the child link or of a closure's child frame.
   Reaction childAxes(const std::string& name) const;
 
-  /// The reaction in root axes, or in child axes, with its moment about another point, root axes.
+  /// The reaction in root axes, or in child axes, with its moment about another point, root axes;
+  /// of a root that rests.
   Reaction rootAxesAbout(const std::string& name, const Vector3l& point) const;
   Reaction childAxesAbout(const std::string& name, const Vector3l& point) const;
 
@@ -85,6 +87,8 @@ class MaximalCoordinates {
   /// The effort of a generalized coordinate, or of an actuated closure by its name.
   Effort effort(int coordinate) const;
   Effort closureEffort(const std::string& name) const;
+  /// The effort of a coupling of the scene.
+  Effort couplingEffort(std::size_t coupling) const;
 
   /// By how much reactions of every joint, "ground" and closure, in root axes, violate the
   /// equations, relative to the largest load or 1 N. It is small for any one of many solutions.
@@ -96,11 +100,20 @@ class MaximalCoordinates {
     int parent, child;  // links; parent -1: ground
     Vector3l o;         // point about which the moment is taken
     Matrix3l R;         // child axes
+    Vector3l reported;  // point about which the moment is reported
   };
 
   static Scene withoutLoops(Scene scene);
 
   static Eigen::Index at(std::size_t cut) { return 6 * static_cast<Eigen::Index>(cut); }
+
+  void place();
+
+  // Makes and solves the equations.
+  void setUp(const Motion& motion);
+
+  // Whether other flanks bear teeth than those the equations count with, which they then do.
+  bool turnsFlanks();
 
   std::size_t indexOf(const std::string& name) const;
 
@@ -122,7 +135,16 @@ class MaximalCoordinates {
 
   void addFreeDirections(std::size_t c);
 
-  // The row that sums what the joints of a coordinate carry along their axes, as they mimic it.
+  void addTeeth(std::size_t c);
+
+  // The column of a coupling's effort, and what that counts in N.
+  Eigen::Index columnOf(std::size_t coupling) const {
+    return at(cuts_.size()) + static_cast<Eigen::Index>(coupling);
+  }
+  long double unitOf(std::size_t coupling) const;
+
+  // The row that sums what the joints of a coordinate carry along their axes, as they mimic it,
+  // less what couplings exert on them.
   Vector effortRow(int coordinate) const;
 
   // Adds the equations of passive coordinates, which have no effort other than springs, friction
@@ -146,7 +168,8 @@ class MaximalCoordinates {
   const Mechanism& mechanism_;
   const Scene& scene_;
   NewtonEulerOracle bodies_;
-  std::vector<Cut> cuts_;  // joints, ground, closures
+  std::vector<Cut> cuts_;          // joints, ground, closures
+  std::vector<bool> other_flank_;  // by closure
   long double length_ = 0;
   Real pivot_tolerance_, least_counted_ = 1, largest_left_out_ = 0;
   Eigen::Index rows_ = 0;

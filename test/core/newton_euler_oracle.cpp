@@ -94,6 +94,15 @@ void NewtonEulerOracle::forceOnLink(std::size_t i, const Scene& scene) {
   link.c = link.o + r;
   link.force = body.mass * (a_c - scene.gravity.cast<long double>());
   link.moment_c = I * link.alpha + link.w.cross(I * link.w);
+  for (const Payload& payload : scene.payloads) {
+    if (payload.link != body.name) continue;
+    const Vector3l p = link.R * payload.at.cast<long double>();
+    const Vector3l a = link.a + link.alpha.cross(p) + link.w.cross(link.w.cross(p));
+    const Matrix3l I_p = link.R * payload.inertia.cast<long double>() * link.R.transpose();
+    const Vector3l force = payload.mass * (a - scene.gravity.cast<long double>());
+    link.force += force;
+    link.moment_c += I_p * link.alpha + link.w.cross(I_p * link.w) + (p - r).cross(force);
+  }
   for (const AppliedWrench& applied : scene.applied_wrenches) {
     if (applied.link != body.name) continue;
     const Matrix3l R = applied.axes == Axes::kLink ? link.R : links_[0].R;

@@ -23,6 +23,7 @@ vwd_add_objects(core_oracles OBJECT
   test/core/four_bar.cpp
   test/core/lagrange_multipliers_oracle.cpp
   test/core/loop_geometry.cpp
+  test/core/maximal_coordinates_freedoms.cpp
   test/core/maximal_coordinates_oracle.cpp
   test/core/newton_euler_oracle.cpp)
 vwd_add_objects(stability_scenes OBJECT
@@ -33,10 +34,13 @@ vwd_add_objects(stability_scenes OBJECT
   benchmark/stability/held_sweeps.cpp
   benchmark/stability/linkage_sweeps.cpp
   benchmark/stability/loop_judge.cpp
+  benchmark/stability/loop_judge_holds.cpp
   benchmark/stability/loop_scenes.cpp
   benchmark/stability/mechanism_maker.cpp
+  benchmark/stability/mixed_loops.cpp
   benchmark/stability/motion_sweeps.cpp
   benchmark/stability/structure_sweeps.cpp
   benchmark/stability/structured_loops.cpp
   benchmark/stability/sweeps.cpp
+  benchmark/stability/touch_sweeps.cpp
   benchmark/stability/worst_certificates.cpp)
