@@ -14,6 +14,8 @@ add_library(benchmark_contenders STATIC
   ../src/offline/built_library.cpp
   contenders/check.cpp
   contenders/closed_scenes.cpp
+  contenders/dense_linkage.cpp
+  contenders/dense_loops.cpp
   contenders/kdl.cpp
   contenders/kdl_model.cpp
   contenders/linkages.cpp
