@@ -15,6 +15,8 @@ add_library(benchmark_contenders STATIC
   contenders/built_library.cpp
   contenders/check.cpp
   contenders/closed_scenes.cpp
+  contenders/dense_linkage.cpp
+  contenders/dense_loops.cpp
   contenders/kdl.cpp
   contenders/kdl_model.cpp
   contenders/linkages.cpp

@@ -6,6 +6,7 @@ std::vector<Offer> offersFor(const BenchmarkScene& scene) {
   std::vector<Offer> offers;
   if (scene.loops) {
     offerOwnLoops(scene, offers);
+    offerDenseLoops(scene, offers);
     offerLoopFormalisms(scene, offers);
     return offers;
   }

@@ -34,6 +34,9 @@ void offerDart(const BenchmarkScene& scene, std::vector<Offer>& offers);
 /// Appends Dynamics for closed loops, with the whole motion given, or only that of the actuated
 /// joints.
 void offerOwnLoops(const BenchmarkScene& scene, std::vector<Offer>& offers);
+/// Appends efforts and completions by a user's own code for pins, balls and springs of up to 30
+/// joints, see DenseLinkage.
+void offerDenseLoops(const BenchmarkScene& scene, std::vector<Offer>& offers);
 /// Appends one linear system of all bodies, and Lagrange's equations with multipliers, for closed
 /// loops of up to 30 joints.
 void offerLoopFormalisms(const BenchmarkScene& scene, std::vector<Offer>& offers);

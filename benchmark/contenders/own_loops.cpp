@@ -1,3 +1,4 @@
+#include "contenders/completions.h"
 #include "contenders/offers.h"
 #include "contenders/own_request.h"
 #include "virtual_work_dynamics/dynamics.h"
@@ -5,9 +6,6 @@
 
 namespace virtual_work_dynamics {
 namespace {
-
-// The sample before, from whose passive positions Newton's method starts.
-constexpr double kSamplePeriod = 1e-3;  // s
 
 // Efforts and reactions of motions that close the loops.
 class OwnLoops : public Contender {
@@ -37,18 +35,10 @@ class OwnLoops : public Contender {
 class OwnCompletion : public Contender {
  public:
   OwnCompletion(const BenchmarkScene& scene, const std::string& outputs)
-      : starts_(scene.motions),
+      : starts_(startsOfCompletions(scene)),
         dynamics_(scene.mechanism, *scene.loops, loopRequest(scene, outputs)),
         workspace_(dynamics_.makeWorkspace()),
-        computes_(outputs != kCompletedMotion) {
-    for (Motion& start : starts_) {
-      for (Eigen::Index i = 0; i < start.q.size(); ++i) {
-        if (dynamics_.actuated()[static_cast<std::size_t>(i)]) continue;
-        start.q[i] -= kSamplePeriod * start.qd[i];
-        start.qd[i] = start.qdd[i] = 0;
-      }
-    }
-  }
+        computes_(outputs != kCompletedMotion) {}
 
   void run(std::size_t calls) override {
     for (; calls > 0; --calls) {
@@ -62,11 +52,7 @@ class OwnCompletion : public Contender {
     if (!closes_) throw Error("does not close the loops");
     if (computes_)
       return plainResults(workspace_.results().effort, workspace_.results().child_axes);
-    SampleResults results;
-    for (const Eigen::VectorXd* values : {&motion_.q, &motion_.qd, &motion_.qdd}) {
-      results.motion.insert(results.motion.end(), values->data(), values->data() + values->size());
-    }
-    return results;
+    return resultsOf(motion_);
   }
 
  private:

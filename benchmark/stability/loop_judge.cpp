@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "loops/cut_tree.h"
+#include "loops/link_kinematics.h"
 #include "newton_euler_oracle.h"
 #include "virtual_work_dynamics/error_bound.h"
 
@@ -128,42 +129,71 @@ LoopJudge::Exact LoopJudge::exactOf(const Motion& motion) const {
   const MaximalCoordinatesOracle oracle(mechanism_, scene_, motion,
                                         scene_.redundancy.rank_tolerance);
   Exact exact;
-  const auto put = [&](const ExactComponent& component) {
+  exact.length = oracle.length();
+  const std::vector<long double> extents = extentsOf(motion);
+  const auto put = [&](ExactComponent component, long double extent) {
     const long double size = std::abs(component.value);
+    component.freedom_in_loop = component.freedom;
+    if (component.turns && extent > 0) component.freedom_in_loop *= exact.length / extent;
     exact.components.push_back(component);
     if (!component.determined()) return;
     long double& largest = component.turns ? exact.moment : exact.force;
     largest = std::max(largest, size);
   };
-  for (const std::string& name : names_) {
-    for (const auto& reaction : {oracle.rootAxes(name), oracle.childAxes(name)}) {
+  for (std::size_t k = 0; k < names_.size(); ++k) {
+    for (const auto& reaction : {oracle.rootAxes(names_[k]), oracle.childAxes(names_[k])}) {
       for (int i = 0; i < 6; ++i) {
-        put({reaction.wrench[i], reaction.freedom[static_cast<std::size_t>(i)], i >= 3});
+        put({reaction.wrench[i], reaction.freedom[static_cast<std::size_t>(i)], i >= 3},
+            extents[k]);
       }
     }
   }
   for (std::size_t i = 0; i < mechanism_.coordinates().size(); ++i) {
     const Joint& joint = mechanism_.joints()[static_cast<std::size_t>(mechanism_.coordinates()[i])];
     const auto effort = oracle.effort(static_cast<int>(i));
-    put({effort.value, effort.freedom, joint.type != JointType::kPrismatic});
+    put({effort.value, effort.freedom, joint.type != JointType::kPrismatic},
+        extents[indexOf(joint.name)]);
   }
   for (const std::string& name : dynamics_.actuatedClosures()) {
     const auto effort = oracle.closureEffort(name);
-    put({effort.value, effort.freedom, !slides(name)});
+    put({effort.value, effort.freedom, !slides(name)}, extents[indexOf(name)]);
   }
   for (std::size_t c = 0; c < scene_.couplings.size(); ++c) {
     const std::string& first = scene_.couplings[c].terms.front().name;
     const auto effort = oracle.couplingEffort(c);
     const bool turns = mechanism_.joint(mechanism_.jointIndex(first)).type != JointType::kPrismatic;
-    put({effort.value, effort.freedom, turns});
+    put({effort.value, effort.freedom, turns}, 0);
   }
-  exact.length = oracle.length();
   exact.redundancy = oracle.redundancy();
   exact.free_motions = oracle.freeMotions();
   exact.least_counted = oracle.leastCounted();
   exact.largest_left_out = oracle.largestLeftOut();
   exact.unborne = oracle.unborne();
   return exact;
+}
+
+std::size_t LoopJudge::indexOf(const std::string& name) const {
+  return static_cast<std::size_t>(std::find(names_.begin(), names_.end(), name) - names_.begin());
+}
+
+// By joint and closure the extent of the least loop that it is part of, m; zero where there is
+// none. A loop whose origins are one point by the rank's tolerance has no extent.
+std::vector<long double> LoopJudge::extentsOf(const Motion& motion) const {
+  const NewtonEulerOracle bodies(mechanism_, withoutLoops(scene_), motion);
+  std::vector<long double> least(names_.size(), 0);
+  for (const Closure& closure : scene_.closures) {
+    const Vector3l o = PlacedFrame(mechanism_, bodies, closure.child).o;
+    long double extent = (PlacedFrame(mechanism_, bodies, closure.parent).o - o).norm();
+    std::vector<std::size_t> loop{indexOf(closure.name)};
+    for (const PathStep& step : pathBetween(mechanism_, mechanism_.linkIndex(closure.parent.link),
+                                            mechanism_.linkIndex(closure.child.link))) {
+      loop.push_back(indexOf(mechanism_.joint(step.joint).name));
+      extent = std::max(extent, (bodies.origin(step.joint + 1) - o).norm());
+    }
+    if (extent <= scene_.redundancy.rank_tolerance * size_) continue;
+    for (const std::size_t k : loop) least[k] = least[k] > 0 ? std::min(least[k], extent) : extent;
+  }
+  return least;
 }
 
 bool LoopJudge::slides(const std::string& closure) const {
@@ -275,7 +305,7 @@ void LoopJudge::compareCountsAndFlags(const Exact& exact, const LoopComponents& 
     // A load that a singular position does not bear leaves more open than the null space does.
     const bool borne = found.free_motions == 0 || exact.unborne <= kBorne;
     const bool may_be_open = !borne && right.determined();
-    if (computed[i].determined != right.determined() && !may_be_open &&
+    if (computed[i].determined != right.determined() && !may_be_open && !right.isOfTinyLoop() &&
         !near(right.freedom, MaximalCoordinatesOracle::kFree)) {
       differs("flag of " + nameOf(i));
     }

@@ -28,8 +28,15 @@ struct ExactComponent {
   long double value = 0;
   long double freedom = 0;  ///< by how much null vectors change it, a moment over Exact::length
   bool turns = false;       ///< whether it is in N m, not in N
+  /// By how much null vectors change a moment over the extent of its least loop; else as freedom.
+  long double freedom_in_loop = 0;
 
   bool determined() const { return freedom <= MaximalCoordinatesOracle::kFree; }
+  /// Whether its loop is so small that the exact equations, by their own length, call a change a
+  /// rounding error that is none by the loop's.
+  bool isOfTinyLoop() const {
+    return determined() && freedom_in_loop > MaximalCoordinatesOracle::kFree;
+  }
 };
 
 /// The components of the reactions of ground, joints and closures, of each in root axes and in axes
@@ -55,9 +62,10 @@ using ExactComponents = std::vector<ExactComponent>;
 /// counts and flags are judged. Everything exists where nothing moves freely, and in singular
 /// positions what is determined of a load that is borne; where a load is clearly not borne,
 /// something does not exist. Within a factor of 100 of the tolerances of rank and flags either
-/// answer is right. What can only press or pull is judged by the exact forces, unless these are
-/// within 1e-6 of the largest from doing so. Coordinates whose efforts are residuals of a free
-/// motion count as actuated.
+/// answer is right, and so it is for a moment that null vectors change by less than the tolerance
+/// over the length of the exact equations and by more over the extent of its loop. What can only
+/// press or pull is judged by the exact forces, unless these are within 1e-6 of the largest from
+/// doing so. Coordinates whose efforts are residuals of a free motion count as actuated.
 class LoopJudge {
  public:
   LoopJudge(const Mechanism& mechanism, const Scene& scene);
@@ -88,6 +96,8 @@ class LoopJudge {
     Eigen::Index redundancy = 0, free_motions = 0;
   };
   Exact exactOf(const Motion& motion) const;
+  std::vector<long double> extentsOf(const Motion& motion) const;
+  std::size_t indexOf(const std::string& name) const;
   bool slides(const std::string& closure) const;
   std::string nameOf(std::size_t component) const;
   long double loadOf(const Motion& motion) const;

@@ -52,6 +52,15 @@ TEST(StructuredLoops, RowsThatSlidesHardlyMoveAlongAreNotLeftOut) {
   }
 }
 
+// A universal joint beside the axis of another by 2e-11 m, in a mechanism of 0.3 m: its force turns
+// that joint with a lever which is all of the loop and nothing to the exact equations.
+TEST(StructuredLoops, MomentsInTinyLoopsAreJudgedByTheirExtent) {
+  const SceneVerdict verdict = judgeScene(21, 78404);
+  for (const std::string& line : verdict.wrong) ADD_FAILURE() << line;
+  EXPECT_EQ(verdict.small, 0);
+  EXPECT_EQ(verdict.unclear, 0);
+}
+
 #endif  // VWD_HAS_REAL113
 
 }  // namespace
