@@ -104,6 +104,7 @@ set(core_test_files
   test/core/offline_certificates_test.cpp
   test/core/offline_conditions_test.cpp
   test/core/offline_couplings_test.cpp
+  test/core/offline_damaged_bags_test.cpp
   test/core/offline_deviations_test.cpp
   test/core/offline_drives_test.cpp
   test/core/offline_errors_test.cpp

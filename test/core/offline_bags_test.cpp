@@ -1,101 +1,15 @@
+#include "offline_bags.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <filesystem>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
-
-#include "offline_tool.h"
 
 namespace virtual_work_dynamics {
 namespace {
-
-// What bags/make_bags.py says of the bags beside it, which rosbag wrote.
-constexpr int kMessages = 40;
-constexpr std::int64_t kStartSeconds = 1600000000;
-constexpr int kStartMilliseconds = 123;
-constexpr char kStartRest[] = "456789";  // ns
-
-double positionOf(int joint, int message) {
-  const double time = message / 100.0;
-  return (joint + 1) * time * time;
-}
-
-double velocityOf(int joint, int message) {
-  return (joint + 1) * 2 * (message / 100.0);
-}
-
-std::string stampOf(int message) {
-  const int milliseconds = kStartMilliseconds + 10 * message;
-  const std::string rest = std::to_string(1000 + milliseconds % 1000).substr(1);
-  return std::to_string(kStartSeconds + milliseconds / 1000) + "." + rest + kStartRest;
-}
-
-std::vector<std::string> linesOf(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
-// Lines of a text that contain a word.
-int countLines(const std::string& text, const std::string& word) {
-  int count = 0;
-  for (const std::string& line : linesOf(text)) count += line.find(word) != std::string::npos;
-  return count;
-}
-
-// Splits a line of numbers without quotes.
-std::vector<std::string> cellsOf(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-class OfflineBags : public OfflineTool {
- protected:
-  void SetUp() override {
-    OfflineTool::SetUp();
-    write("p.urdf", kPendulum);
-    // A static scene hands positions on as they are.
-    write("static.yaml", "motion: static\nreactions: none\n");
-  }
-
-  static std::string bag(const std::string& name) {
-    return std::string(kSourceFolder) + "/test/core/bags/" + name;
-  }
-  std::string copy(const std::string& name, const std::string& content) const {
-    return write(name, content);
-  }
-  Run positions(const std::string& motion) const {
-    return run("--urdf p.urdf --scene static.yaml --no-efforts --positions --motion " + motion);
-  }
-};
-
-// The rows of a table of positions() are those of these messages of the joint at this place.
-void expectRows(const std::string& csv, const std::vector<int>& messages, int joint = 0) {
-  const std::vector<std::string> lines = linesOf(csv);
-  ASSERT_EQ(lines.size(), messages.size() + 1);
-  EXPECT_EQ(lines[0].rfind("time,stamp,position.hinge", 0), 0U) << lines[0];
-  for (std::size_t row = 0; row < messages.size(); ++row) {
-    const std::vector<std::string> cells = cellsOf(lines[row + 1]);
-    ASSERT_GE(cells.size(), 3U);
-    const double time = (messages[row] - messages[0]) / 100.0;
-    EXPECT_NEAR(std::stod(cells[0]), time, 1e-15);
-    EXPECT_EQ(cells[1], stampOf(messages[row]));
-    EXPECT_NEAR(std::stod(cells[2]), positionOf(joint, messages[row]), 1e-15);
-  }
-}
-
-std::vector<int> allMessages() {
-  std::vector<int> messages;
-  for (int i = 0; i < kMessages; ++i) messages.push_back(i);
-  return messages;
-}
 
 TEST_F(OfflineBags, HaveTheStampsAndPositionsThatRosbagWrote) {
   for (const char* compression : {"none.bag", "bz2.bag", "lz4.bag"}) {
@@ -291,110 +205,6 @@ TEST_F(OfflineBags, HaveAnglesInDegreesAndSlidesInMetres) {
   }
 }
 
-// A bag that ends anywhere gives the messages before that, or none in one line.
-TEST_F(OfflineBags, CutOffGiveWhatTheyHaveAndSaySo) {
-  for (const char* name : {"none.bag", "bz2.bag", "lz4.bag"}) {
-    const std::string whole = readFile(bag(name));
-    int least = kMessages, most = 0;
-    for (std::size_t size = 4200; size < whole.size(); size += 397) {
-      SCOPED_TRACE(std::string(name) + " of " + std::to_string(size) + " bytes");
-      copy("cut.bag", whole.substr(0, size));
-      const Run result = positions("cut.bag");
-      if (result.exit_code != 0) {
-        EXPECT_EQ(countLines(result.err, "cut.bag is damaged: byte "), 1) << result.err;
-        EXPECT_EQ(result.out, "");
-        least = 0;
-        continue;
-      }
-      EXPECT_EQ(countLines(result.err, "warning: cut.bag: is damaged, what can be read is: byte "),
-                1)
-          << result.err;
-      const int rows = static_cast<int>(linesOf(result.out).size()) - 1;
-      std::vector<int> first = allMessages();
-      first.resize(static_cast<std::size_t>(rows));
-      expectRows(result.out, first);
-      EXPECT_GE(rows, most);  // of more bytes, no fewer
-      most = rows;
-    }
-    EXPECT_EQ(least, 0);
-    EXPECT_EQ(most, kMessages);
-  }
-}
-
-TEST_F(OfflineBags, LeaveOutAChunkThatIsBroken) {
-  for (const char* name : {"bz2.bag", "lz4.bag"}) {
-    SCOPED_TRACE(name);
-    std::string content = readFile(bag(name));
-    // The third chunk: behind its op, compression and size come the compressed bytes.
-    std::size_t chunk = 0;
-    for (int i = 0; i < 3; ++i) chunk = content.find("compression=", chunk + 1);
-    content[chunk + 100] = static_cast<char>(content[chunk + 100] ^ 0x55);
-    copy("broken.bag", content);
-    const Run result = positions("broken.bag");
-    EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_EQ(countLines(result.err, "a chunk cannot be decompressed and is left out"), 1)
-        << result.err;
-    const std::vector<std::string> lines = linesOf(result.out);
-    std::vector<std::string> whole = linesOf(positions(bag(name)).out);
-    EXPECT_LT(lines.size(), whole.size());
-    EXPECT_GE(lines.size(), whole.size() - 10);  // messages of a chunk
-    for (const std::string& line : lines) {
-      EXPECT_NE(std::find(whole.begin(), whole.end(), line), whole.end()) << line;
-    }
-  }
-}
-
-std::uint32_t wordAt(const std::string& bytes, std::size_t at) {
-  std::uint32_t word = 0;
-  std::memcpy(&word, bytes.data() + at, sizeof word);
-  return word;
-}
-
-// Where the lengths of data of the records between two places stand.
-std::vector<std::size_t> dataLengths(const std::string& bytes, std::size_t begin, std::size_t end) {
-  std::vector<std::size_t> places;
-  for (std::size_t at = begin; at < end;) {
-    const std::size_t length = at + 4 + wordAt(bytes, at);
-    places.push_back(length);
-    at = length + 4 + wordAt(bytes, length);
-  }
-  return places;
-}
-
-TEST_F(OfflineBags, LeaveOutTheRestOfAChunkWhoseRecordGoesBeyondItsEnd) {
-  const std::string whole = readFile(bag("none.bag"));
-  const std::size_t magic = std::string("#ROSBAG V2.0\n").size();
-  // Within the second chunk, all of whose bytes are there, its second message seems to be longer.
-  std::vector<std::size_t> chunks;
-  std::size_t header = magic;
-  for (const std::size_t length : dataLengths(whole, magic, whole.size())) {
-    if (whole.substr(header, length - header).find("compression=") != std::string::npos) {
-      chunks.push_back(length);
-    }
-    header = length + 4 + wordAt(whole, length);
-  }
-  ASSERT_GT(chunks.size(), 3U);
-  const std::size_t begin = chunks[1] + 4, end = begin + wordAt(whole, chunks[1]);
-  const std::vector<std::size_t> records = dataLengths(whole, begin, end);
-  ASSERT_GT(records.size(), 3U);
-  const auto inFirst = dataLengths(whole, chunks[0] + 4, chunks[0] + 4 + wordAt(whole, chunks[0]));
-  const auto before = inFirst.size() - 1;  // messages; the first record is the connection
-  for (const std::uint32_t more : {1000U, 100000U, 4000000000U}) {
-    std::string changed = whole;
-    const std::uint32_t length = wordAt(whole, records[1]) + more;
-    std::memcpy(&changed[records[1]], &length, sizeof length);
-    copy("beyond.bag", changed);
-    const Run result = positions("beyond.bag");
-    ASSERT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_EQ(countLines(result.err, "is damaged, what can be read is: byte "), 1) << result.err;
-    EXPECT_EQ(countLines(result.err, "a chunk ends in a record"), 1) << result.err;
-    std::vector<int> messages = allMessages();
-    const auto from = messages.begin() + static_cast<std::ptrdiff_t>(before) + 1;
-    messages.erase(from, from + static_cast<std::ptrdiff_t>(records.size()) - 1);
-    expectRows(result.out, messages);
-  }
-}
-
 TEST_F(OfflineBags, SayWhatElseAFileIs) {
   const std::string whole = readFile(bag("none.bag"));
   const struct {
@@ -421,27 +231,6 @@ TEST_F(OfflineBags, SayWhatElseAFileIs) {
   EXPECT_EQ(csv.exit_code, 1);
   EXPECT_NE(csv.err.find("m.csv: is not a bag, and --topic is the topic of one"), std::string::npos)
       << csv.err;
-}
-
-// Bytes changed at random may cost messages, but never end the tool in another way, and every row
-// is one of the whole bag where the bytes are not those of numbers.
-TEST_F(OfflineBags, ChangedAtRandomNeverEndTheToolOtherwise) {
-  for (const char* name : {"none.bag", "bz2.bag", "lz4.bag"}) {
-    const std::string whole = readFile(bag(name));
-    std::uint32_t random = 12345;
-    for (int i = 0; i < 20; ++i) {
-      std::string changed = whole;
-      for (int k = 0; k < 3; ++k) {
-        random = random * 1664525 + 1013904223;
-        const std::size_t place = 13 + random % (whole.size() - 13);
-        random = random * 1664525 + 1013904223;
-        changed[place] = static_cast<char>(random >> 24);
-      }
-      copy("changed.bag", changed);
-      const Run result = positions("changed.bag");
-      EXPECT_TRUE(result.exit_code == 0 || result.exit_code == 1) << i << ": " << result.err;
-    }
-  }
 }
 
 }  // namespace
