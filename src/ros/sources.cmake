@@ -23,10 +23,10 @@ foreach(file
     joint_state_computation.cpp
     joint_state_conversion.cpp
     joint_watch.cpp
+    live_drives.cpp
     loop_record.cpp
     loop_report.cpp
     marker_output.cpp
-    live_drives.cpp
     motion_completer.cpp
     node_program.cpp
     output_topics.cpp

@@ -14,18 +14,18 @@
 namespace virtual_work_dynamics {
 namespace {
 
-std::string placeOf(const std::string& name) {
+std::string placeOfDrive(const std::string& name) {
   return "drives: " + inQuotes(name);
 }
 
 int drivenCoordinate(const Mechanism& mechanism, const std::string& name, int joint) {
   const CompoundJoint* const compound = mechanism.compoundOf(joint);
   if (compound && compound->turnsFreely() && joint > compound->last - 3) {
-    throw SceneError(placeOf(name) + " is an angle of a joint that turns freely");
+    throw SceneError(placeOfDrive(name) + " is an angle of a joint that turns freely");
   }
   const Joint& driven = mechanism.joint(joint);
-  if (driven.coordinate < 0) throw SceneError(placeOf(name) + " is a fixed joint");
-  if (driven.mimics) throw SceneError(placeOf(name) + " mimics another joint");
+  if (driven.coordinate < 0) throw SceneError(placeOfDrive(name) + " is a fixed joint");
+  if (driven.mimics) throw SceneError(placeOfDrive(name) + " mimics another joint");
   return driven.coordinate;
 }
 
@@ -34,7 +34,7 @@ Driven drivenAt(const Mechanism& mechanism, const Scene& scene, std::size_t inde
   for (std::size_t c = 0; c < scene.closures.size(); ++c) {
     if (scene.closures[c].name != name) continue;
     if (traitsOf(scene.closures[c].type).free_axis) return {-1, c};
-    throw SceneError(placeOf(name) +
+    throw SceneError(placeOfDrive(name) +
                      ": only a closure of type revolute or prismatic and a cylinder have an axis "
                      "that can be driven");
   }
@@ -52,7 +52,7 @@ std::vector<Driven> drivenBy(const Mechanism& mechanism, const Scene& scene) {
   std::set<std::string> seen;
   for (std::size_t i = 0; i < scene.drives.size(); ++i) {
     const std::string& name = scene.drives[i].name;
-    if (!seen.insert(name).second) throw SceneError(placeOf(name) + " is given twice");
+    if (!seen.insert(name).second) throw SceneError(placeOfDrive(name) + " is given twice");
     driven.push_back(drivenAt(mechanism, scene, i));
   }
   return driven;
@@ -77,7 +77,7 @@ Drives::Drives(const Mechanism& mechanism, const Scene& scene)
     } else {
       coordinates_[static_cast<std::size_t>(driven[i].coordinate)] = true;
     }
-    targets_.push_back({driven[i], law.offset, timeFunction(law, placeOf(law.name))});
+    targets_.push_back({driven[i], law.offset, timeFunction(law, placeOfDrive(law.name))});
   }
 }
 
@@ -108,7 +108,7 @@ std::optional<std::size_t> Drives::evaluate(double t, const Given& given, Motion
 std::string Drives::whyNone(std::size_t drive, double t) const {
   const TimeFunction& function = *targets_[drive].function;
   const bool early = t < function.begin();
-  return placeOf(names_[drive]) + " has no motion at " + numberText(t) + " s: it " +
+  return placeOfDrive(names_[drive]) + " has no motion at " + numberText(t) + " s: it " +
          (early ? "moves when its function begins, at " + numberText(function.begin())
                 : "still moves when its function ends, at " + numberText(function.end())) +
          " s";

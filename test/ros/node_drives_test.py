@@ -88,6 +88,21 @@ class DrivenJoints(NodeTest):
         for ns, message in zip(stamps, messages):
             self.assertEffort(message, self.bodies, motion(ns), ESTIMATED)
 
+    def test_time_begins_anew_when_stamps_go_back(self):
+        self.start(polynomial('shoulder', COEFFICIENTS['shoulder']))
+        back = EPOCH - 10000000000
+        for start in (EPOCH, back):
+            motion = Polynomials(start, **COEFFICIENTS)
+            stamps = [start + STEP * i for i in range(40)]
+            seen = len(self.efforts.messages())
+            for ns in stamps:
+                q, qd, _ = motion(ns)
+                self.states.publish(joint_state(ns, only(q, 'elbow', 'slide'), qd))
+            messages = self.efforts.wait(seen + len(stamps) - LAG)[seen:]
+            self.assertStamps(messages, stamps[:-LAG])
+            for ns, message in zip(stamps, messages):
+                self.assertEffort(message, self.bodies, motion(ns), ESTIMATED)
+
     def test_trajectories_lack_it_too_and_time_may_start_at_a_stamp(self):
         start = 1600000000
         self.start(polynomial('shoulder', COEFFICIENTS['shoulder']), {'drive_start': start})
@@ -103,6 +118,20 @@ class DrivenJoints(NodeTest):
         self.assertStamps(messages, [EPOCH + offset for offset in offsets])
         for offset, effort in zip(offsets, messages):
             self.assertEffort(effort, self.bodies, motion(EPOCH + offset), EXACT)
+
+    def test_samples_between_points_of_trajectories(self):
+        self.start(polynomial('shoulder', COEFFICIENTS['shoulder']), {'trajectory_sampling': 200})
+        motion = Polynomials(**COEFFICIENTS)
+        names = ['elbow', 'slide']
+        message = JointTrajectory(joint_names=names)
+        message.header.stamp = ros_time(EPOCH)
+        for i in range(10):
+            message.points.append(trajectory_point(STEP * i, names, motion(EPOCH + STEP * i)))
+        self.trajectories.publish(message)
+        messages = self.efforts.wait(19)
+        self.assertStamps(messages, [EPOCH + STEP // 2 * i for i in range(19)])
+        for effort in messages:
+            self.assertEffort(effort, self.bodies, motion(effort.header.stamp.to_nsec()), ESTIMATED)
 
     def test_a_law_that_ends_drops_results_by_name_and_time(self):
         self.start({'name': 'shoulder', 'law': 'table', 'times': [0, 0.1, 0.2],
