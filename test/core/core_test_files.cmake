@@ -173,6 +173,8 @@ set(core_test_files
   test/core/turn_estimator_test.cpp
   test/core/unwrap_test.cpp
   test/core/urdf_reader_test.cpp
+  test/core/urdf_transmissions_refusals_test.cpp
+  test/core/urdf_transmissions_test.cpp
   test/core/urdf_writer_test.cpp
   test/core/velocity_judge_test.cpp
   test/core/wheels_test.cpp
