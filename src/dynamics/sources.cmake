@@ -1,4 +1,5 @@
 vwd_core(
+  closure_axes.cpp
   covariance_sizes.cpp
   description_shares.cpp
   deviations.cpp

@@ -29,6 +29,8 @@ set(core_test_files
   test/core/coupled_examples_test.cpp
   test/core/contacts_test.cpp
   test/core/cylinder_test.cpp
+  test/core/closure_axes_rules_test.cpp
+  test/core/closure_axes_test.cpp
   test/core/couplings_random_test.cpp
   test/core/couplings_refusals_test.cpp
   test/core/couplings_rules_test.cpp
@@ -118,6 +120,7 @@ set(core_test_files
   test/core/offline_root_test.cpp
   test/core/offline_rosparam_test.cpp
   test/core/offline_test.cpp
+  test/core/offline_transmissions_test.cpp
   test/core/offline_wrapped_test.cpp
   test/core/offline_wrenches_test.cpp
   test/core/passive_joints_test.cpp
