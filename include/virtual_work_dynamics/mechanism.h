@@ -108,6 +108,23 @@ struct Doubt {
   bool about_inertia = false;  ///< true: fatal under a scene's `strict_inertia`
 };
 
+/// A joint or an actuator of a transmission.
+struct TransmissionEnd {
+  std::string name;
+  double reduction = 1;
+  double offset = 0;  ///< of a joint: its position where the actuators are at zero, rad or m
+};
+
+/// A <transmission> of a description. Its ratios count only where a scene asks for them, see
+/// withTransmissions().
+struct Transmission {
+  std::string name;
+  std::string type;  ///< without its package: "DifferentialTransmission"
+  std::vector<TransmissionEnd> joints, actuators;  ///< in the order of their roles
+  std::string problem;                             ///< why it cannot be asked for; empty: it can
+  std::string unread;  ///< what the doubts say as long as it is not; empty: nothing
+};
+
 /// What a robot description says: a tree of links. Immutable. Joints are in depth-first order, the
 /// children of a link by joint name, so a parent always stands before its child; links()[0] is the
 /// root and links()[i + 1] hangs on joints()[i].
@@ -116,13 +133,16 @@ class Mechanism {
   /// Takes links and joints in the order above. The urdf_reader makes them; tests may, too.
   /// @throws UrdfError when that order is broken.
   Mechanism(std::string name, std::vector<Link> links, std::vector<Joint> joints,
-            std::vector<Doubt> doubts = {}, std::vector<CompoundJoint> compounds = {});
+            std::vector<Doubt> doubts = {}, std::vector<CompoundJoint> compounds = {},
+            std::vector<Transmission> transmissions = {});
 
   const std::string& name() const { return name_; }
   const std::vector<Link>& links() const { return links_; }
   const std::vector<Joint>& joints() const { return joints_; }
   const std::vector<Doubt>& doubts() const { return doubts_; }
   const std::vector<CompoundJoint>& compounds() const { return compounds_; }
+  /// Those of the description that no scene has asked for.
+  const std::vector<Transmission>& transmissions() const { return transmissions_; }
   /// The link or joint of that index, which must be one.
   const Link& link(int index) const { return links_[static_cast<std::size_t>(index)]; }
   const Joint& joint(int index) const { return joints_[static_cast<std::size_t>(index)]; }
@@ -171,6 +191,7 @@ class Mechanism {
   std::vector<Joint> joints_;
   std::vector<Doubt> doubts_;
   std::vector<CompoundJoint> compounds_;
+  std::vector<Transmission> transmissions_;
   std::vector<int> compound_of_;          // by joint, index into compounds_; empty: there are none
   std::vector<std::size_t> free_joints_;  // by orientation, index into compounds_
   std::vector<int> coordinates_;

@@ -200,7 +200,7 @@ struct NamedNumber {
 /// it loads no bearing.
 struct Coupling {
   std::string name;
-  /// Joints that move, each once, and their factors; of a joint with several freedoms its parts.
+  /// Joints, or free axes of closures (withClosureAxes()), each once; of compounds their parts.
   std::vector<NamedNumber> terms;
   std::optional<double> offset;  ///< rad or m; none: what the sum is in the assembly
   bool rate_only = false;  ///< ties velocities and accelerations alone, as a slipping belt does
@@ -276,6 +276,13 @@ enum class ReactionSelection {
   kNamed  ///< those in Scene::reaction_names; fixed joints and "ground" only this way
 };
 
+/// Which transmissions of the description a scene asks for.
+enum class TransmissionSelection {
+  kNone,
+  kAll,
+  kNamed  ///< those in Scene::transmission_names
+};
+
 /// What acts on a mechanism and which of its forces a user asks for; names are resolved when the
 /// scene is compiled (InverseDynamics).
 struct Scene {
@@ -298,6 +305,10 @@ struct Scene {
   /// True: damping and friction of the description count for joints whose terms do not give them.
   bool use_urdf_dynamics = false;
   Tolerances tolerances;  ///< see Deviations
+  /// Transmissions of the description whose actuators become joints; withTransmissions() makes the
+  /// mechanism that has them, and the scene that goes with it.
+  TransmissionSelection transmissions = TransmissionSelection::kNone;
+  std::vector<std::string> transmission_names;
 
   std::vector<Closure> closures;  ///< empty: an open chain
   std::vector<PointSpring> springs;

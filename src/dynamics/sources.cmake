@@ -1,4 +1,5 @@
 vwd_core(
+  closure_axes.cpp
   contact_gaps.cpp
   covariance_sizes.cpp
   description_shares.cpp

@@ -32,9 +32,9 @@
 #include "offline/row_loads.h"
 #include "offline/rows.h"
 #include "offline/task_inputs.h"
+#include "virtual_work_dynamics/closure_axes.h"
 #include "virtual_work_dynamics/drives.h"
 #include "virtual_work_dynamics/dynamics.h"
-#include "virtual_work_dynamics/joint_types.h"
 
 namespace virtual_work_dynamics {
 namespace {
@@ -194,9 +194,10 @@ void checkMotion(const Arguments& arguments, RecordedMotion recorded, const Mech
   if (dynamics.closed()) printNames(std::cout, "closed loops", {conditions.worst(motion.file())});
 }
 
-// The robot with the joint types of the scene.
-Mechanism robotOf(const Mechanism& described, const Scene& scene, const Arguments& arguments) {
-  return naming(scenePrefix(arguments), [&] { return withJointTypes(described, scene); });
+// The robot with the joint types, transmissions and axes of closures that the scene asks for.
+SceneOfMechanism robotOf(const Mechanism& described, const Scene& scene,
+                         const Arguments& arguments) {
+  return naming(scenePrefix(arguments), [&] { return mechanismFor(described, scene); });
 }
 
 void check(const Arguments& arguments, const Mechanism& mechanism, Scene scene) {
@@ -339,8 +340,9 @@ void runOffline(Arguments arguments) {
   if (!arguments.generate.empty()) requireSourceName(arguments);
   arguments.inputs = std::make_shared<const TaskInputs>(readTaskInputs(arguments));
   const Mechanism described = askedRobot(arguments);
-  const Scene scene = askedScene(arguments);
-  const Mechanism mechanism = robotOf(described, scene, arguments);
+  const SceneOfMechanism robot = robotOf(described, askedScene(arguments), arguments);
+  const Mechanism& mechanism = robot.mechanism;
+  const Scene& scene = robot.scene;
   if (arguments.check) check(arguments, mechanism, scene);
   if (arguments.explain) explain(arguments, mechanism, scene);
   if (arguments.check || arguments.explain) return;

@@ -198,9 +198,9 @@ class Replay {
 void runToBag(Arguments arguments) {
   refuseToOverwriteInput(arguments);
   arguments.inputs = std::make_shared<const TaskInputs>(readTaskInputs(arguments));
-  printDoubts(std::cerr, askedRobot(arguments));
   const InverseDynamicsParameters parameters = parametersOf(arguments);
   const RobotTask task = taskOf(arguments, parameters);
+  printDoubts(std::cerr, task.mechanism);
   if (arguments.observer_gain && !task.not_observed.empty()) {
     throw SceneError(scenePrefix(arguments) + task.not_observed);
   }

@@ -93,7 +93,7 @@ class Copier {
     followMasters();
     checkNames();
     return Mechanism(from_.name(), std::move(links_), std::move(joints_), from_.doubts(),
-                     std::move(compounds_));
+                     std::move(compounds_), from_.transmissions());
   }
 
  private:

@@ -34,12 +34,14 @@ Unit unitOf(const Joint& joint) {
 }
 
 Mechanism::Mechanism(std::string name, std::vector<Link> links, std::vector<Joint> joints,
-                     std::vector<Doubt> doubts, std::vector<CompoundJoint> compounds)
+                     std::vector<Doubt> doubts, std::vector<CompoundJoint> compounds,
+                     std::vector<Transmission> transmissions)
     : name_(std::move(name)),
       links_(std::move(links)),
       joints_(std::move(joints)),
       doubts_(std::move(doubts)),
-      compounds_(std::move(compounds)) {
+      compounds_(std::move(compounds)),
+      transmissions_(std::move(transmissions)) {
   if (links_.size() != joints_.size() + 1) {
     throw UrdfError("mechanism " + inQuotes(name_) + ": a tree has one link more than joints");
   }

@@ -1,4 +1,5 @@
 vwd_core(
+  added_joints.cpp
   compound_joints.cpp
   effort_limits.cpp
   inertia_doubts.cpp
@@ -8,5 +9,6 @@ vwd_core(
   urdf_angles.cpp
   urdf_checks.cpp
   urdf_reader.cpp
+  urdf_transmissions.cpp
   urdf_tree.cpp
   urdf_xml.cpp)

@@ -8,6 +8,7 @@
 #include "base/nearest_name.h"
 #include "base/number_text.h"
 #include "base/printable.h"
+#include "robot/urdf_transmissions.h"
 #include "robot/urdf_xml.h"
 
 namespace virtual_work_dynamics {
@@ -91,20 +92,6 @@ Doubt loopDoubt(const XMLElement& element) {
   return {"element " + shown(element) + " is not read: the loop stays open; in the scene, " +
           closureText(attributeOf(element, "name"), attributeOf(element, "type"), parent, child) +
           " closes it"};
-}
-
-// Transmissions name their joints in elements that are called joint, rollJoint or gap_joint.
-Words jointsOfTransmission(const XMLElement& transmission) {
-  Words joints;
-  forEachChild(transmission, [&](const XMLElement& child) {
-    const std::string tag = child.Name();
-    const std::string end = tag.size() < 5 ? "" : tag.substr(tag.size() - 5);
-    const std::string name = attributeOf(child, "name");
-    if ((end == "joint" || end == "Joint") && !name.empty() && !contains(joints, name)) {
-      joints.push_back(name);
-    }
-  });
-  return joints;
 }
 
 bool holdsLinksOrJoints(const XMLElement& element) {
@@ -196,12 +183,8 @@ class Search {
   }
 
   void visitTransmission(const XMLElement& transmission) {
-    const Words joints = jointsOfTransmission(transmission);
-    if (joints.size() < 2) return;
-    doubt("element " + shown(transmission) + " is not read: it couples the joints " +
-          namesInQuotes(joints) +
-          "; efforts are those at the joints, not at its motors, and where it ties joints to one "
-          "another, <mimic> in the joint or couplings in the scene say so");
+    const std::string text = unreadText(transmission);
+    if (!text.empty()) doubt(text);
   }
 
   void visitGazebo(const XMLElement& gazebo) {

@@ -24,6 +24,7 @@
 #include "robot/unread_elements.h"
 #include "robot/urdf_angles.h"
 #include "robot/urdf_checks.h"
+#include "robot/urdf_transmissions.h"
 #include "robot/urdf_xml.h"
 #include "virtual_work_dynamics/error.h"
 
@@ -95,6 +96,7 @@ class Reader {
     tinyxml2::XMLDocument document;
     const tinyxml2::XMLElement& robot = parseUrdfXml(text, document);
     doubts_ = unreadElements(robot);
+    transmissions_ = transmissionsOf(robot);
     const std::string checked = checkedUrdf(robot, doubts_);
     angles_ = readUrdfAngles(robot);
     model_ = parse(checked);
@@ -114,7 +116,7 @@ class Reader {
     for (Doubt& doubt : inertiaDoubts(links_, joints_)) doubts_.push_back(std::move(doubt));
     for (Doubt& doubt : unitDoubts(links_, joints_)) doubts_.push_back(std::move(doubt));
     const Mechanism mechanism(model_->getName(), std::move(links_), std::move(joints_),
-                              std::move(doubts_));
+                              std::move(doubts_), {}, std::move(transmissions_));
     return compounds_.empty() ? mechanism : withCompounds(mechanism, compounds_);
   }
 
@@ -364,6 +366,7 @@ class Reader {
   std::vector<Joint> joints_;
   std::vector<Doubt> doubts_;
   std::vector<CompoundWish> compounds_;
+  std::vector<Transmission> transmissions_;
   int coordinates_ = 0;
 };
 

@@ -5,6 +5,7 @@
 
 #include "base/printable.h"
 #include "scene/closure_types.h"
+#include "virtual_work_dynamics/closure_axes.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -33,15 +34,17 @@ tf2_msgs::TFMessage closureFrames(const Mechanism& mechanism, const Scene& scene
   tf2_msgs::TFMessage message;
   const std::unordered_set<std::string> shown(reactions.begin(), reactions.end());
   for (const Closure& closure : scene.closures) {
-    if (shown.count(closure.name) == 0) continue;
-    if (mechanism.linkIndex(closure.name) >= 0) {
-      throw SceneError("closures: " + inQuotes(closure.name) +
+    const std::string axis = axisOfClosure(closure);  // a link that the description does not have
+    const std::string& name = axis.empty() ? closure.name : axis;
+    if (shown.count(name) == 0) continue;
+    if (axis.empty() && mechanism.linkIndex(name) >= 0) {
+      throw SceneError("closures: " + inQuotes(name) +
                        " is also the name of a link; a closure's frame in tf needs another name");
     }
     if (traitsOf(closure.type).touches()) continue;  // a contact moves on its link
     message.transforms.emplace_back();
     message.transforms.back().header.frame_id = frame_prefix + closure.child.link;
-    message.transforms.back().child_frame_id = frame_prefix + closure.name;
+    message.transforms.back().child_frame_id = frame_prefix + name;
     message.transforms.back().transform = transformOf(closure.child);
   }
   return message;

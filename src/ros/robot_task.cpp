@@ -18,18 +18,18 @@
 #include "ros/private_parameters.h"
 #include "ros/start_position.h"
 #include "ros/topic_names.h"
+#include "virtual_work_dynamics/closure_axes.h"
 #include "virtual_work_dynamics/drives.h"
 #include "virtual_work_dynamics/error.h"
-#include "virtual_work_dynamics/joint_types.h"
 #include "virtual_work_dynamics/momentum_observer.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
 namespace virtual_work_dynamics {
 namespace {
 
-Mechanism readRobot(const InverseDynamicsParameters& parameters) {
+SceneOfMechanism readRobot(const InverseDynamicsParameters& parameters) {
   try {
-    return withJointTypes(readUrdf(parameters.robot_description), parameters.scene);
+    return mechanismFor(readUrdf(parameters.robot_description), parameters.scene);
   } catch (const UrdfError& error) {
     throw UrdfError("parameter " + parameters.robot_description_key + ": " + error.what());
   }
@@ -163,8 +163,11 @@ std::shared_ptr<ThresholdRecord> limitRecord(const Mechanism& mechanism, const D
 }  // namespace
 
 RobotTask::RobotTask(const InverseDynamicsParameters& parameters)
-    : mechanism(readRobot(parameters)),
-      scene(assembledScene(mechanism, parameters)),
+    : RobotTask(parameters, readRobot(parameters)) {}
+
+RobotTask::RobotTask(const InverseDynamicsParameters& parameters, const SceneOfMechanism& robot)
+    : mechanism(robot.mechanism),
+      scene(assembledScene(mechanism, robot.scene, parameters.start_patience)),
       reactions(requestedReactions(mechanism, scene)),
       reaction_topics(reactionTopics(reactions)),
       wrench_topics(wrenchTopics(liveWrenches(scene))),

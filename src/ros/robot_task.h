@@ -13,6 +13,7 @@
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion_estimator.h"
 #include "virtual_work_dynamics/scene.h"
+#include "virtual_work_dynamics/transmissions.h"
 
 namespace virtual_work_dynamics {
 
@@ -54,6 +55,9 @@ struct RobotTask {
   std::string not_observed;  ///< why there is no ~external_effort; empty: there is
   Outputs outputs;
   std::vector<std::string> plan_lines;  ///< what everything that the scene asks for costs
+
+ private:
+  RobotTask(const InverseDynamicsParameters& parameters, const SceneOfMechanism& robot);
 };
 
 }  // namespace virtual_work_dynamics

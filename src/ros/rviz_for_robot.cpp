@@ -24,7 +24,7 @@
 #include "ros/rviz_for_robot_usage.h"
 #include "ros/scene_parameter.h"
 #include "ros/topic_names.h"
-#include "virtual_work_dynamics/joint_types.h"
+#include "virtual_work_dynamics/closure_axes.h"
 #include "virtual_work_dynamics/scene_reader.h"
 #include "virtual_work_dynamics/urdf_reader.h"
 
@@ -142,10 +142,11 @@ Inputs parametersOf(const Options& options, const std::string& node) {
 std::string configurationFor(const Options& options) {
   const std::string node = ros::names::resolve(options["node"]);
   const Inputs inputs = options.robot.empty() ? parametersOf(options, node) : filesOf(options);
-  const Mechanism mechanism = withJointTypes(inputs.mechanism, inputs.scene);
+  const SceneOfMechanism robot = mechanismFor(inputs.mechanism, inputs.scene);
+  const Mechanism& mechanism = robot.mechanism;
   RvizScene scene;
-  scene.reactions = requestedReactions(mechanism, inputs.scene);
-  scene.view = modelView(mechanism, inputs.scene, scene.reactions);
+  scene.reactions = requestedReactions(mechanism, robot.scene);
+  scene.view = modelView(mechanism, robot.scene, scene.reactions);
   scene.reaction_topics = reactionTopics(scene.reactions);
   for (std::string& topic : scene.reaction_topics) topic = node + "/reaction/" + topic;
   scene.marker_topic = node + "/markers";

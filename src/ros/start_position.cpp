@@ -85,10 +85,8 @@ class StartFinder {
 
 }  // namespace
 
-Scene assembledScene(const Mechanism& mechanism, const InverseDynamicsParameters& parameters) {
+Scene assembledScene(const Mechanism& mechanism, const Scene& scene, double patience) {
   using Clock = std::chrono::steady_clock;
-  const Scene& scene = parameters.scene;
-  const double patience = parameters.start_patience;
   if (patience == 0 || !needsClosedLoops(scene)) return scene;
   try {
     const Dynamics dynamics(mechanism, scene, Request());

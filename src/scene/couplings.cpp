@@ -48,6 +48,20 @@ void checkNames(const Mechanism& mechanism, const Scene& scene) {
   }
 }
 
+// Closures that couplings name have become joints.
+void checkAxes(const Mechanism& mechanism, const Scene& scene) {
+  if (scene.couplings.empty()) return;
+  std::set<std::string> closures;
+  for (const Closure& closure : scene.closures) closures.insert(closure.name);
+  for (const Coupling& coupling : scene.couplings) {
+    for (const NamedNumber& term : coupling.terms) {
+      if (closures.count(term.name) == 0 || mechanism.jointIndex(term.name) >= 0) continue;
+      throw SceneError(placeOf(coupling) + ": " + inQuotes(term.name) +
+                       " is a closure, withClosureAxes() makes its free axis a coordinate");
+    }
+  }
+}
+
 // The angles of a joint that turns freely are those of a sample, and no lasting ones.
 bool turnsFreely(const Mechanism& mechanism, int joint) {
   const CompoundJoint* const compound = mechanism.compoundOf(joint);
@@ -207,6 +221,7 @@ class Elimination {
 
 std::vector<ResolvedCoupling> resolveCouplings(const Mechanism& mechanism, const Scene& scene) {
   checkNames(mechanism, scene);
+  checkAxes(mechanism, scene);
   std::vector<ResolvedCoupling> resolved;
   Elimination elimination;
   for (std::size_t i = 0; i < scene.couplings.size(); ++i) {

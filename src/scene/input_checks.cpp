@@ -86,6 +86,10 @@ const Scene& openChain(const Scene& scene) {
 
 void requireSoundDescription(const Mechanism& mechanism, const Scene& scene) {
   requireJointTypes(mechanism, scene);
+  if (scene.transmissions != TransmissionSelection::kNone) {
+    throw SceneError(
+        "urdf_transmissions: they are not in this mechanism, withTransmissions() makes it so");
+  }
   if (!scene.strict_inertia) return;
   for (const Doubt& doubt : mechanism.doubts()) {
     if (doubt.about_inertia) throw SceneError("strict_inertia: " + doubt.text);

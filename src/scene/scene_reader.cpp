@@ -17,10 +17,13 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-const Names kSceneKeys = {
-    "gravity",       "root",           "motion",           "reactions", "include_active",
-    "moments_about", "strict_inertia", "applied_wrenches", "joints",    "use_urdf_dynamics",
-    "tolerances",    "payload",        "joint_types"};
+const Names kSceneKeys = {"gravity",        "root",
+                          "motion",         "reactions",
+                          "include_active", "moments_about",
+                          "strict_inertia", "applied_wrenches",
+                          "joints",         "use_urdf_dynamics",
+                          "tolerances",     "payload",
+                          "joint_types",    "urdf_transmissions"};
 // Bytes, beyond those of the most values that a scene may have.
 constexpr std::size_t kLongestScene = std::size_t{64} << 20;
 const Names kWrenchKeys = {"name",   "link", "at",     "axes",     "force",
@@ -46,6 +49,20 @@ void readReactions(const YAML::Node& node, Scene& scene) {
     failAt("reactions", inQuotes(text) + " is neither all, none nor a list of joint names");
   }
   scene.reactions = text == "all" ? ReactionSelection::kAll : ReactionSelection::kNone;
+}
+
+void readTransmissions(const YAML::Node& node, Scene& scene) {
+  const std::string key = "urdf_transmissions";
+  if (node.IsSequence()) {
+    scene.transmissions = TransmissionSelection::kNamed;
+    scene.transmission_names = readNames(node, key, "names of transmissions");
+    return;
+  }
+  const std::string text = scalarText(node, key, "all, none or a list of names of transmissions");
+  if (text != "all" && text != "none") {
+    failAt(key, inQuotes(text) + " is neither all, none nor a list of names of transmissions");
+  }
+  scene.transmissions = text == "all" ? TransmissionSelection::kAll : TransmissionSelection::kNone;
 }
 
 WrenchDeviation readWrenchDeviation(const YAML::Node& node, const std::string& where) {
@@ -212,6 +229,7 @@ void readEntry(const std::string& key, const YAML::Node& value, Scene& scene) {
   if (key == "payload") scene.payloads = readList(value, key, readPayload);
   if (key == "joints") scene.joints = readList(value, key, readJointTerms);
   if (key == "joint_types") scene.joint_types = readList(value, key, readJointType);
+  if (key == "urdf_transmissions") readTransmissions(value, scene);
   if (key == "tolerances") scene.tolerances = readTolerances(value, key);
   if (key == "use_urdf_dynamics") scene.use_urdf_dynamics = readBool(value, key);
 }

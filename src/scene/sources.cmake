@@ -20,5 +20,6 @@ vwd_core(
   touch_checks.cpp
   touch_reader.cpp
   touch_rows.cpp
+  transmissions.cpp
   yaml_document.cpp
   yaml_values.cpp)

@@ -32,6 +32,8 @@ set(core_test_files
   test/core/contact_intervals_test.cpp
   test/core/contacts_test.cpp
   test/core/cylinder_test.cpp
+  test/core/closure_axes_rules_test.cpp
+  test/core/closure_axes_test.cpp
   test/core/couplings_random_test.cpp
   test/core/couplings_refusals_test.cpp
   test/core/couplings_rules_test.cpp
@@ -126,6 +128,7 @@ set(core_test_files
   test/core/offline_root_test.cpp
   test/core/offline_rosparam_test.cpp
   test/core/offline_test.cpp
+  test/core/offline_transmissions_test.cpp
   test/core/offline_wrapped_test.cpp
   test/core/offline_wrenches_test.cpp
   test/core/passive_joints_test.cpp
@@ -146,6 +149,7 @@ set(core_test_files
   test/core/reference_recursion_test.cpp
   test/core/reference_test.cpp
   test/core/regressor_test.cpp
+  test/core/rollers_and_grippers_test.cpp
   test/core/rolling_test.cpp
   test/core/root_by_link_test.cpp
   test/core/root_coordinates_test.cpp
@@ -181,6 +185,8 @@ set(core_test_files
   test/core/turn_estimator_test.cpp
   test/core/unwrap_test.cpp
   test/core/urdf_reader_test.cpp
+  test/core/urdf_transmissions_refusals_test.cpp
+  test/core/urdf_transmissions_test.cpp
   test/core/urdf_writer_test.cpp
   test/core/velocity_judge_test.cpp
   test/core/wheels_test.cpp

@@ -4,6 +4,7 @@
 #include "base/printable.h"
 #include "fuzz_target.h"
 #include "scene/yaml_document.h"
+#include "virtual_work_dynamics/closure_axes.h"
 #include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/scene_reader.h"
 #include "virtual_work_dynamics/urdf_reader.h"
@@ -28,8 +29,9 @@ YAML::Node documentOf(const std::string& text) {
   }
 }
 
-void compute(const Mechanism& mechanism, const Scene& scene) {
-  const Dynamics dynamics(mechanism, scene);
+void compute(const Mechanism& described, const Scene& scene) {
+  const SceneOfMechanism robot = mechanismFor(described, scene);
+  const Dynamics dynamics(robot.mechanism, robot.scene);
   Dynamics::Workspace workspace = dynamics.makeWorkspace();
   Motion motion(dynamics.coordinates());
   motion.q = dynamics.assembly();

@@ -2,6 +2,7 @@
 """Couplings in the node: a motor that moves an arm and a rack by gears, in closed form."""
 import math
 
+import rospy
 from diagnostic_msgs.msg import DiagnosticStatus
 
 from closed_loops import CLOSED_FORM, STEP, LoopTest, by_name
@@ -21,6 +22,9 @@ DRIVE = ('<robot name="drive"><link name="base"/>' + BODY % ('rotor', '0 0 0', 0
          JOINT % ('motor', 'continuous', 'rotor', '0 1 0') +
          JOINT % ('arm', 'continuous', 'bar', '0 1 0') +
          JOINT % ('rack', 'prismatic', 'rail', '0 0 1') + '</robot>')
+LIFT = ('<transmission name="lift"><type>transmission_interface/SimpleTransmission</type>'
+        '<joint name="arm"><offset>0.1</offset></joint><actuator name="drum">'
+        '<mechanicalReduction>-80</mechanicalReduction></actuator></transmission>')
 SCENE = {'actuated': ['motor'], 'couplings': [
     {'name': 'reducer', 'offset': 0,
      'terms': [{'name': 'motor', 'factor': 1}, {'name': 'arm', 'factor': -50}]},
@@ -77,6 +81,23 @@ class Couplings(LoopTest):
         self.assertClose([by_name(message, message.position)['reducer']], [-0.05], CLOSED_FORM, 'sum')
         status = self.node.wait_for_status("positions violate coupling 'reducer' by 0.05 m or rad")
         self.assertEqual(status.level, DiagnosticStatus.WARN)
+
+    def test_transmissions_are_read_on_request(self):
+        self.start('effort', robot=DRIVE.replace('</robot>', LIFT + '</robot>'),
+                   scene={'urdf_transmissions': 'all'},
+                   parameters={'estimator': {'acceleration': 'zero'}})
+        at = {'motor': 0.0, 'arm': 0.4, 'rack': 0.1}
+        self.states.publish(joint_state(EPOCH, at, dict.fromkeys(at, 0.0)))
+        message = self.recorders['effort'].wait(1)[0]
+        self.assertEqual(message.name, ['arm', 'drum', 'motor', 'rack', 'lift.drum'])
+        self.assertClose(message.effort, [0, 9.81 * math.sin(0.4) / -80, 0, 3 * 9.81,
+                                          -9.81 * math.sin(0.4) / -80], CLOSED_FORM, 'efforts')
+        self.assertClose(message.position, [0.4, -80 * (0.4 - 0.1), 0, 0.1, 8], CLOSED_FORM,
+                         'positions')
+        self.assertTrue(any("transmissions 'lift' are read" in line
+                            for line in self.node.lines('WARN')), self.node.lines('WARN'))
+        topics = [name for name, _ in rospy.get_published_topics(self.node.name + '/reaction')]
+        self.assertFalse([name for name in topics if 'drum' in name], topics)
 
     def test_the_log_lists_them(self):
         self.start('effort', robot=DRIVE, scene=SCENE)
