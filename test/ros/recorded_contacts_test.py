@@ -1,5 +1,7 @@
 #!/usr/bin/python3
-"""Contacts in bags that inverse_dynamics_offline writes: their frames, where they stick, and their gaps."""
+"""Contacts in bags that inverse_dynamics_offline writes: their frames, where they stick, and their gaps;
+and what noise, jitter and mixed rates make of their forces."""
+import csv
 import math
 import os
 import random
@@ -7,6 +9,7 @@ import shutil
 import subprocess
 import tempfile
 
+import numpy as np
 import rosbag
 from std_msgs.msg import Bool
 import yaml
@@ -23,6 +26,69 @@ SLIDER = """<robot name="slider"><link name="rail"/><link name="column"/><link n
   <joint name="up" type="prismatic"><parent link="column"/><child link="foot"/><axis xyz="0 0 1"/>
     <limit lower="-9" upper="9" effort="1" velocity="1"/></joint></robot>"""
 EXACT = 1e-9  # of the estimator, for joints that rest
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..')
+ENCODER = 1.2e-5  # rad, standard deviation: 18 bits in a turn
+JITTER = 1e-4  # s
+FEET = ('left_sole', 'right_sole')
+
+
+def rms(values):
+    return np.sqrt(np.mean(np.square(values)))
+
+
+class Biped:
+    """What urdf/biped.urdf does on both feet, in the plane of y and z: forces by Newton's and Euler's laws
+    of its bodies, whose accelerations are differences of their places."""
+    FEET = 0.1 + 0.85 * math.sin(0.12)
+    # Mass, moment of inertia, place on the body.
+    BODIES = {'pelvis': (12, 0.104, 0.04), 'left': (9, 0.54, -0.38), 'right': (9, 0.54, -0.38),
+              'trunk': (35, 1.428, 0.3)}
+
+    @staticmethod
+    def joints(t):
+        """Of the left hip and the waist, rad."""
+        return 0.12 + 0.12 * np.sin(2.1 * t), 0.25 * np.sin(1.3 * t + 0.4)
+
+    @staticmethod
+    def along(angle, length):
+        """The end of a way up the z axis of a body that has turned about x."""
+        return np.array([-np.sin(angle) * length, np.cos(angle) * length])
+
+    def bodies(self, t):
+        """Angles and places."""
+        hip, waist = self.joints(t)
+        roll, right = -0.0 * t, -hip
+        for _ in range(50):  # the right foot stays where it is
+            def open_by(roll, right):
+                left_hip = np.array([self.FEET + 0 * t, 0 * t]) - self.along(roll + hip, -0.85)
+                across = 0.2 * np.array([np.cos(roll), np.sin(roll)])
+                return left_hip - across + self.along(roll + right, -0.85) + np.array([self.FEET + 0 * t, 0 * t])
+            e = open_by(roll, right)
+            d = 1e-6
+            a, b = (open_by(roll + d, right) - e) / d, (open_by(roll, right + d) - e) / d
+            det = a[0] * b[1] - a[1] * b[0]
+            roll = roll - (e[0] * b[1] - e[1] * b[0]) / det
+            right = right - (a[0] * e[1] - a[1] * e[0]) / det
+        left_hip = np.array([self.FEET + 0 * t, 0 * t]) - self.along(roll + hip, -0.85)
+        pelvis = left_hip - 0.1 * np.array([np.cos(roll), np.sin(roll)])
+        right_hip = left_hip - 0.2 * np.array([np.cos(roll), np.sin(roll)])
+        angles = {'pelvis': roll, 'left': roll + hip, 'right': roll + right, 'trunk': roll + waist}
+        roots = {'pelvis': pelvis, 'left': left_hip, 'right': right_hip,
+                 'trunk': pelvis + self.along(roll, 0.12)}
+        return {name: (angles[name], roots[name] + self.along(angles[name], body[2]))
+                for name, body in self.BODIES.items()}
+
+    def normals(self, t, h=1e-3):
+        """The normal forces of the left and the right foot, N."""
+        before, now, after = self.bodies(t - h), self.bodies(t), self.bodies(t + h)
+        both = moment = 0
+        for name, (mass, inertia, _) in self.BODIES.items():
+            turn, a = [(after[name][i] - 2 * now[name][i] + before[name][i]) / h ** 2 for i in (0, 1)]
+            y, z = now[name][1][0] + self.FEET, now[name][1][1]  # from the right foot
+            both = both + mass * (a[1] + G)
+            moment = moment + y * mass * (a[1] + G) - z * mass * a[0] + inertia * turn
+        left = moment / (2 * self.FEET)
+        return left, both - left
 
 
 class RecordedContacts(NodeTest):
@@ -33,10 +99,10 @@ class RecordedContacts(NodeTest):
     def path(self, name):
         return os.path.join(self.folder, name)
 
-    def compute(self, contact, states, others=()):
+    def compute(self, contact, states, others=(), motion='static'):
         """The messages of results, by topic, of joint states (ns, along, up)."""
         scene = {'contacts': [dict({'name': 'foot_point', 'link': 'foot', 'plane': {'link': 'rail'}},
-                                   **contact)], 'motion': 'static'}
+                                   **contact)], 'motion': motion}
         for name, text in (('r.urdf', SLIDER), ('s.yaml', yaml.safe_dump(scene))):
             with open(self.path(name), 'w', encoding='utf-8') as file:
                 file.write(text)
@@ -75,8 +141,8 @@ class RecordedContacts(NodeTest):
             x = 0.3 * min(1, i / 200)
             states.append((EPOCH + i * STEP, x, 0))
         closed_at = EPOCH + 205 * STEP + 1
-        found, text = self.compute({'closed': False}, states, [
-            (closed_at, '/inverse_dynamics/contact/foot_point', Bool(True))])
+        _, text = self.compute({'closed': False}, states, [
+            (closed_at, '/inverse_dynamics/contact/foot_point', Bool(True))], motion='full')
         self.assertNotIn('violat', text)
         self.assertIn('touches', text)
 
@@ -102,6 +168,65 @@ class RecordedContacts(NodeTest):
             self.assertAlmostEqual((ns - EPOCH) / STEP, expected, delta=3)
         self.assertEqual(text.count("'foot_point' touches"), 1)
         self.assertTrue(math.isfinite(held[0]))
+
+    def biped(self, rates, offset=0.0, output=None):
+        """What the tool makes of a recording with noise and jitter, of both joints in each message or, with
+        two rates, of one."""
+        noise = np.random.default_rng(4)
+        messages = []
+        for joint, rate in enumerate(rates):
+            for i in range(8 * rate):
+                t = (i + 0.3 * joint) / rate
+                angles = [angle + noise.normal(0, ENCODER) for angle in Biped.joints(t)]
+                given = {name: angle for k, (name, angle) in enumerate(zip(('left_hip', 'waist'), angles))
+                         if len(rates) == 1 or k == joint}
+                messages.append((EPOCH + int(1e9 * (t + noise.normal(0, JITTER))), i, given))
+        with rosbag.Bag(self.path('run.bag'), 'w') as bag:
+            for stamp, _, given in sorted(messages, key=lambda each: each[:2]):
+                bag.write('/joint_states', joint_state(stamp, given), ros_time(stamp))
+        with open(os.path.join(ROOT, 'config/biped_passive_hip_scene.yaml'), encoding='utf-8') as file:
+            scene = yaml.safe_load(file)
+        scene['contacts'][0]['at'][2] += offset
+        with open(self.path('s.yaml'), 'w', encoding='utf-8') as file:
+            yaml.safe_dump(scene, file)
+        result = subprocess.run(
+            [executable('inverse_dynamics_offline'), '--urdf', os.path.join(ROOT, 'urdf/biped.urdf'),
+             '--scene', self.path('s.yaml'), '--motion', self.path('run.bag'),
+             *(['--output', self.path(output)] if output else ['--deviations', '--axes', 'child'])],
+            capture_output=True, text=True)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result
+
+    def rows(self, offset=0.0):
+        """Columns of results at 250 Hz without both ends, and the normal forces of the feet."""
+        rows = list(csv.DictReader(self.biped([250], offset).stdout.splitlines()))[50:-50]
+        columns = {name: np.array([float(row[name] or 'nan') for row in rows]) for name in rows[0]}
+        stamps = np.array([int(row['stamp'].replace('.', '')) for row in rows])
+        return columns, dict(zip(FEET, Biped().normals((stamps - EPOCH) * 1e-9)))
+
+    def test_forces_of_feet_with_noise_and_jitter(self):
+        columns, truth = self.rows()
+        for foot, expected in truth.items():
+            error = columns['reaction.%s.fz' % foot] - expected
+            deviation = columns['deviation.%s.fz' % foot]
+            within = np.mean(np.abs(error) <= 2 * deviation)
+            print('%s: rms error %.3g N of %.3g N, deviation %.3g N, within two deviations %.3f'
+                  % (foot, rms(error), np.mean(expected), rms(deviation), within))
+            self.assertLess(rms(error), 0.1)
+            self.assertLess(rms(error), 3 * rms(deviation))
+
+    def test_joints_at_rates_of_their_own(self):
+        self.biped([500, 200], output='out.bag')
+        with rosbag.Bag(self.path('out.bag')) as bag:
+            for foot in FEET:
+                found = [(message.header.stamp.to_nsec(), message.wrench.force.z) for _, message, _ in
+                         bag.read_messages('/inverse_dynamics/reaction/' + foot)][100:-100]
+                self.assertGreater(len(found), 1000)
+                t = (np.array([ns for ns, _ in found]) - EPOCH) * 1e-9
+                expected = dict(zip(FEET, Biped().normals(t)))[foot]
+                error = np.array([force for _, force in found]) - expected
+                print('%s, live at 500 and 200 Hz: rms error %.3g N' % (foot, rms(error)))
+                self.assertLess(rms(error), 0.5)
 
 
 if __name__ == '__main__':
