@@ -96,35 +96,45 @@ bool leftOut(const RecordedStream& stream, std::size_t row) {
   return std::binary_search(stream.left_out.begin(), stream.left_out.end(), row);
 }
 
-bool jumps(const CompletionReport& report, std::size_t row) {
-  return std::any_of(report.jumps.begin(), report.jumps.end(), [row](const auto& rows) {
-    return std::binary_search(rows.begin(), rows.end(), row);
-  });
+std::size_t gapsOf(const Recording& recording) {
+  const std::vector<double>& times = recording.times();
+  std::size_t gaps = 0;
+  for (std::size_t row = 1; row < times.size(); ++row)
+    gaps += times[row] - times[row - 1] > recording.longestGap() ? 1 : 0;
+  return gaps;
 }
 
-/// Counts gaps, and the rows that are so near to a gap, a jump or an end that what they are
-/// estimated from lies on one side.
-void countOneSided(const Recording& recording, CompletionReport& report) {
-  // Most of the weight of a smoother lies within three time constants.
-  constexpr double kReach = 3 / 6.283185307179586;
-  double reach = 0;
-  for (std::size_t i = 0; i < report.qualities.size(); ++i)
-    if (!report.still[i]) reach = std::max(reach, kReach / report.qualities[i].bandwidth);
-  const std::vector<double>& times = recording.times();
-  report.one_sided_rows.assign(times.size(), false);
-  std::size_t first = 0;
-  for (std::size_t row = 1; row <= times.size(); ++row) {
-    const bool gap = row < times.size() && times[row] - times[row - 1] > recording.longestGap();
-    if (row < times.size() && !gap && !jumps(report, row)) continue;
-    report.gaps += gap ? 1 : 0;
-    for (std::size_t i = first; i < row; ++i) {
-      if (times[i] >= times[first] + reach && times[i] <= times[row - 1] - reach) continue;
-      ++report.one_sided;
-      report.one_sided_rows[i] = true;
-    }
-    first = row;
+/// Rows whose estimates have rows on one side only, as those near an end, a gap or a jump do: by
+/// how exact they are, as how far a smoother reaches says little of a slow motion without noise.
+class OneSided {
+ public:
+  explicit OneSided(std::size_t rows) : rows_(rows, false) {}
+
+  /// @param estimates of a joint, and their variances, by row.
+  template <typename Estimates>
+  void add(const Estimates& estimates, const std::vector<double>& variances) {
+    constexpr double kLessExact = 2;      // times the standard deviation in the middle of all rows
+    constexpr double kNoticeable = 1e-4;  // of the motion: less of a deviation leaves no doubt
+    std::vector<double> known;
+    for (const double variance : variances)
+      if (std::isfinite(variance)) known.push_back(variance);
+    if (known.empty()) return;
+    const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
+    std::nth_element(known.begin(), middle, known.end());
+    const double most = std::max(kLessExact * kLessExact * *middle,
+                                 kNoticeable * kNoticeable * estimates.array().square().mean());
+    for (std::size_t row = 0; row < rows_.size(); ++row)
+      if (!(variances[row] <= most)) rows_[row] = true;
   }
-}
+
+  void report(CompletionReport& report) && {
+    report.one_sided = static_cast<std::size_t>(std::count(rows_.begin(), rows_.end(), true));
+    report.one_sided_rows = std::move(rows_);
+  }
+
+ private:
+  std::vector<bool> rows_;
+};
 
 // Powers of times that are ages apart overflow.
 void checkEstimates(const MotionTable& motion) {
@@ -170,18 +180,24 @@ MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion,
   const std::size_t joints = motion.joints.size();
   if (settings.covariances)
     motion.covariances.assign(motion.times.size() * joints, Eigen::Matrix3d::Zero());
+  OneSided one_sided(motion.times.size());
+  std::vector<double> variances(report == nullptr ? 0 : motion.times.size());
   for (std::size_t joint = 0; joint < joints; ++joint) {
     const auto column = static_cast<Eigen::Index>(joint);
     const auto take = [&](std::size_t row, const SmoothedSample& sample) {
       const auto at = static_cast<Eigen::Index>(row);
       motion.velocities(at, column) = sample.motion[1];
       if (settings.covariances) motion.covariances[row * joints + joint] = sample.covariance;
+      if (report != nullptr) variances[row] = sample.covariance(given ? 1 : 2, given ? 1 : 2);
       if (given) return;
       if (!settings.keep_positions || leftOut(recording.stream(joint), row))
         motion.positions(at, column) = sample.motion[0];
       motion.accelerations(at, column) = sample.motion[2];
     };
-    recording.smooth(joint, settings.covariances, take);
+    recording.smooth(joint, settings.covariances || report != nullptr, take);
+    if (report != nullptr && !recording.stream(joint).still)
+      one_sided.add(given ? motion.velocities.col(column) : motion.accelerations.col(column),
+                    variances);
     did(1);
   }
   checkEstimates(motion);
@@ -196,7 +212,8 @@ MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion,
       report->jumps.push_back(stream.jumps);
       report->left_out.push_back(stream.left_out);
     }
-    countOneSided(recording, *report);
+    report->gaps = gapsOf(recording);
+    std::move(one_sided).report(*report);
   }
   return motion;
 }

@@ -249,7 +249,9 @@ class CsvReader {
       columns.push_back(other);
       names.push_back(name);
     }
-    const std::string nearest = nearestName(column_name.substr(kind.size()), names);
+    const std::string bare = column_name.substr(kind.size());
+    if (!kind.empty() && column_of_name_.count(bare) > 0) return ", and there is " + inQuotes(bare);
+    const std::string nearest = nearestName(bare, names);
     if (!nearest.empty()) return "; is it " + inQuotes(kind + nearest) + "?";
     return columns.empty() || kind.empty() ? "" : "; there are " + namesInQuotes(columns);
   }

@@ -39,6 +39,9 @@ std::string streamText(const StreamQuality& quality, const std::string& unit,
 
 std::string velocityProblem(const std::string& joint, double ratio) {
   const std::string begin = "velocities of " + inQuotes(joint) + " are not used: they ";
+  const std::string positions = " of the slope of its positions: are these in ";
+  if (std::abs(57.29578 * ratio - 1) < 0.05) return begin + "are 1/57" + positions + "degrees?";
+  if (std::abs(1000 * ratio - 1) < 0.05) return begin + "are 1/1000" + positions + "millimetres?";
   if (std::abs(ratio) < 0.02) return begin + "stay at zero while its position moves";
   if (std::abs(ratio - 57.29578) < 3)
     return begin + "are 57 times the slope of its positions: degrees per second?";

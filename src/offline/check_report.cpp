@@ -7,7 +7,9 @@
 #include <map>
 #include <sstream>
 
+#include "base/number_text.h"
 #include "base/printable.h"
+#include "scene/scene_units.h"
 #include "virtual_work_dynamics/joint_types.h"
 
 namespace virtual_work_dynamics {
@@ -109,6 +111,19 @@ void printMechanism(std::ostream& out, const Mechanism& mechanism) {
   label(out, "total mass") << mass << " kg\n";
   printMimicJoints(out, mechanism);
   printCoordinates(out, mechanism);
+}
+
+void printGravity(std::ostream& out, const Scene& scene) {
+  const Eigen::Vector3d& g = scene.gravity;
+  label(out, "gravity") << numberText(g.x()) << " " << numberText(g.y()) << " " << numberText(g.z())
+                        << " m/s^2\n";
+}
+
+void printSceneDoubts(std::ostream& out, const std::string& prefix, const Mechanism& mechanism,
+                      const Scene& scene) {
+  for (const std::string& doubt : sceneUnitDoubts(mechanism, scene)) {
+    out << "warning: " << printable(prefix + doubt) << "\n";
+  }
 }
 
 void printDoubts(std::ostream& out, const Mechanism& mechanism) {

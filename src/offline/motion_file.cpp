@@ -18,9 +18,11 @@
 #include "offline/mechanism_json.h"
 #include "offline/npz_motion.h"
 #include "offline/progress.h"
+#include "offline/slope_checks.h"
 #include "offline/state_csv.h"
 #include "offline/state_motion.h"
 #include "offline/watched_file.h"
+#include "robot/unit_doubts.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -33,6 +35,8 @@ constexpr double kFineTimes = 1e-6;
 // beyond them.
 constexpr double kLatestTime = 1e11;
 constexpr double kLongestSpacing = 1e4;
+// Of recordings at 1 kHz and less whose times are milliseconds.
+constexpr double kSlowSpacing = 1;
 
 using Names = std::vector<std::string>;
 
@@ -106,6 +110,11 @@ void checkTimes(const MotionFile& motion) {
             "nanoseconds? Give seconds";
     throw FileError(text.str());
   }
+  if (spacing >= kSlowSpacing) {
+    std::cerr
+        << "warning: " << printable(motion.path) << ": " << numberText(spacing)
+        << " s from row to row, and derivatives have to be estimated: are times milliseconds?\n";
+  }
   const double resolution = latest * std::numeric_limits<double>::epsilon();
   if (times.size() > 1 && resolution > kFineTimes * spacing) {
     std::ostringstream text;
@@ -115,21 +124,23 @@ void checkTimes(const MotionFile& motion) {
   }
 }
 
-// Positions so far beyond the limits of a joint are hardly radians.
-void warnOfDegrees(const Mechanism& mechanism, const MotionFile& motion) {
-  constexpr double kFar = 5;
+// Positions so far beyond the limits of a joint are hardly radians or metres.
+void warnOfUnits(const Mechanism& mechanism, const MotionFile& motion) {
   const MotionTable& table = motion.table;
   for (std::size_t i = 0; i < table.joints.size(); ++i) {
     const int index = mechanism.jointIndex(table.joints[i]);
     if (index < 0) continue;
     const Joint& joint = mechanism.joint(index);
-    if (joint.type != JointType::kRevolute || !(joint.lower < joint.upper)) continue;
-    const double limit = std::max(std::abs(joint.lower), std::abs(joint.upper));
     const double most = table.positions.col(static_cast<Eigen::Index>(i)).cwiseAbs().maxCoeff();
-    if (most <= kFar * limit) continue;
-    std::cerr << "warning: " << printable(motion.path) << ": positions of "
-              << inQuotes(table.joints[i]) << " reach " << numberText(most) << ", its limit is "
-              << numberText(limit) << " rad: are they degrees?\n";
+    if (most <= largestPosition(joint)) continue;
+    std::cerr << "warning: " << printable(motion.path) << ": " << positionQuestion(joint, most)
+              << "\n";
+  }
+}
+
+void warnOfSlopes(const MotionFile& motion) {
+  for (const std::string& doubt : slopeDoubts(motion.table)) {
+    std::cerr << "warning: " << printable(motion.path) << ": " << doubt << "\n";
   }
 }
 
@@ -242,12 +253,13 @@ void completeDerivatives(const Mechanism& mechanism, const Scene& scene,
   std::string missing;
   if (!table.hasVelocities()) missing = "velocities";
   if (!table.hasAccelerations()) missing += missing.empty() ? "accelerations" : ", accelerations";
-  warnOfDegrees(mechanism, motion);
+  warnOfUnits(mechanism, motion);
   if (missing.empty() || table.joints.empty()) {
     if (cannotBeSeconds(table.times)) {
       std::cerr << "warning: " << printable(motion.path) << ": times up to "
                 << numberText(table.times.back()) << " cannot be seconds: are they nanoseconds?\n";
     }
+    if (!scene.static_motion) warnOfSlopes(motion);
     return;
   }
   checkTimes(motion);

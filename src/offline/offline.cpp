@@ -203,12 +203,14 @@ SceneOfMechanism robotOf(const Mechanism& described, const Scene& scene,
 void check(const Arguments& arguments, const Mechanism& mechanism, Scene scene) {
   printMechanism(std::cout, mechanism);
   printDoubts(std::cout, mechanism);
+  printSceneDoubts(std::cout, scenePrefix(arguments), mechanism, scene);
   std::cout << std::flush;
   refuseByLoops(arguments, needsClosedLoops(scene));
   std::optional<RecordedMotion> recorded;
   if (!arguments.motion.empty()) recorded = readStart(arguments, mechanism, scene);
   const Dynamics dynamics =
       dynamicsOf(mechanism, scene, requestOf(mechanism, scene, arguments), arguments);
+  printGravity(std::cout, scene);
   if (scene.root_moves) printNames(std::cout, "root", {"moves as columns root.… say"});
   if (!scene.drives.empty()) {
     printNames(std::cout, "driven", Drives(mechanism, scene).names());
@@ -347,6 +349,7 @@ void runOffline(Arguments arguments) {
   if (arguments.explain) explain(arguments, mechanism, scene);
   if (arguments.check || arguments.explain) return;
   printDoubts(std::cerr, mechanism);
+  printSceneDoubts(std::cerr, scenePrefix(arguments), mechanism, scene);
   if (!arguments.generate.empty()) {
     const Request request = requestOf(mechanism, scene, arguments);
     return naming(scenePrefix(arguments),

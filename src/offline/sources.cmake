@@ -40,6 +40,7 @@ foreach(file
     root_rows.cpp
     row_loads.cpp
     rows.cpp
+    slope_checks.cpp
     state_csv.cpp
     state_motion.cpp
     task_inputs.cpp

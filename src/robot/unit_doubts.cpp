@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <string>
 
+#include "base/number_text.h"
 #include "base/printable.h"
 
 namespace virtual_work_dynamics {
@@ -145,6 +147,21 @@ class Judge {
 };
 
 }  // namespace
+
+double largestPosition(const Joint& joint) {
+  constexpr double kBeyond = 5;  // times the limit
+  const bool limited = joint.type == JointType::kPrismatic || joint.type == JointType::kRevolute;
+  if (!limited || !(joint.lower < joint.upper)) return std::numeric_limits<double>::infinity();
+  return kBeyond * std::max(std::abs(joint.lower), std::abs(joint.upper));
+}
+
+std::string positionQuestion(const Joint& joint, double position) {
+  const double limit = std::max(std::abs(joint.lower), std::abs(joint.upper));
+  return "positions of " + inQuotes(joint.name) + " reach " + numberText(std::abs(position)) +
+         ", its limit is " + numberText(limit) +
+         (joint.type == JointType::kPrismatic ? " m: are they millimetres?"
+                                              : " rad: are they degrees?");
+}
 
 std::vector<Doubt> unitDoubts(const std::vector<Link>& links, const std::vector<Joint>& joints) {
   return Judge(links, joints).judge();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "virtual_work_dynamics/mechanism.h"
@@ -11,5 +12,12 @@ namespace virtual_work_dynamics {
 /// origins of joints beyond all robots (mm), masses beyond that of a steel block of its size (g),
 /// and limits of revolute joints in degrees.
 std::vector<Doubt> unitDoubts(const std::vector<Link>& links, const std::vector<Joint>& joints);
+
+/// The largest position, rad or m, that a joint with these limits may have without a question;
+/// infinite without limits.
+double largestPosition(const Joint& joint);
+
+/// What to ask about a position beyond that.
+std::string positionQuestion(const Joint& joint, double position);
 
 }  // namespace virtual_work_dynamics

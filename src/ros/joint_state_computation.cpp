@@ -13,6 +13,7 @@ JointStateComputation::JointStateComputation(const Mechanism& mechanism,
                                              JointStateUser& user)
     : covariances_(settings.estimate),
       conversion_(mechanism),
+      positions_(mechanism),
       free_joints_(mechanism, settings),
       estimator_(estimator),
       completer_(completer),
@@ -40,6 +41,7 @@ bool JointStateComputation::take(const sensor_msgs::JointState& message) {
     user_.warn(sample.velocity_problem + "; velocities that are not finite are not used");
   }
   if (!push(sample, &JointStateUser::dropJointState)) return false;
+  if (const auto question = positions_.take(sample)) user_.warn(*question);
   if (efforts_) {
     efforts_->take(sample);
     if (const auto news = efforts_->news()) user_.warn(*news);

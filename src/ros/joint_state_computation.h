@@ -13,6 +13,7 @@
 #include "ros/free_joints.h"
 #include "ros/joint_state_conversion.h"
 #include "ros/motion_completer.h"
+#include "ros/position_watch.h"
 #include "ros/sample_computation.h"
 #include "virtual_work_dynamics/motion_covariance.h"
 #include "virtual_work_dynamics/motion_estimator.h"
@@ -83,6 +84,7 @@ class JointStateComputation {
 
   const bool covariances_;
   JointStateConversion conversion_;
+  PositionWatch positions_;
   FreeJoints free_joints_;
   std::size_t unknown_turn_ = 0;
   MotionEstimator& estimator_;

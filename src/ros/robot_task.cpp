@@ -18,6 +18,7 @@
 #include "ros/private_parameters.h"
 #include "ros/start_position.h"
 #include "ros/topic_names.h"
+#include "scene/scene_units.h"
 #include "virtual_work_dynamics/closure_axes.h"
 #include "virtual_work_dynamics/drives.h"
 #include "virtual_work_dynamics/error.h"
@@ -230,6 +231,9 @@ std::vector<bool> RobotTask::following() const {
 
 void RobotTask::log(const InverseDynamicsParameters& parameters) const {
   for (const Doubt& doubt : mechanism.doubts()) ROS_WARN("%s", printable(doubt.text).c_str());
+  for (const std::string& doubt : sceneUnitDoubts(mechanism, scene)) {
+    ROS_WARN("%s", printable(doubt).c_str());
+  }
   for (const std::string& doubt : everything.assemblyDoubts()) {
     ROS_WARN("%s", printable(doubt).c_str());
   }

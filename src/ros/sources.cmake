@@ -33,6 +33,7 @@ foreach(file
     outputs.cpp
     plan_switch.cpp
     pose_reading.cpp
+    position_watch.cpp
     private_name.cpp
     private_parameters.cpp
     residual_output.cpp

@@ -17,6 +17,7 @@ vwd_core(
   resolved_loops.cpp
   scene.cpp
   scene_reader.cpp
+  scene_units.cpp
   touch_checks.cpp
   touch_reader.cpp
   touch_rows.cpp

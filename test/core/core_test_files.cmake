@@ -129,6 +129,7 @@ set(core_test_files
   test/core/offline_rosparam_test.cpp
   test/core/offline_test.cpp
   test/core/offline_transmissions_test.cpp
+  test/core/offline_units_test.cpp
   test/core/offline_wrapped_test.cpp
   test/core/offline_wrenches_test.cpp
   test/core/passive_joints_test.cpp

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "virtual_work_dynamics/error.h"
@@ -303,6 +304,39 @@ TEST(MotionCompletion, RefusesTablesThatDoNotFitTheRobot) {
   motion = without(cubicMotion(unevenTimes(12)), true, true);
   motion.velocities = Eigen::MatrixXd::Zero(11, 2);
   EXPECT_EQ(refusal(motion), "motion: velocities are 11 x 2, expected 12 rows x 2 joints");
+}
+
+// Six seconds from rest to rest and a swing, in numbers of `resolution`.
+CompletionReport reportOfSlowMotion(double resolution) {
+  MotionTable motion;
+  motion.joints = {"hinge", "wheel"};
+  motion.positions.resize(601, 2);
+  for (int i = 0; i <= 600; ++i) {
+    const double t = 0.01 * i, s = t / 6;
+    motion.times.push_back(t);
+    motion.positions.row(i) << 0.9 * s * s * s * (10 - 15 * s + 6 * s * s), 0.8 * std::sin(kPi * t);
+    for (Eigen::Index k = 0; k < 2; ++k)
+      motion.positions(i, k) = resolution * std::round(motion.positions(i, k) / resolution);
+  }
+  CompletionReport report;
+  completeMotion(twoJoints(), motion, {}, &report);
+  return report;
+}
+
+// A smoother reaches farther than the whole of a motion that is so smooth and exact, but what it
+// finds is as good nearly everywhere; where numbers are rough, a second at either end is not.
+TEST(MotionCompletion, OneSidedRowsAreThoseThatAreLessExact) {
+  const std::pair<double, std::size_t> kMost[] = {{1e-6, 20}, {1e-3, 220}};
+  for (const auto& [resolution, most] : kMost) {
+    const CompletionReport report = reportOfSlowMotion(resolution);
+    EXPECT_LT(report.one_sided, most) << resolution;
+    const std::vector<bool>& rows = report.one_sided_rows;
+    ASSERT_EQ(rows.size(), 601U);
+    EXPECT_EQ(static_cast<std::size_t>(std::count(rows.begin(), rows.end(), true)),
+              report.one_sided);
+    EXPECT_FALSE(rows[300]) << resolution;
+    EXPECT_TRUE(rows[0] && rows[600]) << resolution;
+  }
 }
 
 // Powers of such times overflow.

@@ -94,9 +94,12 @@ TEST_F(OfflineRecordings, NoiseOfTheEncoderIsFoundAndSmoothed) {
 TEST_F(OfflineRecordings, VelocitiesThatContradictThePositionsAreNotUsed) {
   record();
   const double without = error(compute());
-  const std::pair<double, std::string> wrong[] = {{0, "stay at zero while its position moves"},
-                                                  {57.29577951, "degrees per second?"},
-                                                  {1.2, "are 1.2 times the slope"}};
+  const std::pair<double, std::string> wrong[] = {
+      {0, "stay at zero while its position moves"},
+      {57.29577951, "degrees per second?"},
+      {0.0174532925, "slope of its positions: are these in degrees?"},
+      {0.001, "slope of its positions: are these in millimetres?"},
+      {1.2, "are 1.2 times the slope"}};
   for (const auto& [ratio, text] : wrong) {
     record(ratio);
     const Run result = compute();

@@ -175,6 +175,17 @@ class JointStates(NodeTest):
             self.assertIn("position of '%s' jumps as no motion does: nothing is assumed of the "
                           'motion across it' % joint, self.node.lines('WARN'))
 
+    def test_positions_in_another_unit_are_asked_about_once(self):
+        self.start()
+        for i in range(30):
+            ns = EPOCH + 10 * MS * i
+            q = dict(SLOW(ns)[0], slide=50, elbow=200)  # the elbow may turn on and on
+            self.states.publish(joint_state(ns, q))
+        self.efforts.wait(30 - LATEST)
+        self.assertEqual(self.node.lines('WARN'), [
+            self.node.namespace + "/joint_states: positions of 'slide' reach 50, its limit is 0.3 m: are "
+            'they millimetres?'])
+
     def test_joint_states_at_10_hz_are_close_enough(self):
         self.start()
         stamps = [EPOCH + 100 * MS * i for i in range(15)]
