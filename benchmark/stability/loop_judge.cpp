@@ -389,7 +389,10 @@ void LoopJudge::complete(const Motion& motion, double limit, RandomNumbers& rand
 LoopVerdict LoopJudge::judgeForces(const Motion& motion) {
   const LoopComponents computed = compute(motion);
   LoopVerdict verdict = compare(motion, computed, determinacy());
-  if (!dynamics_.results().loops.holds.empty()) compareHolds(exactOf(motion), verdict);
+  if (!dynamics_.results().loops.holds.empty()) {
+    const Exact exact = exactOf(motion);
+    compareHolds(exact, largestOf(exact, computed), verdict);
+  }
   return verdict;
 }
 

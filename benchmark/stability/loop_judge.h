@@ -106,8 +106,8 @@ class LoopJudge {
   long double lossOf(const Exact& exact, const Determinacy& found) const;
   void compareCountsAndFlags(const Exact& exact, const LoopComponents& computed,
                              const Determinacy& found, LoopVerdict& verdict) const;
-  void compareHolds(const Exact& exact, LoopVerdict& verdict) const;
-  std::optional<Hold> holdOf(const Closure& closure, const Exact& exact) const;
+  void compareHolds(const Exact& exact, long double largest, LoopVerdict& verdict) const;
+  std::optional<Hold> holdOf(const Closure& closure, const Exact& exact, long double edge) const;
   void compareValues(const Exact& exact, const LoopComponents& computed, long double scale,
                      long double loss, LoopVerdict& verdict) const;
   void complete(const Motion& motion, double limit, RandomNumbers& random, LoopVerdict& verdict);

@@ -24,9 +24,9 @@ bool isNearlyFree(const ExactComponent& component) {
 }  // namespace
 
 // None where it is on the edge.
-std::optional<Hold> LoopJudge::holdOf(const Closure& closure, const Exact& exact) const {
+std::optional<Hold> LoopJudge::holdOf(const Closure& closure, const Exact& exact,
+                                      long double edge) const {
   if (isTouch(closure) && !closure.touch.closed) return Hold::kHolds;
-  const long double edge = kOnTheEdge * std::max(exact.force, exact.moment / size_);
   std::size_t normal = 0;
   if (isTouch(closure)) {
     const auto place = std::find(names_.begin(), names_.end(), closure.name) - names_.begin();
@@ -51,7 +51,7 @@ std::optional<Hold> LoopJudge::holdOf(const Closure& closure, const Exact& exact
   return beyond > 0 ? Hold::kOutsideCone : Hold::kHolds;
 }
 
-void LoopJudge::compareHolds(const Exact& exact, LoopVerdict& verdict) const {
+void LoopJudge::compareHolds(const Exact& exact, long double largest, LoopVerdict& verdict) const {
   if (!verdict.clear || exact.free_motions > 0 || verdict.free_motions > 0) return;
   const std::vector<Hold>& holds = dynamics_.results().loops.holds;
   std::size_t next = 0;
@@ -59,7 +59,7 @@ void LoopJudge::compareHolds(const Exact& exact, LoopVerdict& verdict) const {
     const bool presses = isTouch(closure) && closure.touch.normal;
     if (!presses && !closure.pulls_only) continue;
     const Hold found = holds.at(next++);
-    const std::optional<Hold> right = holdOf(closure, exact);
+    const std::optional<Hold> right = holdOf(closure, exact, kOnTheEdge * largest);
     if (!right) continue;
     ++verdict.holds;
     if (found == *right) continue;

@@ -63,6 +63,7 @@ set(core_test_files
   test/core/exudyn_robot_test.cpp
   test/core/free_bodies_published_test.cpp
   test/core/free_motion_test.cpp
+  test/core/friction_cone_test.cpp
   test/core/gear_reader_test.cpp
   test/core/gears_test.cpp
   test/core/generated_code_test.cpp
