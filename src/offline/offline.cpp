@@ -344,6 +344,9 @@ void runOffline(Arguments arguments) {
   if (arguments.check || arguments.explain) return;
   printDoubts(std::cerr, mechanism);
   if (!arguments.generate.empty()) {
+    if (!scene.drives.empty()) {
+      std::cerr << "note: --generate: the code takes the motion of all joints, driven ones, too\n";
+    }
     const Request request = requestOf(mechanism, scene, arguments);
     return naming(scenePrefix(arguments),
                   [&] { writeGeneratedFiles(arguments, mechanism, scene, request); });
