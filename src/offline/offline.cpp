@@ -351,6 +351,9 @@ void runOffline(Arguments arguments) {
   printDoubts(std::cerr, mechanism);
   printSceneDoubts(std::cerr, scenePrefix(arguments), mechanism, scene);
   if (!arguments.generate.empty()) {
+    if (!scene.drives.empty()) {
+      std::cerr << "note: --generate: the code takes the motion of all joints, driven ones, too\n";
+    }
     const Request request = requestOf(mechanism, scene, arguments);
     return naming(scenePrefix(arguments),
                   [&] { writeGeneratedFiles(arguments, mechanism, scene, request); });

@@ -96,6 +96,7 @@ std::string whyNotObserved(const Mechanism& mechanism, const Scene& scene, doubl
     return error.what();
   }
   // It is at the newest joint state, and these are known behind it.
+  if (!scene.drives.empty()) return "momentum observer: what has a drive is not observed live";
   if (scene.root_moves) return "momentum observer: a root that moves is not observed live";
   if (!liveWrenches(scene).empty()) return "momentum observer: live wrenches are not observed";
   return "";

@@ -293,6 +293,20 @@ TEST_F(OfflineDrives, AMotionOfTimesAloneDrivesEverything) {
   }
 }
 
+// Generated code knows no time.
+TEST_F(OfflineDrives, GeneratedCodeTakesTheMotionOfWhatIsDriven) {
+  write("cart.urdf", kCart);
+  write("cart.yaml", "drives: [{name: slide, law: polynomial, coefficients: [1, 0.5]}]\n");
+  results("--urdf cart.urdf --scene cart.yaml --generate cart.c");
+  EXPECT_NE(notes_.find("note: --generate: the code takes the motion of all joints, driven ones, "
+                        "too\n"),
+            std::string::npos)
+      << notes_;
+  write("plain.yaml", "gravity: [0, 0, -9.81]\n");
+  results("--urdf cart.urdf --scene plain.yaml --generate plain.c");
+  EXPECT_EQ(notes_.find("driven"), std::string::npos) << notes_;
+}
+
 TEST_F(OfflineDrives, WhatIsWrongIsOneLine) {
   write("cart.urdf", kCart);
   const auto with = [&](const std::string& drive) {

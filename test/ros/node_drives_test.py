@@ -75,6 +75,9 @@ class DrivenJoints(NodeTest):
             self.assertClose([by_name(message, message.position)['shoulder']],
                              [motion(ns)[0]['shoulder']], 1e-15, 'the law')
         self.assertEqual(self.node.diagnostics()['joints waited for'], 'none')
+        # An observer would need the joint's measured motion at the newest joint state.
+        self.assertIn('external_effort is not offered: momentum observer: what has a drive',
+                      self.node.output())
 
     def test_what_joint_states_say_of_it_is_not_used(self):
         self.start(polynomial('shoulder', COEFFICIENTS['shoulder']))
