@@ -114,8 +114,21 @@ class Reduction {
   }
 
   void markPoses() {
-    for (const auto& output : plan_.root_axes) {
-      if (output.body >= 0) needPose(output.body);
+    std::vector<bool> moved(plan_.root_axes.size(), false);
+    for (const auto& moment : plan_.moved) {
+      if (moment.in_root_axes) moved[moment.output] = true;
+    }
+    for (std::size_t i = 0; i < plan_.root_axes.size(); ++i) {
+      const ReactionOutput<Real>& output = plan_.root_axes[i];
+      if (output.body < 0) continue;
+      Body<Real>& body = bodies_[output.body];
+      body.turned_by_parent = body.wrench_needed && output.body > 0 && !output.drop_active;
+      const bool drops = body.wrench_needed && output.drop_active;
+      if (drops || plan_.poses || plan_.twists || moved[i]) {
+        needPose(output.body);
+      } else if (body.parent > 0) {
+        needPose(body.parent);
+      }
     }
     for (const auto& applied : plan_.applied) {
       if (applied.body >= 0 && applied.in_root_axes) needPose(applied.body);
@@ -196,10 +209,10 @@ class Reduction {
     }
   }
 
-  // The position of a joint matters to its body's pose, to what its wrench adds to its parent's,
-  // and to the gamma that arrives from its parent.
+  // The position of a joint matters to its body's pose, to its wrench in its parent's axes, whether
+  // it is reported or added there, and to the gamma that arrives from its parent.
   bool positionMatters(const Body<Real>& body) const {
-    if (body.pose_needed || body.bears_point) return true;
+    if (body.pose_needed || body.bears_point || body.turned_by_parent) return true;
     if (body.wrench_needed && bodies_[body.parent].wrench_needed) return true;
     if (!body.motion_needed) return false;
     if (!body.parent_rests) return true;
@@ -335,10 +348,21 @@ class Reduction {
     for (std::size_t k = 1; k < bodies_.size(); ++k) {
       Body<Real>& body = bodies_[k];
       if (body.mobility != Mobility::kRevolute || body.geared || body.angle < 0) continue;
-      body.plain_motion = body.motion_needed && body.has_inertia && !body.parent_rests &&
-                          body.parent_slot < 0 && body.own_slot < 0;
-      body.plain_wrench = body.wrench_needed && body.drives && !body.summed && body.hands_on;
+      const bool plain = body.motion_needed && body.has_inertia && !body.parent_rests &&
+                         body.parent_slot < 0 && body.own_slot < 0;
+      body.plain_motion = plain && !body.pose_needed;
+      body.turned_motion = plain && body.pose_needed;
+      if (!body.wrench_needed || !body.drives || body.summed || !body.hands_on) continue;
+      if (dropsActive(body)) continue;
+      body.plain_wrench = body.root_axes >= 0    ? PlainReport::kRootAxes
+                          : body.child_axes >= 0 ? PlainReport::kChildAxes
+                                                 : PlainReport::kNone;
     }
+  }
+
+  bool dropsActive(const Body<Real>& body) const {
+    return (body.child_axes >= 0 && plan_.child_axes[body.child_axes].drop_active) ||
+           (body.root_axes >= 0 && plan_.root_axes[body.root_axes].drop_active);
   }
 
   Plan<Real>& plan_;

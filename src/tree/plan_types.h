@@ -25,13 +25,23 @@ enum class AxisDirection : unsigned char {
   kMinusZ
 };
 
+/// How a wrench is reported that is plain: of a revolute body, drives one effort one to one, is
+/// handed to the body before it, and is reported, if it is, with all that the joint bears.
+enum class PlainReport : unsigned char {
+  kNone,
+  kChildAxes,
+  kRootAxes,  ///< and in child axes, or not
+  kNotPlain
+};
+
 /// What of a body matters to the request, and how the sweeps reach it.
 struct BodyUse {
   /// Revolute, moved one to one by its coordinate, with inertia, and reached from the body before
   /// it: the kernel asks nothing else of its motion.
+  /// Its rotation in root axes is not needed.
   bool plain_motion = false;
-  /// Revolute, drives one effort one to one, and handed to the body before it.
-  bool plain_wrench = false;
+  bool turned_motion = false;  ///< the same of a body whose rotation in root axes is needed
+  PlainReport plain_wrench = PlainReport::kNotPlain;
   int feeds = -1;  ///< the body that is reached from this one, next in the sweep; -1: none
 
   int parent = -1;
@@ -43,6 +53,9 @@ struct BodyUse {
   bool pose_needed = false;  ///< R_0Z and p_0
   bool bears_point = false;  ///< its position says where the point or axis of a moment is
   bool reported = false;     ///< its wrench is a result in some axes
+  /// Its reaction in root axes is its wrench in its parent's axes, turned as the parent is: its own
+  /// rotation is not needed for it.
+  bool turned_by_parent = false;
   bool has_inertia = false;
 
   // Constants that are zero, so that their products are left out.

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -112,6 +113,29 @@ TEST(PlanReduction, NarrowerRequestsGiveTheSameNumbers) {
         expectSame(narrow, NamedResults(mechanism, scene, narrow, motion, set), wider);
       }
     }
+  }
+}
+
+// In its own axes the wrench of a turntable does not depend on its position; in root axes it does.
+TEST(PlanReduction, KeepsAPositionThatOnlyTurnsAReaction) {
+  const Mechanism mechanism = readUrdf(
+      "<robot name='turntable'><link name='base'/><link name='table'><inertial>"
+      "<origin xyz='0.5 0 0'/><mass value='2'/>"
+      "<inertia ixx='0.1' ixy='0' ixz='0' iyy='0.1' iyz='0' izz='0.1'/></inertial></link>"
+      "<joint name='turn' type='continuous'><parent link='base'/><child link='table'/>"
+      "<axis xyz='0 0 1'/></joint></robot>");
+  Scene scene;
+  scene.static_motion = true;
+  Motion motion(1);
+  motion.q[0] = 0.7;
+  const Request request = only("", "turn", false, false);
+  for (const InstructionSet set : supportedInstructionSets()) {
+    const NamedResults results(mechanism, scene, request, motion, set);
+    const Wrench& reaction = results.root("turn");
+    const double weight = 2 * 9.81;
+    EXPECT_LE((reaction.force - Eigen::Vector3d(0, 0, weight)).norm(), kRounding * weight);
+    const Eigen::Vector3d torque(0.5 * std::sin(0.7) * weight, -0.5 * std::cos(0.7) * weight, 0);
+    EXPECT_LE((reaction.torque - torque).norm(), kRounding * weight);
   }
 }
 

@@ -73,7 +73,7 @@ struct Kernel {
   int width;  ///< samples of a pack
   std::size_t (*scratchSize)(const PlanView<R>& plan);
   void (*prepare)(const PlanView<R>& plan, void* scratch);
-  /// Computes one sample.
+  /// Computes one sample; its strides are all 1, whatever they say.
   void (*one)(const PlanView<R>&, const KernelInputs<R>&, const KernelOutputs<R>&, void* scratch);
   /// Computes `width` neighbouring samples.
   void (*pack)(const PlanView<R>&, const KernelInputs<R>&, const KernelOutputs<R>&, void* scratch);

@@ -43,8 +43,13 @@ struct KernelBuild {
   static void one(const PlanView<R>& plan, const KernelInputs<R>& in, const KernelOutputs<R>& out,
                   void* scratch) {
     const Scratch<R, R> arrays = memory(plan, scratch).one;
-    sampleAngles<kAngles>(plan, in, arrays);
-    evaluate(plan, in, out, arrays);
+    // Strides that the compiler knows.
+    const KernelInputs<R> alone = {in.q,    in.qd, in.qdd,          1, in.applied, 1,
+                                   in.root, 1,     in.orientations, 1};
+    const KernelOutputs<R> results = {out.effort, out.child_axes, out.root_axes,
+                                      out.poses,  out.twists,     1};
+    sampleAngles<kAngles>(plan, alone, arrays);
+    evaluate(plan, alone, results, arrays);
   }
 
   static void pack(const PlanView<R>& plan, const KernelInputs<R>& in, const KernelOutputs<R>& out,

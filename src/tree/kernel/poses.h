@@ -14,22 +14,28 @@ struct BodyPose {
   Vec3<T> w_0;   ///< omega_{k0}
 };
 
-/// The rotation of a body from its parent's. kPlain: see BodyUse::plain_motion.
-template <bool kPlain, AxisDirection kAxis, typename T, typename R>
-VWD_INLINE Mat3<T> propagateRotation(const Body<R>& body, const KernelInputs<R>& in,
-                                     const RotationZ<T>& Rz, const Mat3<T>& R_0P) {
+/// The rotation of a body from its parent's, at position 0 less the phase.
+template <AxisDirection kAxis, typename T, typename R>
+VWD_INLINE Mat3<T> unturnedRotation(const Body<R>& body, const Mat3<T>& R_0P) {
   const Vec3<T> x = toChild<kAxis>(body.R_PZ, Vec3<T>{R_0P.xx, R_0P.xy, R_0P.xz});
   const Vec3<T> y = toChild<kAxis>(body.R_PZ, Vec3<T>{R_0P.yx, R_0P.yy, R_0P.yz});
   const Vec3<T> z = toChild<kAxis>(body.R_PZ, Vec3<T>{R_0P.zx, R_0P.zy, R_0P.zz});
-  const Mat3<T> R_0Z = {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
-  if (kPlain || body.mobility == Mobility::kRevolute) return times(R_0Z, Rz);
+  return {x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z};
+}
+
+/// Returns A, turned as the body's joint turns.
+template <typename T, typename R>
+VWD_INLINE Mat3<T> turnedByJoint(const Body<R>& body, const KernelInputs<R>& in,
+                                 const RotationZ<T>& Rz, const Mat3<T>& A) {
+  if (body.mobility == Mobility::kRevolute) return times(A, Rz);
   if (VWD_SELDOM(body.mobility == Mobility::kOriented)) {
     const Mat3<T> turn = orientationOf<T>(body, in);
-    const Vec3<T> a = transposeTimes(turn, x), b = transposeTimes(turn, y),
-                  c = transposeTimes(turn, z);
+    const Vec3<T> a = transposeTimes(turn, Vec3<T>{A.xx, A.xy, A.xz});
+    const Vec3<T> b = transposeTimes(turn, Vec3<T>{A.yx, A.yy, A.yz});
+    const Vec3<T> c = transposeTimes(turn, Vec3<T>{A.zx, A.zy, A.zz});
     return {a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z};
   }
-  return R_0Z;
+  return A;
 }
 
 /// Position of a body from its parent's, and with kTwist its velocities (2.5) and (2.6) in root

@@ -249,10 +249,10 @@ VWD_INLINE PlainWrench<T> startWrench(const Body<R>& body, const BodyMotion<T>& 
   return wrench;
 }
 
-/// What a body's wrench adds to its parent's, (3.8), in the parent's frame and about its origin.
+/// A body's wrench (3.8) in its parent's axes, still about O_k.
 template <bool kPlain, AxisDirection kAxis, typename T, typename R>
-VWD_INLINE PlainWrench<T> toParent(const Body<R>& body, const KernelInputs<R>& in,
-                                   const JointMotion<T>& joint, PlainWrench<T> wrench) {
+VWD_INLINE PlainWrench<T> inParentAxes(const Body<R>& body, const KernelInputs<R>& in,
+                                       const JointMotion<T>& joint, PlainWrench<T> wrench) {
   const Mobility mobility = kPlain ? Mobility::kRevolute : body.mobility;
   if (mobility == Mobility::kRevolute) {
     wrench = {times(joint.Rz, wrench.force), times(joint.Rz, wrench.torque)};
@@ -260,14 +260,19 @@ VWD_INLINE PlainWrench<T> toParent(const Body<R>& body, const KernelInputs<R>& i
     const Mat3<T> turn = orientationOf<T>(body, in);
     wrench = {times(turn, wrench.force), times(turn, wrench.torque)};
   }
-  wrench.force = toParent<kAxis>(body.R_PZ, wrench.force);    // (3.8), a^T F
-  wrench.torque = toParent<kAxis>(body.R_PZ, wrench.torque);  // (3.8), a^T M
-  if (mobility == Mobility::kPrismatic) {
-    wrench.torque = momentAt(body, wrench.torque, originInParent(body, joint.slide), wrench.force);
-  } else {
-    wrench.torque = momentAt(body, wrench.torque, body.p_PoZo_P, wrench.force);  // (3.8), r x F
+  return {toParent<kAxis>(body.R_PZ, wrench.force),    // (3.8), a^T F
+          toParent<kAxis>(body.R_PZ, wrench.torque)};  // (3.8), a^T M
+}
+
+/// Moves it to the parent's origin: what the body adds to its parent's wrench, (3.8).
+template <bool kPlain, typename T, typename R>
+VWD_INLINE PlainWrench<T> aboutParent(const Body<R>& body, const JointMotion<T>& joint,
+                                      const PlainWrench<T>& wrench) {
+  if (!kPlain && body.mobility == Mobility::kPrismatic) {
+    return {wrench.force,
+            momentAt(body, wrench.torque, originInParent(body, joint.slide), wrench.force)};
   }
-  return wrench;
+  return {wrench.force, momentAt(body, wrench.torque, body.p_PoZo_P, wrench.force)};  // r x F
 }
 
 }  // namespace

@@ -91,14 +91,14 @@ VWD_INLINE void addEffort(const Body<R>& body, const PlainWrench<T>& wrench,
   store(to, body.summed ? load<T>(to) + active : active);
 }
 
-/// Writes a body's reaction in the axes of the child link.
-template <typename T, typename R>
+/// Writes a body's reaction in the axes of the child link. kPlain: see PlainReport.
+template <bool kPlain, typename T, typename R>
 VWD_INLINE void storeChildAxes(const PlanView<R>& plan, const Body<R>& body,
                                const KernelInputs<R>& in, const KernelOutputs<R>& out,
                                const Scratch<T, R>& scratch, const PlainWrench<T>& wrench) {
   const ReactionOutput<R>& output = plan.child_axes[body.child_axes];
   R* const to = out.child_axes + 6 * static_cast<std::size_t>(body.child_axes) * out.stride;
-  if (output.drop_active) {
+  if (!kPlain && output.drop_active) {
     PlainWrench<T> borne = wrench;
     dropActive(output, body, in, scratch, borne);
     storeWrench(output, borne, to, out.stride);
@@ -107,23 +107,44 @@ VWD_INLINE void storeChildAxes(const PlanView<R>& plan, const Body<R>& body,
   }
 }
 
-/// Writes a body's reaction in root axes, (4.3).
+/// Writes a wrench, turned into root axes, (4.3).
 template <typename T, typename R>
-VWD_INLINE void storeRootAxes(const PlanView<R>& plan, const Body<R>& body,
-                              const KernelInputs<R>& in, const KernelOutputs<R>& out,
-                              const Scratch<T, R>& scratch, const Mat3<T>& R_0Z,
+VWD_INLINE void storeTurned(const Mat3<T>& R_0, const PlainWrench<T>& wrench, R* to,
+                            std::size_t stride) {
+  storeVector(times(R_0, wrench.force), to, stride);
+  storeVector(times(R_0, wrench.torque), to + 3 * stride, stride);
+}
+
+template <typename T, typename R>
+VWD_INLINE void storeAsItIs(const PlainWrench<T>& wrench, R* to, std::size_t stride) {
+  storeVector(wrench.force, to, stride);
+  storeVector(wrench.torque, to + 3 * stride, stride);
+}
+
+/// Writes a body's reaction in root axes, of its wrench in its parent's axes.
+template <typename T, typename R>
+VWD_INLINE void storeByParent(const Body<R>& body, const KernelOutputs<R>& out,
+                              const Scratch<T, R>& scratch, const PlainWrench<T>& wrench) {
+  R* const to = out.root_axes + 6 * static_cast<std::size_t>(body.root_axes) * out.stride;
+  if (body.parent > 0) {
+    storeTurned(scratch.poses[body.parent].R_0Z, wrench, to, out.stride);
+  } else {
+    storeAsItIs(wrench, to, out.stride);
+  }
+}
+
+/// Writes the reaction of a body in root axes, of its wrench in its own axes.
+template <typename T, typename R>
+VWD_INLINE void storeRootAxes(const PlanView<R>& plan, int k, const KernelInputs<R>& in,
+                              const KernelOutputs<R>& out, const Scratch<T, R>& scratch,
                               const PlainWrench<T>& wrench) {
+  const Body<R>& body = plan.bodies[k];
   const ReactionOutput<R>& output = plan.root_axes[body.root_axes];
   R* const to = out.root_axes + 6 * static_cast<std::size_t>(body.root_axes) * out.stride;
-  if (output.drop_active) {
-    PlainWrench<T> borne = wrench;
-    dropActive(output, body, in, scratch, borne);
-    storeVector(times(R_0Z, borne.force), to, out.stride);
-    storeVector(times(R_0Z, borne.torque), to + 3 * out.stride, out.stride);
-  } else {
-    storeVector(times(R_0Z, wrench.force), to, out.stride);
-    storeVector(times(R_0Z, wrench.torque), to + 3 * out.stride, out.stride);
-  }
+  if (k == 0) return storeAsItIs(wrench, to, out.stride);
+  PlainWrench<T> borne = wrench;
+  dropActive(output, body, in, scratch, borne);
+  storeTurned(scratch.poses[k].R_0Z, borne, to, out.stride);
 }
 
 /// Writes poses and twists, which are in root axes.

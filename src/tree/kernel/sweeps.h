@@ -21,16 +21,16 @@ VWD_INLINE void feedNext(const PlanView<R>& plan, const Body<R>& body, const Scr
   }
 }
 
-/// Moves a body of sweepOut() that is plain.
-template <bool kStatic, AxisDirection kAxis, typename T, typename R>
+/// Moves a body of sweepOut() that is plain. kTurned: see BodyUse::turned_motion.
+template <bool kStatic, bool kTurned, AxisDirection kAxis, typename T, typename R>
 VWD_INLINE void movePlainBody(const PlanView<R>& plan, int k, const KernelInputs<R>& in,
                               const Scratch<T, R>& scratch, Arrival<T>& arrival) {
   const Body<R>& body = plan.bodies[k];
   PlainWrench<T>& wrench = scratch.wrenches[k];
   const JointMotion<T> joint = jointMotion<kStatic, true>(body, in, scratch);
-  if (body.pose_needed) {
+  if (kTurned) {
     const Mat3<T>& R_0P = scratch.poses[body.parent].R_0Z;
-    scratch.poses[k].R_0Z = propagateRotation<true, kAxis>(body, in, joint.Rz, R_0P);
+    scratch.poses[k].R_0Z = times(unturnedRotation<kAxis>(body, R_0P), joint.Rz);
   }
   BodyMotion<T> motion;
   propagateMotion<kStatic, true, kAxis>(body, in, joint, arrival, motion);
@@ -91,9 +91,16 @@ VWD_INLINE void turnBody(const PlanView<R>& plan, int k, const KernelInputs<R>& 
                          const Scratch<T, R>& scratch) {
   const Body<R>& body = plan.bodies[k];
   const JointMotion<T> joint = jointMotion<true, false>(body, in, scratch);
+  Mat3<T>& R_0Z = scratch.poses[k].R_0Z;
+  if (body.parent == 0) {
+    const Mat3<R>& A = body.R_PZ;
+    R_0Z = {T(A.xx), T(A.xy), T(A.xz), T(A.yx), T(A.yy), T(A.yz), T(A.zx), T(A.zy), T(A.zz)};
+    R_0Z = turnedByJoint(body, in, joint.Rz, R_0Z);
+    return;
+  }
   const Mat3<T>& R_0P = scratch.poses[body.parent].R_0Z;
   forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
-    scratch.poses[k].R_0Z = propagateRotation<false, axis.value>(body, in, joint.Rz, R_0P);
+    R_0Z = turnedByJoint(body, in, joint.Rz, unturnedRotation<axis.value>(body, R_0P));
   });
 }
 
@@ -110,11 +117,17 @@ VWD_INLINE void sweepOut(const PlanView<R>& plan, const KernelInputs<R>& in,
     PlainWrench<T>& wrench = scratch.wrenches[k];
     if (body.plain_motion) {
       forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
-        movePlainBody<kStatic, axis.value>(plan, k, in, scratch, arrival);
+        movePlainBody<kStatic, false, axis.value>(plan, k, in, scratch, arrival);
       });
       continue;
     }
-    if (body.pose_needed) turnBody(plan, k, in, scratch);
+    if (body.turned_motion) {
+      forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
+        movePlainBody<kStatic, true, axis.value>(plan, k, in, scratch, arrival);
+      });
+      continue;
+    }
+    if (VWD_SELDOM(body.pose_needed)) turnBody(plan, k, in, scratch);
     if (!body.has_inertia && body.wrench_needed) wrench = constantWrench<T>(PlainWrench<R>{});
     if (!body.motion_needed) continue;
     if (body.parent_rests) {
@@ -167,6 +180,74 @@ VWD_INLINE void sumUp(const PlanView<R>& plan, const Body<R>& body, const PlainW
   }
 }
 
+/// What a body's wrench adds to its parent's, (3.8).
+template <bool kPlain, typename T, typename R>
+VWD_INLINE PlainWrench<T> handedOn(const Body<R>& body, const KernelInputs<R>& in,
+                                   const JointMotion<T>& joint, const PlainWrench<T>& wrench) {
+  PlainWrench<T> result;
+  forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
+    result =
+        aboutParent<kPlain>(body, joint, inParentAxes<kPlain, axis.value>(body, in, joint, wrench));
+  });
+  return result;
+}
+
+/// Reports the wrench of a plain body, where kReport says so, and hands it on.
+template <PlainReport kReport, typename T, typename R>
+VWD_INLINE PlainWrench<T> handPlain(const PlanView<R>& plan, const Body<R>& body,
+                                    const KernelInputs<R>& in, const KernelOutputs<R>& out,
+                                    const Scratch<T, R>& scratch, const PlainWrench<T>& wrench) {
+  if (out.effort) {
+    // (3.7), u3^T M
+    store(out.effort + static_cast<std::size_t>(body.coordinate) * out.stride, wrench.torque.z);
+  }
+  if (kReport != PlainReport::kNone && body.child_axes >= 0 && out.child_axes) {
+    storeChildAxes<true>(plan, body, in, out, scratch, wrench);
+  }
+  const JointMotion<T> joint = jointMotion<true, true>(body, in, scratch);
+  if (kReport != PlainReport::kRootAxes) return handedOn<true>(body, in, joint, wrench);
+  PlainWrench<T> turned;
+  forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
+    turned = inParentAxes<true, axis.value>(body, in, joint, wrench);
+  });
+  if (out.root_axes) storeByParent(body, out, scratch, turned);
+  return aboutParent<true>(body, joint, turned);
+}
+
+/// Reports the wrench of any other body and hands it on, if it is handed on.
+template <typename T, typename R>
+VWD_INLINE void handAny(const PlanView<R>& plan, int k, const KernelInputs<R>& in,
+                        const KernelOutputs<R>& out, const Scratch<T, R>& scratch,
+                        const PlainWrench<T>& wrench, PlainWrench<T>& handed) {
+  const Body<R>& body = plan.bodies[k];
+  if (body.drives && out.effort) addEffort(body, wrench, out);
+  bool by_parent = false;
+  if (body.reported) {
+    if (body.child_axes >= 0 && out.child_axes) {
+      storeChildAxes<false>(plan, body, in, out, scratch, wrench);
+    }
+    if (body.root_axes >= 0 && out.root_axes) {
+      by_parent = body.turned_by_parent;
+      if (!by_parent) storeRootAxes(plan, k, in, out, scratch, wrench);
+    }
+  }
+  const bool hands = body.hands_on || body.adds_to_parent;
+  if (!hands && !by_parent) return;
+  const JointMotion<T> joint = jointMotion<true, false>(body, in, scratch);
+  if (VWD_SELDOM(by_parent)) {
+    PlainWrench<T> turned;
+    forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
+      turned = inParentAxes<false, axis.value>(body, in, joint, wrench);
+    });
+    storeByParent(body, out, scratch, turned);
+    if (!hands) return;
+    handed = aboutParent<false>(body, joint, turned);
+  } else {
+    handed = handedOn<false>(body, in, joint, wrench);
+  }
+  if (body.adds_to_parent) sumUp(plan, body, handed, scratch.wrenches);
+}
+
 /// Leaves to root: (3.8), and what is reported of it.
 template <typename T, typename R>
 VWD_INLINE void sweepIn(const PlanView<R>& plan, const KernelInputs<R>& in,
@@ -183,35 +264,15 @@ VWD_INLINE void sweepIn(const PlanView<R>& plan, const KernelInputs<R>& in,
       wrench = {{own.force.x, own.force.y, own.force.z},
                 {own.torque.x, own.torque.y, own.torque.z}};
     }
-    if (body.plain_wrench) {
-      if (out.effort) {
-        // (3.7), u3^T M
-        store(out.effort + static_cast<std::size_t>(body.coordinate) * out.stride, wrench.torque.z);
-      }
-    } else if (body.drives && out.effort) {
-      addEffort(body, wrench, out);
+    if (body.plain_wrench == PlainReport::kNone) {
+      handed = handPlain<PlainReport::kNone>(plan, body, in, out, scratch, wrench);
+    } else if (body.plain_wrench == PlainReport::kRootAxes) {
+      handed = handPlain<PlainReport::kRootAxes>(plan, body, in, out, scratch, wrench);
+    } else if (body.plain_wrench == PlainReport::kChildAxes) {
+      handed = handPlain<PlainReport::kChildAxes>(plan, body, in, out, scratch, wrench);
+    } else {
+      handAny(plan, k, in, out, scratch, wrench, handed);
     }
-    if (body.reported) {
-      if (body.child_axes >= 0 && out.child_axes) {
-        storeChildAxes(plan, body, in, out, scratch, wrench);
-      }
-      if (body.root_axes >= 0 && out.root_axes) {
-        storeRootAxes(plan, body, in, out, scratch, scratch.poses[k].R_0Z, wrench);
-      }
-    }
-    if (body.plain_wrench) {
-      const JointMotion<T> joint = jointMotion<true, true>(body, in, scratch);
-      forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
-        handed = toParent<true, axis.value>(body, in, joint, wrench);
-      });
-      continue;
-    }
-    if (!body.hands_on && !body.adds_to_parent) continue;
-    const JointMotion<T> joint = jointMotion<true, false>(body, in, scratch);
-    forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
-      handed = toParent<false, axis.value>(body, in, joint, wrench);
-    });
-    if (body.adds_to_parent) sumUp(plan, body, handed, scratch.wrenches);
   }
 }
 
