@@ -39,16 +39,20 @@ std::vector<WrenchCovariance> wrenchCovariances(const Scene& scene);
 /// The share of the motion is J C J^T. The columns of J are differences between the sample and
 /// others in which one position, velocity or acceleration is shifted, 3 n + 1 samples for n
 /// coordinates. Each is shifted by its own standard deviation, so that what is not linear within
-/// it, as dry friction where a joint turns back, counts as far as the noise reaches; velocities are
-/// shifted towards zero. Positions are shifted by 1e-6 to 1e-3 rad or m and velocities by at least
-/// 1e-6 of themselves or 1e-6 rad/s or m/s, so that neither tiny deviations lose digits nor large
-/// ones leave the position; the differences are divided by the shifts.
+/// it counts as far as the noise reaches: dry friction where a joint turns back, and the force that
+/// presses toothed wheels apart, which has the amount of what the teeth bear on whichever flank.
+/// Velocities are shifted towards zero. Positions are shifted by 1e-6 to 1e-3 rad or m and
+/// velocities by at least 1e-6 of themselves or 1e-6 rad/s or m/s, so that neither tiny deviations
+/// lose digits nor large ones leave the position; the differences are divided by the shifts.
+/// Without teeth that press, results are linear in accelerations and wrenches, and any shift
+/// serves.
 ///
 /// In closed loops a motion has only as many independent coordinates as the closures leave. Where
 /// the closures determine the passive joints, the actuated ones are shifted, and the others follow.
 /// Otherwise independent coordinates are chosen, actuated ones first. The covariances of the
 /// coordinates that follow are not used: their noise is what the others' noise makes of it, as a
-/// motion must close the loops.
+/// motion must close the loops. Where wheels, blades and couplings tie rates alone, coordinates
+/// whose rates follow may have positions that do not, which are shifted by themselves.
 ///
 /// Where the root moves, the twelve numbers of RootCovariance are shifted, too, and of each wrench
 /// that the scene gives a deviation the six of WrenchCovariance. Of joints that turn freely,
@@ -56,9 +60,12 @@ std::vector<WrenchCovariance> wrenchCovariances(const Scene& scene);
 /// tells how the root moves, MotionCovariance::root_link, the root's motion follows from that
 /// link's and the joints' in each sample.
 ///
-/// Results are linear in masses and in moments of inertia: the share of the description is the root
-/// of the sum of squares of what each link's mass and inertia contribute, times their tolerance.
-/// The centre of mass and the moments' proportions count as known.
+/// The share of the description is the root of the sum of squares of what each link's mass and
+/// inertia contribute, times their tolerance: efforts are linear in both, and so are reactions,
+/// except where teeth press wheels apart. There each mass and inertia is larger by its tolerance,
+/// and what differs counts; beside live wrenches, which this share does not know, reactions of the
+/// teeth and of the joints between their wheels have none, nor has any reaction under a redundancy
+/// policy other than the default. The centre of mass and the moments' proportions count as known.
 ///
 /// Immutable: one instance may serve any number of threads, each with a workspace of its own.
 class Deviations {

@@ -32,10 +32,13 @@ struct CompletionSettings {
 
 /// What completeMotion() found and did.
 struct CompletionReport {
-  bool estimated = false;                ///< false: nothing was missing
-  bool even_clock = false;               ///< times were taken as those of an even clock
-  std::size_t gaps = 0;                  ///< longer than max_gap
-  std::size_t one_sided = 0;             ///< rows near a gap or an end, with rows on one side only
+  bool estimated = false;   ///< false: nothing was missing
+  bool even_clock = false;  ///< times were taken as those of an even clock
+  std::size_t gaps = 0;     ///< longer than max_gap
+  /// Rows near a gap, a jump or an end whose estimates, with rows on one side only, are less exact:
+  /// by more than twice the standard deviation elsewhere, and by more than 1e-4 of the motion's
+  /// rms.
+  std::size_t one_sided = 0;
   std::vector<bool> one_sided_rows{};    ///< which rows these are; empty: nothing was missing
   std::vector<StreamQuality> qualities;  ///< of each joint of the table
   std::vector<bool> still;               ///< whether the joint does not move at all

@@ -14,7 +14,7 @@ constexpr double kLargestFactor = 2;
 constexpr double kLeft = 0.1;
 constexpr int kFewest = 10;  // rows that move
 // s from row to row, on average; what swings between rows that are farther apart has other slopes.
-constexpr double kLongestSpacing = 0.1;
+constexpr double kFarthestRows = 0.1;
 
 struct Unit {
   double factor;
@@ -59,7 +59,7 @@ std::vector<std::string> slopeDoubts(const MotionTable& motion) {
   std::vector<std::string> doubts;
   const std::vector<double>& times = motion.times;
   const auto steps = static_cast<double>(times.size()) - 1;
-  if (steps < kFewest || times.back() - times.front() > kLongestSpacing * steps) return doubts;
+  if (steps < kFewest || times.back() - times.front() > kFarthestRows * steps) return doubts;
   for (std::size_t i = 0; i < motion.joints.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
     const auto judge = [&](const char* what, const Eigen::MatrixXd& values, const char* of,
