@@ -62,9 +62,11 @@ Methods
 
 Of scenes with closed loops, virtual_work in mode "single" is given the motion of all joints, in mode
 "completed" only that of the actuated joints; mode "completion" gives the motion of the others. It
-starts from their positions 1 ms before. There is one method more:
+starts from their positions 1 ms before. There are two methods more, both for up to 30 joints:
   maximal_coordinates   the wrenches in all joints and closures from one dense linear system of all
-                        bodies, by Gauss with full pivoting and the null space; up to 30 joints
+                        bodies, by Gauss with full pivoting and the null space
+  dense                 a user's own code with Eigen's dense LU or QR, for revolute and spherical
+                        closures: efforts, and completions
 
 Exit status: 0 done, 1 something is wrong or disagrees, 2 wrong usage.
 )";

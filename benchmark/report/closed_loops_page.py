@@ -84,6 +84,19 @@ def ways_table(data, scenes):
                      'Lagrange / virtual work'], rows)
 
 
+def dense_table(data, scenes):
+    rows = []
+    for scene in scenes:
+        row = [title(scene)]
+        for way in (plots.COMPLETION, SINGLE_EFFORTS):
+            ours = data.find(scene, way)
+            other = data.find(scene, way._replace(method=plots.DENSE))
+            row += [us(ours), us(other), md.ratio(other.ns / ours.ns if ours and other else None)]
+        rows.append(row)
+    return md.table(['mechanism', 'completion: virtual work, µs', 'dense code, µs', 'ratio',
+                     'efforts: virtual work, µs', 'dense code, µs', 'ratio'], rows)
+
+
 def rows_table(data, loops, name):
     scenes = loops.row(name)
     return md.table(['loops', 'coordinates', 'conditions', 'redundant constraints']
@@ -166,6 +179,7 @@ def write(folder):
         short=short_version(data, loops, scenes),
         examples=examples_table(data, loops, scenes),
         ways=ways_table(data, scenes),
+        dense=dense_table(data, scenes),
         work_precision=md.image('Error over run time of six mechanisms', WORK_PRECISION_PLOT),
         rows_plot=md.image('Run time per loop over the number of loops', LOOPS_PLOT),
         rows='\n'.join('**%s**\n\n%s' % (text, rows_table(data, loops, name))

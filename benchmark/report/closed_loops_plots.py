@@ -10,6 +10,7 @@ from report_data import LAGRANGE, MOTION, OWN, SINGLE, SINGLE_EFFORTS
 
 COMPLETION = SINGLE._replace(mode='completion', outputs=MOTION)
 MAXIMAL = 'maximal_coordinates'
+DENSE = 'dense'
 PANELS = (12.5, 8.4)  # inches
 ROWS_SIZE = (12.0, 5.8)
 COLUMNS = 3
@@ -17,6 +18,7 @@ KINDS = (  # of points, in the legend: text, method, mode
     ('virtual work, motion of all joints given', OWN, 'single'),
     ('virtual work, passive joints completed first', OWN, 'completed'),
     ('one dense system of all bodies', MAXIMAL, 'single'),
+    ("a user's dense code, efforts only", DENSE, 'single'),
     ('Lagrange with multipliers (long double)', LAGRANGE, 'single'),
 )
 SERIES = (  # of the rows: text, way, colour, marker, filled

@@ -38,6 +38,7 @@ METHODS = {  # name in the CSV: (name for readers, colour)
     'rbdl': ('RBDL', SKY),
     # Only of closed loops, which KDL is not measured on: it may have KDL's colour.
     'maximal_coordinates': ('one system of all bodies', VERMILLION),
+    'dense': ("a user's dense code", ORANGE),
 }
 OTHER_COLOR = FAINT
 

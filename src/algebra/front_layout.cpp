@@ -46,6 +46,10 @@ FrontLayout::FrontLayout(const std::vector<RowBlock>& blocks, int columns)
       }
     }
   }
+  remaining_.reserve(fronts_.size());
+  arrange(true);
+  most_numbers_ = numbers_;
+  most_stairs_ = stairs_;
   arrange();
 }
 
@@ -75,7 +79,10 @@ void FrontLayout::addBlock(std::size_t block, const std::vector<int>& columns) {
                          begin, count(block_columns_)});
 }
 
-void FrontLayout::arrange() {
+// A front hands on the rows that it has not made those of pivots, as far as they have entries.
+// Where pivots are absent it hands on more: with `whatever`, as many as whatever columns are.
+void FrontLayout::arrange(bool whatever) {
+  remaining_.clear();
   shapes_.clear();
   block_rows_.clear();
   block_columns_.clear();
@@ -113,10 +120,12 @@ void FrontLayout::arrange() {
         const int column = columns_[static_cast<std::size_t>(below.columns + j)];
         places_.push_back(local_[static_cast<std::size_t>(column)]);
       }
-      rows += std::min(below.most_rows, below.width - below.pivots);
+      rows += remaining_[child];
     }
     shape.children_end = count(children_);
     shape.depth = std::min(rows, shape.width);
+    remaining_.push_back(whatever ? std::min(rows, shape.width - shape.pivots)
+                                  : std::max(0, shape.depth - shape.pivots));
     shape.most_rows = (rows + kRowChunk - 1) / kRowChunk * kRowChunk;
     shape.stairs = static_cast<int>(stairs_);
     const auto most_rows = static_cast<std::size_t>(shape.most_rows);

@@ -39,11 +39,14 @@ class FrontLayout {
   const RowPlace& placeOf(std::size_t row) const { return places_of_rows_[row]; }
 
   /// How long the arrays of a FrontsMemory are, whatever columns are present.
-  std::size_t numbers() const { return numbers_; }
-  std::size_t stairs() const { return stairs_; }
+  std::size_t numbers() const { return most_numbers_; }
+  std::size_t stairs() const { return most_stairs_; }
+  /// How many of their numbers are in use, the first ones.
+  std::size_t usedNumbers() const { return numbers_; }
+  std::size_t usedStairs() const { return stairs_; }
 
  private:
-  void arrange();
+  void arrange(bool whatever = false);
   void addBlock(std::size_t block, const std::vector<int>& columns);
   std::size_t deal(std::size_t count);
 
@@ -54,6 +57,7 @@ class FrontLayout {
   std::vector<bool> present_;
   int present_columns_ = 0;
   std::size_t numbers_ = 0, stairs_ = 0;
+  std::size_t most_numbers_ = 0, most_stairs_ = 0;
 
   // What view_ points to.
   std::vector<FrontShape> shapes_;
@@ -63,7 +67,8 @@ class FrontLayout {
   std::vector<int> orders_, kept_;  // by block: where its order begins, and its rows with entries
   std::vector<ChildRows> children_;
   std::vector<int> places_, columns_;
-  std::vector<int> local_;  // of a front being arranged: its column for a column of the matrix
+  std::vector<int> local_;      // of a front being arranged: its column for a column of the matrix
+  std::vector<int> remaining_;  // by front: most rows that it hands on
   FrontsView view_{};
 };
 

@@ -46,9 +46,9 @@ void MultifrontalQr::take(const double* numbers, const FrontState* states, const
   null_rows_listed_ = false;
   if (!whole) return;
   double* const own = static_cast<double*>(numbers_.get());
-  for (std::size_t i = 0; i < layout_.numbers(); ++i) own[i] = numbers[i * width + which];
+  for (std::size_t i = 0; i < layout_.usedNumbers(); ++i) own[i] = numbers[i * width + which];
   std::copy_n(states, states_.size(), states_.data());
-  std::copy_n(stairs, layout_.stairs(), stairs_.data());
+  std::copy_n(stairs, layout_.usedStairs(), stairs_.data());
 }
 
 double MultifrontalQr::nullSquare(Eigen::Index row) {

@@ -82,7 +82,17 @@ LoopCompletion::System::System(const Mechanism& mechanism, const LoopKinematics&
       qr(conditionBlocks(mechanism, own, kinematics), static_cast<int>(own.coordinates.size())),
       rank(sizesOf(mechanism, kinematics, own, length, rank_tolerance), qr.columns(),
            rank_tolerance),
-      wanted(own.coordinates.size()) {}
+      wanted(own.coordinates.size()) {
+  for (const int i : own.coordinates) bends.push_back(kinematics.bends(i));
+  for (const std::size_t s : own.sets) {
+    const Eigen::Index first = kinematics.firstOf(s), count = conditionsOf(kinematics, s);
+    if (!conditions.empty() && conditions.back().first + conditions.back().count == first) {
+      conditions.back().count += count;
+    } else {
+      conditions.push_back({first, count});
+    }
+  }
+}
 
 LoopCompletion::LoopCompletion(const Mechanism& mechanism, const LoopKinematics& kinematics,
                                const std::vector<LoopGroup>& groups, double rank_tolerance,
@@ -153,7 +163,10 @@ void LoopCompletion::want(const std::vector<bool>& given) {
     system.qr.setPresent(system.wanted);
     system.found.clear();
     for (std::size_t i = 0; i < group.coordinates.size(); ++i) {
-      if (system.wanted[i]) system.found.push_back(static_cast<int>(i));
+      if (!system.wanted[i]) continue;
+      const int coordinate = group.coordinates[i];
+      system.found.push_back(
+          {static_cast<int>(i), coordinate, columnScale(coordinate), system.bends[i]});
     }
     system.square = system.qr.layout().filledRows() == system.found.size();
     refines_ = refines_ && system.found.size() >= kLeastRefined;
@@ -239,13 +252,13 @@ bool LoopCompletion::determine(const LoopKinematics& kinematics, const std::vect
                      [this](System& system) { return solve(system); });
 }
 
-void LoopCompletion::setRight(const LoopKinematics& kinematics, const System& system,
-                              const Eigen::VectorXd& conditions) {
+void LoopCompletion::setRight(const System& system, const Eigen::VectorXd& conditions) {
   double* right = right_.data();
-  for (const std::size_t s : system.group.sets) {
-    for (Eigen::Index i = kinematics.firstOf(s); i < kinematics.firstOf(s + 1); ++i) {
-      *right++ = -row_scales_[i] * conditions[i];
-    }
+  for (const System::Conditions& own : system.conditions) {
+    const double* const scales = row_scales_.data() + own.first;
+    const double* const values = conditions.data() + own.first;
+    for (Eigen::Index i = 0; i < own.count; ++i) right[i] = -scales[i] * values[i];
+    right += own.count;
   }
 }
 

@@ -82,8 +82,18 @@ class LoopCompletion {
       std::vector<int> places;  ///< of these coordinates in the group
     };
     std::vector<Entries> entries;  ///< by set, as the group counts them
-    std::vector<int> found;        ///< places of all coordinates to be found
-    bool sound = false;            // whether qr is a factorization
+    struct Found {
+      int place, coordinate;
+      double scale;  ///< of its column
+      bool bends;    ///< see LoopKinematics::bends()
+    };
+    std::vector<Found> found;  ///< all coordinates to be found
+    struct Conditions {
+      Eigen::Index first, count;
+    };
+    std::vector<Conditions> conditions;  ///< those of its sets, in their order
+    std::vector<bool> bends;             // by place
+    bool sound = false;                  // whether qr is a factorization
   };
   void want(const std::vector<bool>& given);
   // Rows whose scale is zero count as absent.
@@ -91,22 +101,19 @@ class LoopCompletion {
   void factorize(const LoopKinematics& kinematics, const Eigen::VectorXd& row_scales);
   Eigen::Index rankBy(const Eigen::VectorXd& row_scales, const LoopKinematics& kinematics,
                       const std::vector<bool>& given);
-  void setRight(const LoopKinematics& kinematics, const System& system,
-                const Eigen::VectorXd& conditions);
+  void setRight(const System& system, const Eigen::VectorXd& conditions);
   // Finds the largest condition, with lengths divided by length().
   double largestCondition(const Eigen::VectorXd& conditions) const;
   bool solve(System& system);
   double misses(const System& system);
   bool refine(System& system);
   bool isMet(const System& system, double size);
-  double solveSteps(const LoopKinematics& kinematics, const Eigen::VectorXd& conditions,
-                    double longest, Eigen::VectorXd& step);
+  double solveSteps(const Eigen::VectorXd& conditions, double longest, Eigen::VectorXd& step);
   double bendStep(LoopKinematics& kinematics);
   double tryStep(LoopKinematics& kinematics, const Eigen::VectorXd& q, double now, bool bent,
                  int halvings);
   bool sound() const;
-  bool solveRates(const LoopKinematics& kinematics, const Eigen::VectorXd& rates, double size,
-                  Eigen::VectorXd& unknown);
+  bool solveRates(const Eigen::VectorXd& rates, double size, Eigen::VectorXd& unknown);
   bool findRates(LoopKinematics& kinematics, Motion& motion);
   double columnScale(int coordinate) const {
     return column_scales_[static_cast<std::size_t>(coordinate)];

@@ -44,22 +44,20 @@ double LoopCompletion::misfit(const LoopKinematics& kinematics) const {
 // Solves A_p u = -conditions by the latest factorizations for all groups; returns the largest
 // entry of coordinates that bend, rad or over the length. Those of a group are shortened to
 // `longest`.
-double LoopCompletion::solveSteps(const LoopKinematics& kinematics,
-                                  const Eigen::VectorXd& conditions, double longest,
+double LoopCompletion::solveSteps(const Eigen::VectorXd& conditions, double longest,
                                   Eigen::VectorXd& step) {
   double largest = 0;
   for (System& system : systems_) {
-    setRight(kinematics, system, conditions);
+    setRight(system, conditions);
     solve(system);
+    const double* const found = found_.data();
     double own = 0;
-    for (const int place : system.found) {
-      const int coordinate = system.group.coordinates[static_cast<std::size_t>(place)];
-      if (kinematics.bends(coordinate)) own = std::max(own, std::abs(found_[place]));
+    for (const System::Found& of : system.found) {
+      if (of.bends) own = std::max(own, std::abs(found[of.place]));
     }
     const double damping = own > longest ? longest / own : 1;
-    for (const int place : system.found) {
-      const int coordinate = system.group.coordinates[static_cast<std::size_t>(place)];
-      step[coordinate] = damping * columnScale(coordinate) * found_[place];
+    for (const System::Found& of : system.found) {
+      step.data()[of.coordinate] = damping * of.scale * found[of.place];
     }
     largest = std::max(largest, damping * own);
   }
@@ -72,7 +70,7 @@ double LoopCompletion::solveSteps(const LoopKinematics& kinematics,
 double LoopCompletion::bendStep(LoopKinematics& kinematics) {
   if (step_length_ > kLongestBent || kinematics.drives()) return 0;
   kinematics.setVelocity(step_);
-  const double bend = solveSteps(kinematics, kinematics.turning(), kUnknown, bend_) / 2;
+  const double bend = solveSteps(kinematics.turning(), kUnknown, bend_) / 2;
   return bend > 0 && bend <= kMostBent * step_length_ ? bend / step_length_ : 0;
 }
 
@@ -105,7 +103,7 @@ bool LoopCompletion::close(LoopKinematics& kinematics, Eigen::VectorXd& q,
   for (steps_ = 0; steps_ < search.most_steps && now > exact_ && std::isfinite(now); ++steps_) {
     const bool again = left * now <= exact_;
     if (!again) factorize(kinematics, position_scales_);
-    step_length_ = solveSteps(kinematics, kinematics.phi(), kLongestStep, step_);
+    step_length_ = solveSteps(kinematics.phi(), kLongestStep, step_);
     const bool fresh = !again && sound();
     double bend = 0;
     if (fresh && curvature * step_length_ * now > exact_) bend = bendStep(kinematics);

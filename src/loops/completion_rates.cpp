@@ -45,7 +45,7 @@ bool LoopCompletion::refine(System& system) {
   const double enough = kRefined * right_.head(system.qr.rows()).cwiseAbs().maxCoeff();
   if (misses(system) <= enough) return true;
   system.qr.leastSquares(misses_.data(), refined_.data());
-  for (const int place : system.found) found_[place] -= refined_[place];
+  for (const System::Found& of : system.found) found_[of.place] -= refined_[of.place];
   return misses(system) <= enough;
 }
 
@@ -53,7 +53,7 @@ bool LoopCompletion::refine(System& system) {
 bool LoopCompletion::isMet(const System& system, double size) {
   if (!(system.square && system.sound)) return misses(system) <= kConsistent * size;
   double sum = 0;
-  for (const int place : system.found) sum += std::abs(found_[place]);
+  for (const System::Found& of : system.found) sum += std::abs(found_[of.place]);
   return std::isfinite(sum);
 }
 
@@ -75,15 +75,14 @@ double LoopCompletion::largestCondition(const Eigen::VectorXd& conditions) const
 }
 
 // Solves (3.2), A_p u = -rates, for the entries of `unknown` that are not given.
-bool LoopCompletion::solveRates(const LoopKinematics& kinematics, const Eigen::VectorXd& rates,
-                                double size, Eigen::VectorXd& unknown) {
+bool LoopCompletion::solveRates(const Eigen::VectorXd& rates, double size,
+                                Eigen::VectorXd& unknown) {
   for (System& system : systems_) {
-    setRight(kinematics, system, rates);
+    setRight(system, rates);
     if (!solve(system)) return false;
     if (close_by_ ? !refine(system) : !isMet(system, size)) return false;
-    for (const int place : system.found) {
-      const int coordinate = system.group.coordinates[static_cast<std::size_t>(place)];
-      unknown[coordinate] = columnScale(coordinate) * found_[place];
+    for (const System::Found& of : system.found) {
+      unknown[of.coordinate] = of.scale * found_[of.place];
     }
   }
   return true;
@@ -114,7 +113,7 @@ bool LoopCompletion::findRates(LoopKinematics& kinematics, Motion& motion) {
   kinematics.setRates(motion.qd);
   double rate = sized ? largest(motion.qd) : 0;
   if (sized && kinematics.drives()) rate = std::max(rate, largestCondition(kinematics.b()));
-  if (!solveRates(kinematics, kinematics.rates(), rate, motion.qd)) return false;
+  if (!solveRates(kinematics.rates(), rate, motion.qd)) return false;
   kinematics.setMotion(motion);
   double size = 0;
   if (sized) {
@@ -122,7 +121,7 @@ bool LoopCompletion::findRates(LoopKinematics& kinematics, Motion& motion) {
     size = std::max(largest(motion.qdd), rate * rate);
     if (kinematics.drives()) size = std::max(size, largestCondition(kinematics.bd()));
   }
-  return solveRates(kinematics, kinematics.accelerations(), size, motion.qdd);
+  return solveRates(kinematics.accelerations(), size, motion.qdd);
 }
 
 }  // namespace virtual_work_dynamics

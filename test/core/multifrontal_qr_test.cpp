@@ -109,6 +109,8 @@ int forRandomMatrices(Check&& check) {
       std::vector<bool> present;
       for (int j = 0; j < columns; ++j) present.push_back(filling == 0 || random.number(0, 2) > 0);
       qr.setPresent(present);
+      EXPECT_LE(qr.layout().usedNumbers(), qr.layout().numbers());
+      EXPECT_LE(qr.layout().usedStairs(), qr.layout().stairs());
       const Eigen::MatrixXd M = dense(qr, present);
       const Eigen::Index count = std::count(present.begin(), present.end(), true);
       const Eigen::VectorXd values = Eigen::JacobiSVD<Eigen::MatrixXd>(M).singularValues();
@@ -120,6 +122,35 @@ int forRandomMatrices(Check&& check) {
     }
   }
   return sound;
+}
+
+// Legs of three rows, each with two columns of its own and all others.
+std::vector<RowBlock> legs(int count, int others) {
+  std::vector<RowBlock> blocks;
+  for (int leg = 0; leg < count; ++leg) {
+    RowBlock block{3, {2 * leg, 2 * leg + 1}, {}};
+    for (int i = 0; i < others; ++i) block.columns.push_back(2 * count + i);
+    blocks.push_back(block);
+  }
+  return blocks;
+}
+
+TEST(MultifrontalQr, HasOneFrontWhereThatCostsLess) {
+  EXPECT_EQ(eliminationOrder({{3, {0, 1, 2, 3}, {}}, {3, {1, 2, 3, 4}, {}}}, 5).size(), 1u);
+  EXPECT_EQ(eliminationOrder({{5, {0, 1, 2}, {1, 3, 4}}, {5, {0, 1, 3}, {1, 3, 4}}}, 4).size(), 1u);
+  EXPECT_EQ(eliminationOrder(legs(5, 5), 15).size(), 6u);
+}
+
+TEST(MultifrontalQr, FrontsHaveRoomForTheRowsThatTheyAreHandedAndNoMore) {
+  FrontLayout layout(legs(5, 5), 15);
+  const auto lastRows = [&] {
+    return layout.view().fronts[layout.view().front_count - 1].most_rows;
+  };
+  EXPECT_EQ(lastRows(), 2 * kRowChunk);  // a row of each leg
+  std::vector<bool> present(15, true);
+  for (std::size_t own = 0; own < 10; ++own) present[own] = false;
+  layout.setPresent(present);
+  EXPECT_EQ(lastRows(), 4 * kRowChunk);  // all three
 }
 
 TEST(MultifrontalQr, TellsFullColumnRankAndEstimatesTheCondition) {

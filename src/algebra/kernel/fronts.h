@@ -255,6 +255,8 @@ struct Fronts {
         use(Small<2>());
       } else if (shape.width == 3) {
         use(Small<3>());
+      } else if (shape.width == 4) {
+        use(Small<4>());
       } else {
         return false;
       }
