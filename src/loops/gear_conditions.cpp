@@ -17,12 +17,12 @@ namespace {
 constexpr double kNearEnough = 0.01;
 // Sine of the angle between axes that count as parallel, and changes of a row or of the distance
 // that count as none, relative to the radii.
-constexpr double kParallel = 1e-6;
+constexpr double kParallelAxes = 1e-6;
 constexpr double kConstant = 1e-6;
 // Positions at which that is tried; rows are analytic functions of them.
 constexpr int kPositions = 4;
 // Roundings of a sum, of its terms.
-constexpr double kSumRounding = 4 * std::numeric_limits<double>::epsilon();
+constexpr double kTurnRounding = 4 * std::numeric_limits<double>::epsilon();
 
 std::vector<Condition> toothRow(const Closure& closure) {
   Condition row;
@@ -94,7 +94,7 @@ void GearConditions::check(const Mechanism& mechanism, const LinkKinematics& lin
   const Eigen::Vector3d axis = frames.R_P.col(2), r = frames.Co - frames.Po;
   const Eigen::Vector3d other = is_rack_ ? frames.R_C.col(0) : frames.R_C.col(2);
   const double off = is_rack_ ? std::abs(axis.dot(other)) : axis.cross(other).norm();
-  if (!(off <= kParallel)) {
+  if (!(off <= kParallelAxes)) {
     refuse(place(), is_rack_ ? "the rack's x is not normal to the wheel's axis z"
                              : "the wheels' axes z are not parallel, or do not stay so");
   }
@@ -143,7 +143,7 @@ void GearConditions::setPosition(const LoopState& state, ConditionRows rows) con
     rows.A(0, term.coordinate) = term.factor;  // (3.2)
   }
   rows.phi(0) = sum;  // (3.3)
-  rows.rounding(0) = kSumRounding * size;
+  rows.rounding(0) = kTurnRounding * size;
   rows.unitWrench(0) = wrenchOf(1, false, frames);
 }
 
