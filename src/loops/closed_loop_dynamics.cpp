@@ -14,9 +14,6 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-// Of their distance from the root, the least that is the size of what couplings tie.
-constexpr double kLeastOfReach = 1e-4;
-
 Request openTreeRequest(const Mechanism& mechanism, const Request& wanted) {
   Request request = treeRequest(mechanism, wanted);
   request.efforts = true;
@@ -37,24 +34,27 @@ Request weighedRequest(const Mechanism& mechanism, const std::vector<LoopGroup>&
   return request;
 }
 
-// Couplings alone have no frames that say how large their loops are: the joints that they tie do.
+// The length over which couplings compare slides with turns, m; none where they do not. Their
+// factors say it, wherever their joints are.
+double lengthOf(const Mechanism& mechanism, const std::vector<ResolvedCoupling>& couplings) {
+  double longest = 0;
+  for (const ResolvedCoupling& coupling : couplings) {
+    double turns = 0, slides = 0;
+    for (const ResolvedCoupling::Term& term : coupling.terms) {
+      double& largest = mechanism.unitOf(term.coordinate) == Unit::kMetre ? slides : turns;
+      largest = std::max(largest, std::abs(term.factor));
+    }
+    if (turns > 0 && slides > 0) longest = std::max(longest, turns / slides);
+  }
+  return longest;
+}
+
+// Closures have frames that say how large their loops are.
 double lengthOf(const Mechanism& mechanism, const std::vector<ResolvedCoupling>& couplings,
                 const std::vector<LoopGroup>& groups, const LoopKinematics& kinematics) {
   if (kinematics.closures() > 0) return loopLength(groups, kinematics);
-  std::vector<Eigen::Vector3d> origins;
-  for (const ResolvedCoupling& coupling : couplings) {
-    for (const ResolvedCoupling::Term& term : coupling.terms) {
-      const int joint = mechanism.coordinates()[static_cast<std::size_t>(term.coordinate)];
-      origins.push_back(kinematics.originOf(joint + 1));
-    }
-  }
-  double longest = 0, farthest = 0;
-  for (const Eigen::Vector3d& a : origins) {
-    farthest = std::max(farthest, a.norm());
-    for (const Eigen::Vector3d& b : origins) longest = std::max(longest, (a - b).norm());
-  }
-  if (longest > kLeastOfReach * farthest) return longest;
-  return farthest > 0 ? farthest : 1;
+  const double length = lengthOf(mechanism, couplings);
+  return length > 0 ? length : 1;
 }
 
 }  // namespace
@@ -64,7 +64,8 @@ LoopSolvers::LoopSolvers(const Mechanism& mechanism, const LoopScene& loops,
                          double length)
     : kinematics(start),
       completion(mechanism, kinematics, groups, loops.rank_tolerance, length),
-      residuals(mechanism, kinematics, length) {
+      // What couplings alone leave open is compared with a metre: fine screws turn far for little.
+      residuals(mechanism, kinematics, start.closures() > 0 ? length : loops.length.value_or(1)) {
   forces.reserve(groups.size());
   for (const LoopGroup& group : groups) {
     forces.emplace_back(mechanism, kinematics, loops, group, length);

@@ -13,6 +13,9 @@ constexpr double kLeastShare = 1e-4;
 
 // Of that distance, what is no size but rounding.
 constexpr double kNoSize = 1e-13;
+// What loops extend by rounding alone, m: origins that coincide have sums of rounding errors
+// between them, wherever they are not far.
+constexpr double kNoLength = 1e-15;
 
 int rootOf(const std::vector<int>& leaders, int i) {
   while (leaders[static_cast<std::size_t>(i)] != i) i = leaders[static_cast<std::size_t>(i)];
@@ -112,11 +115,11 @@ double loopLength(const std::vector<LoopGroup>& groups, const LoopKinematics& ki
       for (const Eigen::Vector3d& b : origins) longest = std::max(longest, (a - b).norm());
     }
   }
-  if (longest > kLeastShare * farthest) return longest;
+  if (longest > std::max(kNoLength, kLeastShare * farthest)) return longest;
   // What touches goes far on the joints that carry it, and its levers stay what they are.
   const bool carried = !kinematics.touching().empty() && longest > kNoSize * farthest;
   if (carried) return kLeastShare * farthest;
-  return farthest > 0 ? farthest : 1;
+  return farthest > kNoLength ? farthest : 1;
 }
 
 }  // namespace virtual_work_dynamics

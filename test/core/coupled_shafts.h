@@ -31,13 +31,17 @@ class CoupledShafts {
     bool slides;
   };
 
-  explicit CoupledShafts(const std::vector<Shaft>& shafts) : builder_(1) {
+  /// @param first place of the first one
+  /// @param apart from each to the next, m
+  explicit CoupledShafts(const std::vector<Shaft>& shafts, const Vector3l& first = Vector3l::Zero(),
+                         long double apart = 0.3L)
+      : builder_(1) {
     scene.gravity.setZero();
     scene.actuated = std::vector<std::string>();
     for (const Shaft& shaft : shafts) {
       const int link = builder_.add(shaft.slides ? JointType::kPrismatic : JointType::kContinuous,
                                     0, Vector3l::UnitZ(), Matrix3l::Identity(),
-                                    Vector3l(0.3L * static_cast<long double>(links_++), 0, 0));
+                                    first + Vector3l(apart * links_++, 0, 0));
       builder_.removeInertia(link);
       builder_.link(link).mass = shaft.slides ? shaft.inertia : 1;
       builder_.link(link).inertia_Cm_K = shaft.inertia * Matrix3l::Identity();

@@ -56,6 +56,29 @@ TEST(Couplings, FactorsCountHoweverSmallTheyAre) {
   EXPECT_NEAR(found.dynamics.effort()[0], 100 * advance, 100 * 2.2e-16);
 }
 
+// Two motors on one screw carry half of its load each, wherever it is and whether its joints are
+// side by side, at one point, or beside it by rounding.
+TEST(Couplings, MotorsOnAScrewShareItsLoadWhereverItIs) {
+  const double advance = 0.02;  // m/rad
+  const auto balanced = [&](const Vector3l& first, long double apart) {
+    CoupledShafts shafts({{10, false}, {100, true}}, first, apart);
+    shafts.couple("screw", {{2, 1}, {1, -advance}});
+    shafts.actuate(1);
+    shafts.actuate(2);
+    ClosedLoopResults found(shafts.mechanism(), shafts.scene);
+    Motion motion(2);
+    motion.qdd << 1, advance;
+    found.dynamics.compute(motion);
+    const double load = 10 + 100 * advance * advance;
+    EXPECT_NEAR(found.dynamics.effort()[0], load / 2, 1e-11) << first << ", " << apart;
+    EXPECT_NEAR(found.dynamics.effort()[1], load / 2 / advance, 1e-9) << first << ", " << apart;
+    EXPECT_LT(found.dynamics.determinacy().condition, 10) << first << ", " << apart;
+  };
+  for (const long double apart : {0.05L, 1e-6L, 1e-12L, 3e-18L, 0.0L}) {
+    for (const long double away : {0.0L, 1e3L, 1e5L}) balanced({away, 0, 0}, apart);
+  }
+}
+
 // The reducer of the same file, t0 = -50 / 100, truss C fixed: (1 - t0) w_B - w_A + t0 w_C = 0.
 TEST(Couplings, PlanetaryReducerOfChronoShafts) {
   const double t0 = -0.5, torque = 10;
