@@ -83,6 +83,7 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& of, const Scene& scene, const Re
       own_wrenches(scene.applied_wrenches.size()),
       own_load(scene),
       reacts(!wanted.child_axes.empty() || !wanted.root_axes.empty()),
+      moves(wanted.twists || springs.damped() || !loops.actuated_closures.empty()),
       closures(scene.closures.size()),
       kinematics(mechanism, scene),
       groups(loopGroups(mechanism, kinematics)),

@@ -48,8 +48,10 @@ ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compil
   loops.springs_directed.assign(plan.springs.size(), true);
   const std::size_t sets = plan.closures + plan.couplings.size();
   loops.closure_conditions.assign(sets, 1);
-  loops.residuals.resize(sets);
-  loops.relative_residuals.resize(sets);
+  if (plan.request.residuals) {
+    loops.residuals.resize(sets);
+    loops.relative_residuals.resize(sets);
+  }
   loops.actuated_positions.setZero(more_efforts);
   loops.actuated_velocities.setZero(more_efforts);
   if (!plan.couplings.empty()) loops.tree_effort.setZero(plan.assembly.size());
@@ -63,8 +65,7 @@ ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compil
 void ClosedLoopDynamics::Workspace::Impl::compute(const Motion& motion, const Load& load) {
   solvers.kinematics.setOrientations(motion.orientations);
   solvers.kinematics.setPosition(motion.q);
-  solvers.residuals.find(solvers.kinematics, plan.static_motion ? rest_ : motion,
-                         results.loops.residuals, results.loops.relative_residuals);
+  move(plan.static_motion ? rest_ : motion);
   pushed_ = &tree_;
   push(motion, load);
   for (LoopForces& group : solvers.forces) {
@@ -72,6 +73,17 @@ void ClosedLoopDynamics::Workspace::Impl::compute(const Motion& motion, const Lo
     group.solve(tree_.effort(), tree_reactions_);
   }
   report();
+}
+
+// Finds of the motion what is asked for.
+void ClosedLoopDynamics::Workspace::Impl::move(const Motion& motion) {
+  if (plan.request.residuals) {
+    solvers.residuals.find(solvers.kinematics, motion, results.loops.residuals,
+                           results.loops.relative_residuals);
+    return;
+  }
+  if (plan.moves) solvers.kinematics.setVelocity(motion.qd);
+  if (!plan.couplings.empty()) solvers.kinematics.setRates(motion.qd);
 }
 
 void ClosedLoopDynamics::Workspace::Impl::finish(const Load& load,

@@ -56,6 +56,7 @@ struct ClosedLoopDynamics::Impl {
   std::size_t own_wrenches;  // number of the scene's own, the tree's first
   Load own_load;             // values of the scene's own wrenches
   bool reacts;               // whether reactions are requested
+  bool moves;                // whether results depend on how links and closures move
   std::size_t closures;
   std::vector<std::string> closure_names, actuated_closures;
   LoopKinematics kinematics;  // at the assembly
@@ -118,6 +119,7 @@ struct ClosedLoopDynamics::Workspace::Impl {
   std::vector<int> child_axes_ranks, root_axes_ranks;
 
  private:
+  void move(const Motion& motion);
   void push(const Motion& motion, const Load& load);
   void report();
   void collect();
