@@ -147,10 +147,7 @@ void ClosedLoopDynamics::Workspace::Impl::setActuatedClosures() {
 
 // Efforts and closures' wrenches, which satisfy S^T tau + A^T lambda = tau_tree.
 void ClosedLoopDynamics::Workspace::Impl::collect() {
-  for (std::size_t i = 0; i < plan.loops.actuated.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    results.effort[row] = plan.loops.actuated[i] ? pushed_->effort()[row] : 0;
-  }
+  for (const int row : plan.open_efforts) results.effort[row] = pushed_->effort()[row];
   for (const LoopForces& group : solvers.forces) {
     const LoopForces::State& solution = group.solution();
     for (const LoopUnknowns::Effort& actuator : group.efforts()) {

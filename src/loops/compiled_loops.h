@@ -63,6 +63,7 @@ struct ClosedLoopDynamics::Impl {
   std::vector<LoopGroup> groups;
   LoopHolds holds;
   std::vector<SpringReach> reach;  // by spring
+  std::vector<int> open_efforts;   // actuated coordinates in no loop, whose efforts are the tree's
   double length = 1;
   Eigen::VectorXd assembly;
   double way = 0;  // from the scene's start, rad or over the length
