@@ -265,21 +265,22 @@ void ClosedLoopDynamics::Workspace::Impl::setDetermined() {
 
 void ClosedLoopDynamics::Workspace::Impl::setDeterminacy() {
   // Coordinates in no loop are actuated: each is an unknown of its own.
-  Determinacy& determinacy = results.loops.determinacy;
+  LoopResults& loops = results.loops;
+  Determinacy& determinacy = loops.determinacy;
   determinacy = {};
   determinacy.rank = static_cast<int>(plan.assembly.size());
   determinacy.gap = std::numeric_limits<double>::infinity();
   determinacy.condition = 1;
   for (const LoopForces& group : solvers.forces) {
-    determinacy.rank += static_cast<int>(group.rank() - group.coordinates());
-    determinacy.free_motions += static_cast<int>(group.coordinates() - group.rank());
-    determinacy.redundancy += static_cast<int>(group.unknowns() - group.rank());
+    const Eigen::Index rank = group.rank();
+    const double condition = group.condition();
+    determinacy.rank += static_cast<int>(rank - group.coordinates());
+    determinacy.free_motions += static_cast<int>(group.coordinates() - rank);
+    determinacy.redundancy += static_cast<int>(group.unknowns() - rank);
     determinacy.redundant_constraints += static_cast<int>(group.redundantConstraints());
     determinacy.gap = std::min(determinacy.gap, group.gap());
-    determinacy.condition = std::max(determinacy.condition, group.condition());
-    for (const std::size_t s : group.group().sets) {
-      results.loops.closure_conditions[s] = group.condition();
-    }
+    determinacy.condition = std::max(determinacy.condition, condition);
+    for (const std::size_t s : group.group().sets) loops.closure_conditions[s] = condition;
   }
 }
 
