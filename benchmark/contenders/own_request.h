@@ -24,7 +24,7 @@ inline Request ownRequest(const BenchmarkScene& scene, const std::string& output
 /// those of movable joints, then of closures.
 inline Request loopRequest(const BenchmarkScene& scene, const std::string& outputs) {
   Request request;
-  request.determinacy = false;
+  request.determinacy = request.residuals = false;
   if (outputs == kEffortsAndReactions) {
     request.child_axes = requestedReactions(scene.mechanism, *scene.loops);
   }

@@ -118,6 +118,15 @@ class ClosedLoopDynamics {
   bool determine(const Eigen::VectorXd& q, const std::vector<bool>& given,
                  Workspace& workspace) const;
 
+  /// How far a motion violates each closure, then each coupling: what LoopResults::residuals and
+  /// relative_residuals are where Request::residuals leaves them out.
+  struct Residuals {
+    std::vector<ClosureResidual> plain, relative;
+  };
+  /// Finds these of one sample, in place of the one computed last.
+  /// @throws MotionError when compute() would.
+  Residuals residualsOf(const Motion& motion, Workspace& workspace) const;
+
   /// Computes efforts and reactions of one sample into the workspace. Does not allocate.
   /// @throws MotionError when a vector of `motion` has the wrong length, or the workspace is
   ///   another plan's.

@@ -17,6 +17,10 @@ struct Request {
   /// LoopResults::effort_determined and what follows it. Which results have a value at all is
   /// always found.
   bool determinacy = true;
+  /// With closed loops: how far the motion violates each closure and coupling,
+  /// LoopResults::residuals and relative_residuals. ClosedLoopDynamics::residualsOf() finds them
+  /// now and then where they are left out.
+  bool residuals = true;
   /// With closed loops, where contacts press or cables pull: whether forces that rigid-body
   /// mechanics does not determine can be chosen so that all of them hold, Hold::kCanHold.
   bool can_hold = false;

@@ -103,7 +103,8 @@ struct LoopResults {
   /// By closure, then by coupling: Determinacy::condition of the loops that are solved together
   /// with its own.
   std::vector<double> closure_conditions;
-  /// By closure, then by coupling: how far the motion violates it.
+  /// By closure, then by coupling: how far the motion violates it. These two are empty unless
+  /// Request::residuals.
   std::vector<ClosureResidual> residuals;
   /// Residuals without units, to be compared with a tolerance: lengths over the size of the loops,
   /// velocities also over the largest rate of the motion, accelerations over its largest

@@ -24,7 +24,7 @@ namespace {
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 Request withoutPoses(Request request) {
-  request.poses = request.twists = request.can_hold = request.intervals = false;
+  request.poses = request.twists = request.can_hold = request.intervals = request.residuals = false;
   request.determinacy = true;
   return request;
 }

@@ -228,20 +228,20 @@ std::string Dynamics::whyOpen(const Motion& motion, Workspace& workspace) const 
 
 std::string Dynamics::whyOpen(const Motion& motion, const std::vector<bool>& given,
                               Workspace& workspace) const {
-  compute(motion, workspace);
-  const LoopResults& found = workspace.results().loops;
+  ClosedLoopDynamics::Workspace& memory = *workspace.memoryFor(*impl_).loops;
+  const ClosedLoopDynamics::Residuals found = impl_->loops->residualsOf(motion, memory);
   const auto worst = std::max_element(
-      found.relative_residuals.begin(), found.relative_residuals.end(),
+      found.relative.begin(), found.relative.end(),
       [](const auto& one, const auto& other) { return one.position < other.position; });
-  if (worst == found.relative_residuals.end() || worst->position <= kClosed) {
-    if (impl_->loops->determine(motion.q, given, *workspace.memoryFor(*impl_).loops)) {
+  if (worst == found.relative.end() || worst->position <= kClosed) {
+    if (impl_->loops->determine(motion.q, given, memory)) {
       return kContradiction;
     }
     return kSingularPosition;
   }
-  const auto closure = static_cast<std::size_t>(worst - found.relative_residuals.begin());
+  const auto closure = static_cast<std::size_t>(worst - found.relative.begin());
   return "the loops cannot be closed: " + closureLabel(closure) + " stays open by " +
-         numberText(found.residuals[closure].position) + " m or rad";
+         numberText(found.plain[closure].position) + " m or rad";
 }
 
 void Dynamics::compute(const Motion& motion, Workspace& workspace) const {

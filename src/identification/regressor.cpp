@@ -103,7 +103,7 @@ JointTerms unitTerm(const Scene& scene, const Parameter& parameter) {
 
 Request effortsAlone() {
   Request request;
-  request.determinacy = false;
+  request.determinacy = request.residuals = false;
   return request;
 }
 

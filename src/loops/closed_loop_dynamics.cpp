@@ -84,6 +84,7 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& of, const Scene& scene, const Re
       own_wrenches(scene.applied_wrenches.size()),
       own_load(scene),
       reacts(!wanted.child_axes.empty() || !wanted.root_axes.empty()),
+      moves(wanted.twists || springs.damped() || !loops.actuated_closures.empty()),
       closures(scene.closures.size()),
       kinematics(mechanism, scene),
       groups(loopGroups(mechanism, kinematics)),
@@ -96,6 +97,13 @@ ClosedLoopDynamics::Impl::Impl(const Mechanism& of, const Scene& scene, const Re
     reach.emplace_back(mechanism, scene, loops, groups, springs, i, wanted, holds.names());
   }
   close(scene);
+  std::vector<bool> in_loop(loops.actuated.size(), false);
+  for (const LoopGroup& group : groups) {
+    for (const int i : group.coordinates) in_loop[static_cast<std::size_t>(i)] = true;
+  }
+  for (std::size_t i = 0; i < in_loop.size(); ++i) {
+    if (loops.actuated[i] && !in_loop[i]) open_efforts.push_back(static_cast<int>(i));
+  }
   const MomentPoints points(mechanism, scene);
   child_axes = std::make_unique<LoopReactions>(mechanism, scene, loops, groups, wanted.child_axes,
                                                wanted.child_axes_about_origin ? nullptr : &points,

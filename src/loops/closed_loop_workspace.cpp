@@ -48,8 +48,10 @@ ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compil
   loops.springs_directed.assign(plan.springs.size(), true);
   const std::size_t sets = plan.closures + plan.couplings.size();
   loops.closure_conditions.assign(sets, 1);
-  loops.residuals.resize(sets);
-  loops.relative_residuals.resize(sets);
+  if (plan.request.residuals) {
+    loops.residuals.resize(sets);
+    loops.relative_residuals.resize(sets);
+  }
   loops.actuated_positions.setZero(more_efforts);
   loops.actuated_velocities.setZero(more_efforts);
   if (!plan.couplings.empty()) loops.tree_effort.setZero(plan.assembly.size());
@@ -63,8 +65,7 @@ ClosedLoopDynamics::Workspace::Impl::Impl(const ClosedLoopDynamics::Impl& compil
 void ClosedLoopDynamics::Workspace::Impl::compute(const Motion& motion, const Load& load) {
   solvers.kinematics.setOrientations(motion.orientations);
   solvers.kinematics.setPosition(motion.q);
-  solvers.residuals.find(solvers.kinematics, plan.static_motion ? rest_ : motion,
-                         results.loops.residuals, results.loops.relative_residuals);
+  move(plan.static_motion ? rest_ : motion);
   pushed_ = &tree_;
   push(motion, load);
   for (LoopForces& group : solvers.forces) {
@@ -72,6 +73,17 @@ void ClosedLoopDynamics::Workspace::Impl::compute(const Motion& motion, const Lo
     group.solve(tree_.effort(), tree_reactions_);
   }
   report();
+}
+
+// Finds of the motion what is asked for.
+void ClosedLoopDynamics::Workspace::Impl::move(const Motion& motion) {
+  if (plan.request.residuals) {
+    solvers.residuals.find(solvers.kinematics, motion, results.loops.residuals,
+                           results.loops.relative_residuals);
+    return;
+  }
+  if (plan.moves) solvers.kinematics.setVelocity(motion.qd);
+  if (!plan.couplings.empty()) solvers.kinematics.setRates(motion.qd);
 }
 
 void ClosedLoopDynamics::Workspace::Impl::finish(const Load& load,
@@ -135,10 +147,7 @@ void ClosedLoopDynamics::Workspace::Impl::setActuatedClosures() {
 
 // Efforts and closures' wrenches, which satisfy S^T tau + A^T lambda = tau_tree.
 void ClosedLoopDynamics::Workspace::Impl::collect() {
-  for (std::size_t i = 0; i < plan.loops.actuated.size(); ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    results.effort[row] = plan.loops.actuated[i] ? pushed_->effort()[row] : 0;
-  }
+  for (const int row : plan.open_efforts) results.effort[row] = pushed_->effort()[row];
   for (const LoopForces& group : solvers.forces) {
     const LoopForces::State& solution = group.solution();
     for (const LoopUnknowns::Effort& actuator : group.efforts()) {
@@ -256,21 +265,22 @@ void ClosedLoopDynamics::Workspace::Impl::setDetermined() {
 
 void ClosedLoopDynamics::Workspace::Impl::setDeterminacy() {
   // Coordinates in no loop are actuated: each is an unknown of its own.
-  Determinacy& determinacy = results.loops.determinacy;
+  LoopResults& loops = results.loops;
+  Determinacy& determinacy = loops.determinacy;
   determinacy = {};
   determinacy.rank = static_cast<int>(plan.assembly.size());
   determinacy.gap = std::numeric_limits<double>::infinity();
   determinacy.condition = 1;
   for (const LoopForces& group : solvers.forces) {
-    determinacy.rank += static_cast<int>(group.rank() - group.coordinates());
-    determinacy.free_motions += static_cast<int>(group.coordinates() - group.rank());
-    determinacy.redundancy += static_cast<int>(group.unknowns() - group.rank());
+    const Eigen::Index rank = group.rank();
+    const double condition = group.condition();
+    determinacy.rank += static_cast<int>(rank - group.coordinates());
+    determinacy.free_motions += static_cast<int>(group.coordinates() - rank);
+    determinacy.redundancy += static_cast<int>(group.unknowns() - rank);
     determinacy.redundant_constraints += static_cast<int>(group.redundantConstraints());
     determinacy.gap = std::min(determinacy.gap, group.gap());
-    determinacy.condition = std::max(determinacy.condition, group.condition());
-    for (const std::size_t s : group.group().sets) {
-      results.loops.closure_conditions[s] = group.condition();
-    }
+    determinacy.condition = std::max(determinacy.condition, condition);
+    for (const std::size_t s : group.group().sets) loops.closure_conditions[s] = condition;
   }
 }
 

@@ -119,6 +119,19 @@ FrameShape shapeOf(const Frame& frame) {
   return shape;
 }
 
+// See ClosureShape::along.
+int alongOf(const ClosureShape& shape) {
+  const DemandShape* const end = shape.demands + shape.demand_count;
+  const auto is = [](DemandShape::Kind kind) {
+    return [kind](const DemandShape& demand) { return demand.kind == kind; };
+  };
+  const DemandShape* const others =
+      std::find_if_not(shape.demands, end, is(DemandShape::Kind::kAlong));
+  return std::all_of(others, end, is(DemandShape::Kind::kNormal))
+             ? static_cast<int>(others - shape.demands)
+             : -1;
+}
+
 DemandShape shapeOf(const ClosureDemand& demand) {
   const DemandShape::Kind kind = demand.kind == Kind::kDistance ? DemandShape::Kind::kDistance
                                  : demand.kind == Kind::kNormal ? DemandShape::Kind::kNormal
@@ -160,9 +173,11 @@ ClosureConditions::ClosureConditions(const Mechanism& mechanism, const Closure& 
              static_cast<int>(steps_.size()),
              static_cast<int>(conditions().size()),
              {},
-             closure.length.value_or(0)} {
+             closure.length.value_or(0),
+             -1} {
   std::transform(traits_.demands.begin(), traits_.demands.end(), shape_.demands,
                  [](const ClosureDemand& demand) { return shapeOf(demand); });
+  shape_.along = alongOf(shape_);
 }
 
 void ClosureConditions::setPosition(const LoopState& state, ConditionRows rows) const {

@@ -56,12 +56,14 @@ struct ClosedLoopDynamics::Impl {
   std::size_t own_wrenches;  // number of the scene's own, the tree's first
   Load own_load;             // values of the scene's own wrenches
   bool reacts;               // whether reactions are requested
+  bool moves;                // whether results depend on how links and closures move
   std::size_t closures;
   std::vector<std::string> closure_names, actuated_closures;
   LoopKinematics kinematics;  // at the assembly
   std::vector<LoopGroup> groups;
   LoopHolds holds;
   std::vector<SpringReach> reach;  // by spring
+  std::vector<int> open_efforts;   // actuated coordinates in no loop, whose efforts are the tree's
   double length = 1;
   Eigen::VectorXd assembly;
   double way = 0;  // from the scene's start, rad or over the length
@@ -118,6 +120,7 @@ struct ClosedLoopDynamics::Workspace::Impl {
   std::vector<int> child_axes_ranks, root_axes_ranks;
 
  private:
+  void move(const Motion& motion);
   void push(const Motion& motion, const Load& load);
   void report();
   void collect();

@@ -1,5 +1,6 @@
 #include "loops/point_springs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -102,6 +103,11 @@ bool PointSprings::directed(std::size_t i, const LoopKinematics& kinematics) con
   if (!between(spring, kinematics).isZero(0)) return true;
   const bool pushes = spring.scene.stiffness > 0 && spring.scene.rest_length > 0;
   return !pushes && (spring.scene.damping == 0 || rate(spring, kinematics).isZero(0));
+}
+
+bool PointSprings::damped() const {
+  return std::any_of(springs_.begin(), springs_.end(),
+                     [](const Spring& spring) { return spring.scene.damping != 0; });
 }
 
 double PointSprings::length(std::size_t i, const LoopKinematics& kinematics) const {

@@ -28,6 +28,8 @@ class PointSprings {
   bool directed(std::size_t spring, const LoopKinematics& kinematics) const;
   /// Distance of the ends, m.
   double length(std::size_t spring, const LoopKinematics& kinematics) const;
+  /// Whether the force of any depends on velocities.
+  bool damped() const;
   const std::string& name(std::size_t spring) const { return springs_[spring].scene.name; }
   int linkA(std::size_t spring) const { return springs_[spring].link_a; }
   int linkB(std::size_t spring) const { return springs_[spring].link_b; }

@@ -1,5 +1,8 @@
 #include "loops/residuals.h"
 
+#include "loops/compiled_loops.h"
+#include "scene/input_checks.h"
+
 namespace virtual_work_dynamics {
 
 static_assert(sizeof(ClosureResidual) == 3 * sizeof(double), "plain numbers");
@@ -32,6 +35,20 @@ void LoopResiduals::find(LoopKinematics& kinematics, const Motion& motion,
                              motion.qdd.data(),
                              &plain.front().position,
                              &relative.front().position});
+}
+
+ClosedLoopDynamics::Residuals ClosedLoopDynamics::residualsOf(const Motion& motion,
+                                                              Workspace& workspace) const {
+  LoopSolvers& solvers = workspace.solversOf(*impl_);
+  requireLengths(motion, coordinates());
+  requireOrientations(motion, impl_->mechanism.orientations());
+  solvers.kinematics.setOrientations(motion.orientations);
+  solvers.kinematics.setPosition(motion.q);
+  const std::vector<ClosureResidual> none(solvers.kinematics.sets());
+  Residuals found{none, none};
+  solvers.residuals.find(solvers.kinematics, impl_->static_motion ? Motion(coordinates()) : motion,
+                         found.plain, found.relative);
+  return found;
 }
 
 }  // namespace virtual_work_dynamics

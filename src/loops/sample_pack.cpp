@@ -63,8 +63,8 @@ SamplePack::SamplePack(const ClosedLoopDynamics::Impl& plan, const LoopSolvers& 
       links_(plan.mechanism.links().size()),
       record_{coordinates_,
               2 * kWrenchNumbers * plan.closures,
-              kResiduals * plan.closures,
-              kResiduals * plan.closures,
+              plan.request.residuals ? kResiduals * plan.closures : 0,
+              plan.request.residuals ? kResiduals * plan.closures : 0,
               solvers.forces.size(),
               kWrenchNumbers * plan.child_axes->size(),
               kWrenchNumbers * plan.root_axes->size()},
@@ -131,7 +131,7 @@ void SamplePack::setMotion(const double* q, const double* qd, const double* qdd,
     }
   };
   copy(q, q_);
-  if (plan_.static_motion) return;
+  if (plan_.static_motion || !(plan_.moves || plan_.request.residuals)) return;
   copy(qd, qd_);
   copy(qdd, qdd_);
 }
@@ -150,26 +150,41 @@ void SamplePack::setEfforts(std::size_t sample, const Eigen::VectorXd& tree_effo
 
 void SamplePack::compute() {
   std::fill(computed_.begin(), computed_.end(), true);
-  placeAndMove();
+  place();
+  if (plan_.moves || plan_.request.residuals) {
+    loops_.moveLinks(solvers_.kinematics.links().view(), qd_, link_numbers_);
+  }
+  if (plan_.request.residuals) findResiduals();
   for (std::size_t g = 0; g < groups_.size(); ++g) solve(solvers_.forces[g], groups_[g]);
 }
 
-// Positions, velocities and accelerations of links and conditions, and how far these are violated.
-void SamplePack::placeAndMove() {
+ClosureNumbers SamplePack::numbersOf(std::size_t closure) const {
+  const std::size_t first = static_cast<std::size_t>(solvers_.kinematics.firstOf(closure)) * width_;
+  return {phi_ + first,
+          A_ + first,
+          conditions_,
+          wrenches_ + kWrenchNumbers * first,
+          frames_ + kFrameNumbers * closure * width_,
+          turning_ + first};
+}
+
+// Poses of links, and conditions.
+void SamplePack::place() {
   const LoopKinematics& kinematics = solvers_.kinematics;
   loops_.placeLinks(kinematics.links().view(), q_, angles_, link_numbers_);
-  loops_.moveLinks(kinematics.links().view(), qd_, link_numbers_);
+  for (std::size_t c = 0; c < plan_.closures; ++c) {
+    loops_.placeClosure(kinematics.closure(c).shape(), link_numbers_, numbersOf(c));
+  }
+}
+
+// Velocities and accelerations of conditions, and how far these are violated.
+void SamplePack::findResiduals() {
+  const LoopKinematics& kinematics = solvers_.kinematics;
   std::fill_n(rates_, conditions_ * width_, 0.0);
   for (std::size_t c = 0; c < plan_.closures; ++c) {
-    const ClosureShape& shape = kinematics.closure(c).shape();
     const RowsShape& rows = kinematics.rowsOf(c);
     const std::size_t first = static_cast<std::size_t>(kinematics.firstOf(c)) * width_;
-    loops_.placeClosure(shape, link_numbers_,
-                        {phi_ + first, A_ + first, conditions_, wrenches_ + kWrenchNumbers * first,
-                         frames_ + kFrameNumbers * c * width_, turning_ + first});
-    loops_.moveClosure(shape, link_numbers_,
-                       {phi_ + first, A_ + first, conditions_, wrenches_ + kWrenchNumbers * first,
-                        frames_ + kFrameNumbers * c * width_, turning_ + first});
+    loops_.moveClosure(kinematics.closure(c).shape(), link_numbers_, numbersOf(c));
     std::copy_n(turning_ + first, static_cast<std::size_t>(rows.rows) * width_,
                 accelerations_ + first);
     loops_.addMotion(rows, A_ + first, qd_, qdd_, rates_ + first, accelerations_ + first);
@@ -271,19 +286,23 @@ void SamplePack::report(const TreeNumbers& tree, double* records) const {
 void SamplePack::take(std::size_t sample, bool whole, LoopSolvers& solvers,
                       LoopResults& results) const {
   solvers.kinematics.takeSample({link_numbers_, wrenches_, frames_, width_, sample}, whole);
-  const double* const relative = residuals_ + record_.plain * width_;
-  const auto takeResiduals = [&](const double* from, std::vector<ClosureResidual>& to) {
-    double* numbers = &to.front().position;
-    for (std::size_t i = 0; i < kResiduals * to.size(); ++i) numbers[i] = from[i * width_ + sample];
-  };
-  takeResiduals(residuals_, results.residuals);
-  takeResiduals(relative, results.relative_residuals);
+  if (plan_.request.residuals) takeResiduals(sample, results);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
     solvers.forces[g].takeSample({group.x, closures_, group.condition, group.numbers,
                                   group.states.data(), group.stairs.data(), width_, sample},
                                  whole);
   }
+}
+
+void SamplePack::takeResiduals(std::size_t sample, LoopResults& results) const {
+  const double* const relative = residuals_ + record_.plain * width_;
+  const auto takeFrom = [&](const double* from, std::vector<ClosureResidual>& to) {
+    double* numbers = &to.front().position;
+    for (std::size_t i = 0; i < kResiduals * to.size(); ++i) numbers[i] = from[i * width_ + sample];
+  };
+  takeFrom(residuals_, results.residuals);
+  takeFrom(relative, results.relative_residuals);
 }
 
 }  // namespace virtual_work_dynamics

@@ -48,7 +48,7 @@ class SamplePack {
   struct Record {
     std::size_t efforts;     ///< by coordinate, zero where it is passive
     std::size_t loads;       ///< two wrenches of each closure, as in LoopResults::tree_wrenches
-    std::size_t plain;       ///< three of each ClosureResidual
+    std::size_t plain;       ///< three of each ClosureResidual, where they are asked for
     std::size_t relative;    ///< as many
     std::size_t conditions;  ///< by group
     std::size_t child_axes, root_axes;
@@ -71,7 +71,10 @@ class SamplePack {
     std::vector<FrontState> states;
     std::vector<int> stairs;
   };
-  void placeAndMove();
+  ClosureNumbers numbersOf(std::size_t closure) const;
+  void place();
+  void findResiduals();
+  void takeResiduals(std::size_t sample, LoopResults& results) const;
   void solve(const LoopForces& forces, Group& group);
   void judge(const LoopForces& forces, const Group& group);
   void reportEfforts(const TreeNumbers& tree, double* to) const;

@@ -151,6 +151,7 @@ set(core_test_files
   test/core/reference_recursion_test.cpp
   test/core/reference_test.cpp
   test/core/regressor_test.cpp
+  test/core/requested_residuals_test.cpp
   test/core/rollers_and_grippers_test.cpp
   test/core/rolling_test.cpp
   test/core/root_by_link_test.cpp

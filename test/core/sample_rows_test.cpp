@@ -88,7 +88,12 @@ Request everythingOf(const Recorded& recorded) {
 
 // What is found beside wrenches of loops decides how rows are computed.
 std::vector<Request> requestsOf(const Recorded& recorded) {
-  return {everythingOf(recorded), wrenchesOf(recorded)};
+  std::vector<Request> requests = {everythingOf(recorded), wrenchesOf(recorded)};
+  for (std::size_t i = 0; i < 2; ++i) {
+    requests.push_back(requests[i]);
+    requests.back().residuals = false;
+  }
+  return requests;
 }
 
 TEST(SampleRows, AreComputedLikeSingleSamples) {

@@ -58,6 +58,10 @@ struct Fronts {
     /// Rows that are computed with; the last ones may be empty.
     VWD_INLINE int rows() const { return kChunk > 1 ? shape.most_rows : state.rows; }
     VWD_INLINE int remaining() const { return state.steps - shape.pivots; }
+    /// Whether a step has one row only, which is one of R as it is.
+    VWD_INLINE bool isAlone(int step) const { return step + 1 == state.rows; }
+    /// Steps that reflect.
+    VWD_INLINE int reflected() const { return state.steps - (state.steps == state.rows); }
   };
 
   /// The first row of the chunk that has a row.
@@ -137,6 +141,7 @@ struct Fronts {
   /// @returns its squared length
   VWD_INLINE static T startReflection(const Front& front, int step, int column, int rows) {
     const T* const from = front.column(column);
+    if (front.isAlone(step)) return from[step] * from[step];
     T* const v = front.reflection(step);
     int i = chunkWith(step);
     if constexpr (kChunk > 1) {
@@ -161,6 +166,9 @@ struct Fronts {
   /// length in row `step`. Rows above are those of R already.
   VWD_INLINE static void reflect(const Front& front, int step, int column, const T& square,
                                  int rows) {
+    front.stairs[step] = column;
+    ++front.state.steps;
+    if (front.isAlone(step)) return;
     T* const head = front.column(column) + step;
     T* const v = front.reflection(step);
     const int from = chunkWith(step);
@@ -173,13 +181,11 @@ struct Fronts {
       v[step] = *head - diagonal;
     }
     *head = diagonal;
-    front.stairs[step] = column;
     front.factors[step] = factor;
     for (int j = column + 1; j < front.shape.width; ++j) {
       T* const other = front.column(j);
       subtract(factor * dot(v, other, from, rows), v, other, from, rows);
     }
-    ++front.state.steps;
   }
 
   VWD_INLINE static Factorized eliminate(const Front& front, int rows) {

@@ -35,6 +35,12 @@ struct SmallFront {
       const T square = dot(below, below);
       if (lanesAbove(square, T(kLeastSquare)) == 0) return false;
       const T head = columns[kFrom].v[kFrom];
+      if (kFrom + 1 == kWidth && front.isAlone(kFrom)) {
+        store(front.column(kFrom), columns[kFrom]);
+        front.reciprocals[kFrom] = T(1.0) / head;
+        front.stairs[kFrom] = kFrom;
+        return true;
+      }
       const T diagonal = awayFrom(head, squareRoot(square));
       const T factor = T(1.0) / subMul(square, diagonal, head);
       const C v = subMul(below, C(diagonal), load<C>(kUnit + kRowChunk - kFrom));
@@ -100,14 +106,16 @@ struct SmallFront {
       y[k] = sum * front.reciprocals[k];
     }
     C z = load<C>(y);
-    for (int step = kWidth; step-- > 0;) reflect(front, step, z);
+    if (!front.isAlone(kWidth - 1)) reflect(front, kWidth - 1, z);
+    for (int step = kWidth - 1; step-- > 0;) reflect(front, step, z);
     store(front.z, z);
   }
 
   /// See FrontSolutions::leastSquares(): finds u from z.
   VWD_INLINE static void leastSquares(const Front& front, const int* columns, double* u) {
     C chunk = load<C>(front.z);
-    for (int step = 0; step < kWidth; ++step) reflect(front, step, chunk);
+    for (int step = 0; step + 1 < kWidth; ++step) reflect(front, step, chunk);
+    if (!front.isAlone(kWidth - 1)) reflect(front, kWidth - 1, chunk);
     T z[kWidth];
     for (int k = 0; k < kWidth; ++k) z[k] = chunk.v[k];
     backSubstitute(front, z);

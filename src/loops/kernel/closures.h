@@ -24,6 +24,21 @@ VWD_INLINE void placeFrame(const FrameShape& frame, const T* links, T* R, T* o) 
   putVector(o, vectorAt(link + kLinkO) + turnedBy(link + kLinkR, frame.p_LoFo_L));
 }
 
+template <typename T>
+VWD_INLINE void placeAlong(const DemandShape& demand, const Vec3<T>& r, const T* frames, T& phi,
+                           T* wrench) {
+  const Vec3<T> axis = vectorAt(frames + kFrameP + 3 * demand.a);
+  phi = dot(axis, r);  // (3.3)
+  putVector(wrench, axis);
+}
+template <typename T>
+VWD_INLINE void placeNormal(const DemandShape& demand, const T* frames, T& phi, T* wrench) {
+  const Vec3<T> a = vectorAt(frames + kFrameP + 3 * demand.a);
+  const Vec3<T> b = vectorAt(frames + kFrameC + 3 * demand.b);
+  phi = dot(a, b);  // (3.3)
+  putVector(wrench + 3, cross(b, a));
+}
+
 /// Conditions and the wrenches of unit multipliers.
 template <typename T>
 VWD_INLINE void placeConditions(const ClosureShape& shape, const T* frames, T* phi, T* wrenches) {
@@ -37,17 +52,69 @@ VWD_INLINE void placeConditions(const ClosureShape& shape, const T* frames, T* p
       phi[i] = distance - T(shape.length);  // (3.3)
       putVector(wrench, scaled(share, r));
     } else if (demand.kind == DemandKind::kAlong) {
-      const Vec3<T> axis = vectorAt(frames + kFrameP + 3 * demand.a);
-      phi[i] = dot(axis, r);  // (3.3)
-      putVector(wrench, axis);
+      placeAlong(demand, r, frames, phi[i], wrench);
     } else {
-      const Vec3<T> a = vectorAt(frames + kFrameP + 3 * demand.a);
-      const Vec3<T> b = vectorAt(frames + kFrameC + 3 * demand.b);
-      phi[i] = dot(a, b);  // (3.3)
-      putVector(wrench + 3, cross(b, a));
+      placeNormal(demand, frames, phi[i], wrench);
     }
   }
 }
+
+/// The demands of the most usual closures: loops have constant lengths. What it computes agrees
+/// with placeConditions() and placeColumns() bit for bit.
+/// @param kAlong, kNormal how many of each kind, in this order
+template <int kAlong, int kNormal>
+struct UsualDemands {
+  static constexpr int kCount = kAlong + kNormal;
+
+  VWD_INLINE static bool are(const ClosureShape& shape) {
+    return shape.along == kAlong && shape.demand_count == kCount;
+  }
+
+  template <typename T>
+  VWD_INLINE static void placeConditions(const ClosureShape& shape, const T* frames, T* phi,
+                                         T* wrenches) {
+    const Vec3<T> r = vectorAt(frames + kFrameCo) - vectorAt(frames + kFramePo);  // (2.1)
+    for (int i = 0; i < kAlong; ++i) {
+      placeAlong(shape.demands[i], r, frames, phi[i], wrenches + i * kWrenchNumbers);
+    }
+    for (int i = kAlong; i < kCount; ++i) {
+      placeNormal(shape.demands[i], frames, phi[i], wrenches + i * kWrenchNumbers);
+    }
+  }
+
+  template <typename T>
+  VWD_INLINE static void placeColumns(const ClosureShape& shape, const T* links, const T* frames,
+                                      const T* wrenches, T* A, std::size_t A_stride) {
+    const Vec3<T> Co = vectorAt(frames + kFrameCo);
+    for (int k = 0; k < shape.step_count; ++k) {
+      const StepShape& step = shape.steps[k];
+      const T* const link = links + step.link * kLinkNumbers;
+      const Vec3<T> along = scaled(step.factor, vectorAt(link + kLinkZ));
+      const Vec3<T> moved = step.slides ? along : cross(along, Co - vectorAt(link + kLinkO));
+      T entries[kCount];
+      for (int i = 0; i < kAlong; ++i) {
+        entries[i] = dot(vectorAt(wrenches + i * kWrenchNumbers), moved);
+      }
+      for (int i = kAlong; i < kCount; ++i) {
+        const T entry = dot(vectorAt(wrenches + i * kWrenchNumbers + 3), along);
+        entries[i] = step.slides ? T(0.0) : entry;
+      }
+      T* const column = A + static_cast<std::size_t>(step.coordinate) * A_stride;
+      if (!step.starts) {
+        for (int i = 0; i < kCount; ++i) entries[i] = column[i] + entries[i];
+      }
+      for (int i = 0; i < kCount; ++i) column[i] = entries[i];
+    }
+  }
+
+  template <typename T>
+  VWD_INLINE static void place(const ClosureShape& shape, const T* links, const T* frames,
+                               const ClosureNumbers& to) {
+    T* const wrenches = reinterpret_cast<T*>(to.wrenches);
+    placeConditions(shape, frames, reinterpret_cast<T*>(to.phi), wrenches);
+    placeColumns(shape, links, frames, wrenches, reinterpret_cast<T*>(to.A), to.A_stride);
+  }
+};
 
 /// A row of A is the generalized force of the wrench that a multiplier of one exerts: (3.3),
 /// dPhi/dq.
@@ -81,6 +148,10 @@ void placeClosure(const ClosureShape& shape, const double* link_numbers, const C
   T* const wrenches = reinterpret_cast<T*>(to.wrenches);
   placeFrame(shape.parent, links, frames + kFrameP, frames + kFramePo);
   placeFrame(shape.child, links, frames + kFrameC, frames + kFrameCo);
+  using Pin = UsualDemands<3, 2>;
+  using Ball = UsualDemands<3, 0>;
+  if (Pin::are(shape)) return Pin::place(shape, links, frames, to);
+  if (Ball::are(shape)) return Ball::place(shape, links, frames, to);
   placeConditions(shape, frames, reinterpret_cast<T*>(to.phi), wrenches);
   placeColumns(shape, links, frames, wrenches, reinterpret_cast<T*>(to.A), to.A_stride);
 }

@@ -73,7 +73,7 @@ void addColumns(const RowsShape& shape, const double* A_numbers, const double* u
   for (int i = 0; i < kRowsOfPin; ++i) sums[i] = own[i];
 }
 
-constexpr int kSeveral = 4;
+constexpr int kSeveral = 4, kRowsOfBall = 3;
 /// Calls several(i) with the first of kSeveral rows, the last ones a second time where they do not
 /// come out even, or one(i) with every row where there are fewer.
 template <typename Several, typename One>
@@ -101,6 +101,10 @@ void scaleColumns(const RowsShape& shape, const ScaledColumns& scaled, const dou
     if constexpr (LanesOf<T>::value == 1) {
       using Rows = Pack<double, kSeveral>;
       const Rows factor(column.factor);
+      if (shape.rows == kRowsOfBall) {  // without the count, the loop is unrolled
+        for (int i = 0; i < kRowsOfBall; ++i) one(i);
+        continue;
+      }
       const auto several = [&](int i) VWD_LAMBDA {
         store(entries + i, (load<Rows>(row_factors + i) * factor) * load<Rows>(from + i));
       };

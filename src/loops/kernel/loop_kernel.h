@@ -94,6 +94,7 @@ struct ClosureShape {
   int step_count, demand_count;
   DemandShape demands[6];
   double length;
+  int along;  ///< how many demands, the first, are kAlong where all others are kNormal; else -1
 };
 
 /// The numbers of one closure's conditions.
