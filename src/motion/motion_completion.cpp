@@ -96,6 +96,16 @@ bool leftOut(const RecordedStream& stream, std::size_t row) {
   return std::binary_search(stream.left_out.begin(), stream.left_out.end(), row);
 }
 
+/// The covariance of a recorded position with the rates that are estimated beside it. Errors of
+/// estimates are orthogonal to what is measured, so that this position's error varies with theirs
+/// as the estimated position's does.
+Eigen::Matrix3d withRecorded(const RecordedStream& stream, const SmoothedSample& sample) {
+  Eigen::Matrix3d covariance = sample.covariance;
+  if (!stream.still)
+    covariance(0, 0) = std::max(covariance(0, 0), stream.model.variance(sample.motion[1]));
+  return covariance;
+}
+
 std::size_t gapsOf(const Recording& recording) {
   const std::vector<double>& times = recording.times();
   std::size_t gaps = 0;
@@ -184,18 +194,21 @@ MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion,
   std::vector<double> variances(report == nullptr ? 0 : motion.times.size());
   for (std::size_t joint = 0; joint < joints; ++joint) {
     const auto column = static_cast<Eigen::Index>(joint);
+    const RecordedStream& stream = recording.stream(joint);
     const auto take = [&](std::size_t row, const SmoothedSample& sample) {
       const auto at = static_cast<Eigen::Index>(row);
       motion.velocities(at, column) = sample.motion[1];
-      if (settings.covariances) motion.covariances[row * joints + joint] = sample.covariance;
+      const bool keep = given || (settings.keep_positions && !leftOut(stream, row));
+      if (settings.covariances)
+        motion.covariances[row * joints + joint] =
+            keep ? withRecorded(stream, sample) : sample.covariance;
       if (report != nullptr) variances[row] = sample.covariance(given ? 1 : 2, given ? 1 : 2);
       if (given) return;
-      if (!settings.keep_positions || leftOut(recording.stream(joint), row))
-        motion.positions(at, column) = sample.motion[0];
+      if (!keep) motion.positions(at, column) = sample.motion[0];
       motion.accelerations(at, column) = sample.motion[2];
     };
     recording.smooth(joint, settings.covariances || report != nullptr, take);
-    if (report != nullptr && !recording.stream(joint).still)
+    if (report != nullptr && !stream.still)
       one_sided.add(given ? motion.velocities.col(column) : motion.accelerations.col(column),
                     variances);
     did(1);

@@ -59,6 +59,12 @@ double usualDeviation(const std::vector<double>& times, const std::vector<double
   return *middle / kMedianOfNormal;
 }
 
+double rmsDifference(const std::vector<double>& some, const std::vector<double>& others) {
+  double squares = 0;
+  for (std::size_t i = 0; i < some.size(); ++i) squares += std::pow(some[i] - others[i], 2);
+  return std::sqrt(squares / static_cast<double>(some.size()));
+}
+
 }  // namespace
 
 Recording::Recording(std::vector<double> times, std::vector<RecordedStream> streams,
@@ -218,6 +224,7 @@ void Recording::chooseClock(const std::function<void(std::size_t models)>& found
   }
   even_clock_ = even < stamped;
   if (even_clock_) {
+    jitter_ = rmsDifference(times_, even_times);
     times_ = std::move(even_times);
     for (RecordedStream& stream : streams_) stream.knowledge.stamp_noise = 0;
   } else {
@@ -262,7 +269,7 @@ StreamQuality Recording::quality(std::size_t stream) const {
   quality.interval = interval_;
   quality.position_noise = std::sqrt(model.position_variance);
   quality.velocity_noise = model.usesVelocities() ? std::sqrt(model.velocity_variance) : -1;
-  quality.stamp_noise = std::sqrt(model.stamp_variance);
+  quality.stamp_noise = even_clock_ ? jitter_ : std::sqrt(model.stamp_variance);
   quality.bandwidth = bandwidthOf(timeConstant(model, chosen.knowledge.order, interval_));
   quality.velocity_ratio = chosen.velocity_ratio;
   quality.jumps = static_cast<int>(chosen.jumps.size());

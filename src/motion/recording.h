@@ -64,6 +64,7 @@ class Recording {
   double longest_gap_;
   int block_;  // samples averaged to a block that models are found from
   bool even_clock_ = false;
+  double jitter_ = 0;  // of the stamps about an even clock, s
 };
 
 }  // namespace virtual_work_dynamics

@@ -1,5 +1,7 @@
 #include "motion/stream_smoother.h"
 
+#include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -13,6 +15,32 @@ namespace {
 /// Rows whose states are kept at once; of longer stretches the first state of each such part is
 /// kept, and the part is filtered again on the way back.
 constexpr std::size_t kPart = 4096;
+
+/// Smoothed covariance of a row by that of the next one, `dt` later (Rauch, Tung and Striebel
+/// 1965), as a sum of what is positive: where little is known, the difference of StreamAdjoint
+/// would lose all of its digits. With B = F^-1 Q F^-T, what the noise between the rows does to the
+/// earlier one, and K = B (P + B)^-1 it is (I - K) B + (I - K) F^-1 P' F^-T (I - K)^T.
+template <int N>
+Eigen::Matrix<double, N, N> covarianceBefore(const Eigen::Matrix<double, N, N>& P,
+                                             const Eigen::Matrix<double, N, N>& next, double dt,
+                                             double density) {
+  using Matrix = Eigen::Matrix<double, N, N>;
+  StreamState<N> noise;
+  noise.P.setZero();
+  addNoise<N>(-dt, -density, noise);
+  StreamState<N> back;
+  back.x.setZero();
+  back.P = next;
+  predict<N>(-dt, 0, back);
+  const Matrix& B = noise.P;
+  // Derivatives have units of their own, by which small pivots must not be judged.
+  const Eigen::Matrix<double, N, 1> scale = (P + B).diagonal().cwiseSqrt().cwiseInverse();
+  const Matrix sum = scale.asDiagonal() * (P + B) * scale.asDiagonal();
+  const Matrix scaled = Eigen::LDLT<Matrix>(sum).solve(Matrix(scale.asDiagonal() * B));
+  const Matrix rest = Matrix::Identity() - Matrix(scale.asDiagonal() * scaled).transpose();
+  const Matrix covariance = rest * B + rest * back.P * rest.transpose();
+  return (covariance + covariance.transpose()) / 2;
+}
 
 template <int N>
 class Smoother {
@@ -30,6 +58,7 @@ class Smoother {
       starts.push_back(state);
       if (row + kPart < last) state = filter(row, std::min(row + kPart, last) + 1, state);
     }
+    first_ = first;
     StreamAdjoint<N> adjoint;
     for (std::size_t part = starts.size(); part-- > 0;) {
       const std::size_t begin = first + part * kPart;
@@ -38,7 +67,9 @@ class Smoother {
       // The row after the part is the first of the next one, whose adjoint is at hand.
       for (std::size_t row = end; row-- > begin;) {
         if (row + 1 < last) step(row + 1, steps_[row + 1 - begin], adjoint);
-        take(row, result(row == begin ? starts[part] : steps_[row - begin].filtered, adjoint));
+        const StreamState<N>& filtered = row == begin ? starts[part] : steps_[row - begin].filtered;
+        if (covariance_) smoothCovariance(row, row + 1 < last, filtered, adjoint);
+        take(row, result(filtered, adjoint));
       }
     }
   }
@@ -48,6 +79,7 @@ class Smoother {
   void smoothWithLag(std::size_t first, std::size_t last, double lag, const Take& take) {
     const std::size_t wanted = std::min(last, first + startingRows());
     std::size_t started = 0;  // rows that the filter was started from
+    first_ = first;
     std::size_t newest = first;
     for (std::size_t row = first; row < last; ++row) {
       newest = std::max(newest, row);
@@ -60,13 +92,21 @@ class Smoother {
         steps_[0].filtered = state;
       }
       StreamAdjoint<N> adjoint;
-      for (std::size_t later = newest; later > row; --later)
+      for (std::size_t later = newest;; --later) {
+        const StreamState<N>& filtered = steps_[later - first].filtered;
+        if (covariance_ && (later == row || later <= first + kUnsettled))
+          smoothCovariance(later, later < newest, filtered, adjoint);
+        if (later == row) break;
         step(later, steps_[later - first], adjoint);
+      }
       take(row, result(steps_[row - first].filtered, adjoint));
     }
   }
 
  private:
+  /// Rows of a stretch after which the filter knows all derivatives from samples.
+  static constexpr std::size_t kUnsettled = N;
+
   struct Step {
     StreamState<N> filtered;
     StreamUpdate<N> position;
@@ -118,15 +158,23 @@ class Smoother {
     adjoint.backBy(samples_[row].time - samples_[row - 1].time, covariance_);
   }
 
+  /// Sets the smoothed covariance of a row, with that of the next one where there is a next one and
+  /// the filter knows too little yet.
+  void smoothCovariance(std::size_t row, bool has_next, const StreamState<N>& filtered,
+                        const StreamAdjoint<N>& adjoint) {
+    if (has_next && row < first_ + kUnsettled) {
+      smoothed_ = covarianceBefore<N>(filtered.P, smoothed_,
+                                      samples_[row + 1].time - samples_[row].time, model_.density);
+    } else {
+      smoothed_ = filtered.P - filtered.P * adjoint.Lambda * filtered.P;
+    }
+  }
+
   SmoothedSample result(const StreamState<N>& filtered, const StreamAdjoint<N>& adjoint) const {
     SmoothedSample sample;
     sample.motion = (filtered.x + filtered.P * adjoint.r).template head<3>();
     sample.covariance.setZero();
-    if (covariance_) {
-      const Eigen::Matrix<double, N, N> covariance =
-          filtered.P - filtered.P * adjoint.Lambda * filtered.P;
-      sample.covariance = covariance.template topLeftCorner<3, 3>();
-    }
+    if (covariance_) sample.covariance = smoothed_.template topLeftCorner<3, 3>();
     return sample;
   }
 
@@ -135,6 +183,8 @@ class Smoother {
   double interval_;
   bool covariance_;
   std::vector<Step> steps_;
+  std::size_t first_ = 0;  // row of the stretch
+  Eigen::Matrix<double, N, N> smoothed_ = Eigen::Matrix<double, N, N>::Zero();
 };
 
 template <int N>

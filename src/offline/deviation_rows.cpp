@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number_text.h"
 #include "base/printable.h"
 #include "dynamics/sample_rows.h"
+#include "offline/arguments.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -58,6 +60,14 @@ std::vector<std::string> exactParts(const Scene& scene, const MotionTable& table
   return parts;
 }
 
+// By how much a row violates the loops, relative.
+double violationOf(const Results& results) {
+  double most = 0;
+  for (const ClosureResidual& residual : results.loops.relative_residuals)
+    most = std::max({most, residual.position, residual.velocity, residual.acceleration});
+  return most;
+}
+
 }  // namespace
 
 DeviationRows::DeviationRows(const Mechanism& mechanism, const Scene& scene, const Request& request,
@@ -102,6 +112,7 @@ void DeviationRows::add(std::size_t row, const Motion& motion, const Load& load,
     deviations_.computeDescription(motion, workspace_);
     addCells(workspace_.description(), efforts, cells);
   }
+  if (of_motion_) violation_ = std::max(violation_, violationOf(results));
   if (doubts_) doubts_->add(results.effort, workspace_, of_motion_, of_description);
 }
 
@@ -116,6 +127,11 @@ std::string DeviationRows::notes(double threshold) const {
   std::string text;
   if (!exact_.empty()) {
     text = "note: " + printable(path_) + ": deviations take as exact: " + joined(exact_) + "\n";
+  }
+  if (violation_ > kLoopTolerance) {
+    text += "note: " + printable(path_) + ": the motion violates loops by up to " +
+            numberText(violation_) +
+            " relative, of which deviations know nothing: errors of results may be larger\n";
   }
   if (!doubts_) return text;
   for (const EffortDoubt& doubt : doubts_->above(threshold)) {

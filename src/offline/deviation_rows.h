@@ -33,7 +33,8 @@ class DeviationRows {
   double ofEffort(Eigen::Index effort) const;
 
   /// A line for each effort whose deviation, as rms of all rows, is more than `threshold` times its
-  /// own rms, and one for what counts as exact because its deviation is not known.
+  /// own rms, and one for what counts as exact because its deviation is not known, or for loops
+  /// that the motion does not close.
   std::string notes(double threshold) const;
 
  private:
@@ -45,6 +46,7 @@ class DeviationRows {
   Deviations::Workspace workspace_;
   MotionCovariance covariance_;
   std::vector<std::string> exact_;
+  double violation_ = 0;                // of loops, relative: the largest of all rows
   std::optional<EffortDoubts> doubts_;  // none without efforts
 };
 

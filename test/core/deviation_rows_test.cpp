@@ -81,6 +81,31 @@ TEST_F(DeviationRowsOf, CellsAreThoseOfTheirColumnsAndRows) {
   EXPECT_EQ(rows.notes(1e9), "");
 }
 
+TEST_F(DeviationRowsOf, LoopsThatTheMotionViolatesAreSaidWithTheirLargestViolation) {
+  const Dynamics dynamics(mechanism_, Scene(), request_);
+  Dynamics::Workspace workspace = dynamics.makeWorkspace();
+  Motion motion(3);
+  takeRow(table_, 0, motion);
+  dynamics.compute(motion, workspace);
+  for (double ClosureResidual::*level :
+       {&ClosureResidual::position, &ClosureResidual::velocity, &ClosureResidual::acceleration}) {
+    DeviationRows rows(mechanism_, Scene(), request_, table_, "m.csv");
+    std::vector<double> cells;
+    Results results = workspace.results();
+    results.loops.relative_residuals.assign(2, ClosureResidual());
+    results.loops.relative_residuals[1].*level = 9e-7;
+    rows.add(0, motion, Load(Scene()), results, cells);
+    EXPECT_EQ(rows.notes(1e9), "");
+    results.loops.relative_residuals[1].*level = 0.25;
+    rows.add(0, motion, Load(Scene()), results, cells);
+    results.loops.relative_residuals[1].*level = 0;
+    rows.add(0, motion, Load(Scene()), results, cells);
+    EXPECT_EQ(rows.notes(1e9),
+              "note: m.csv: the motion violates loops by up to 0.25 relative, of which deviations "
+              "know nothing: errors of results may be larger\n");
+  }
+}
+
 TEST_F(DeviationRowsOf, WithoutTolerancesThereAreNoColumnsOfThem) {
   const DeviationRows rows(mechanism_, Scene(), request_, table_, "m.csv");
   EXPECT_EQ(rows.columns(columns_).size(), 3u + 2 * 6);
