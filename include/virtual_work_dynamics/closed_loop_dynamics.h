@@ -123,7 +123,7 @@ class ClosedLoopDynamics {
   struct Residuals {
     std::vector<ClosureResidual> plain, relative;
   };
-  /// Finds these of one sample, in place of the one computed last.
+  /// Finds these of one sample; the workspace's results stay. Allocates what it returns.
   /// @throws MotionError when compute() would.
   Residuals residualsOf(const Motion& motion, Workspace& workspace) const;
 
