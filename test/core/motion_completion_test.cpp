@@ -369,6 +369,10 @@ TEST(MotionCompletion, OneSidedRowsMayBeNearlyAll) {
   const CompletionReport whole = reportOfBursts(500, 1);
   EXPECT_LT(whole.one_sided, 100U);
   EXPECT_FALSE(whole.one_sided_rows[250]);
+  // With more than half of the rows inside, those in the middle are the measure.
+  const CompletionReport longer = reportOfBursts(80, 6);
+  EXPECT_GT(longer.one_sided, 40U);
+  EXPECT_LT(longer.one_sided, 150U);
 }
 
 // Powers of such times overflow.
