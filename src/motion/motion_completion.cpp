@@ -114,6 +114,26 @@ std::size_t gapsOf(const Recording& recording) {
   return gaps;
 }
 
+// The rows within reach of what a joint is smoothed with, seen from an end, a gap or a jump.
+std::vector<bool> rowsNearEnds(const Recording& recording, std::size_t joint) {
+  // Most of the weight of a smoother lies within three time constants.
+  constexpr double kReach = 3 / 6.283185307179586;
+  const double reach = kReach / recording.quality(joint).bandwidth;
+  const std::vector<double>& times = recording.times();
+  const std::vector<std::size_t>& jumps = recording.stream(joint).jumps;
+  std::vector<bool> near(times.size(), false);
+  std::size_t first = 0;
+  for (std::size_t row = 1; row <= times.size(); ++row) {
+    if (row < times.size() && times[row] - times[row - 1] <= recording.longestGap() &&
+        !std::binary_search(jumps.begin(), jumps.end(), row))
+      continue;
+    for (std::size_t i = first; i < row; ++i)
+      near[i] = !(times[i] >= times[first] + reach && times[i] <= times[row - 1] - reach);
+    first = row;
+  }
+  return near;
+}
+
 /// Rows whose estimates have rows on one side only, as those near an end, a gap or a jump do: by
 /// how exact they are, as how far a smoother reaches says little of a slow motion without noise.
 class OneSided {
@@ -121,8 +141,11 @@ class OneSided {
   explicit OneSided(std::size_t rows) : rows_(rows, false) {}
 
   /// @param estimates of a joint, and their variances, by row.
+  /// @param near rows within reach of an end. Where most are, the middle of all is no measure.
   template <typename Estimates>
-  void add(const Estimates& estimates, const std::vector<double>& variances) {
+  void add(const Estimates& estimates, const std::vector<double>& variances,
+           const std::vector<bool>& near) {
+    constexpr double kInexact = 2e-3;     // of the motion, where nothing better is known
     constexpr double kLessExact = 2;      // times the standard deviation in the middle of all rows
     constexpr double kNoticeable = 1e-4;  // of the motion: less of a deviation leaves no doubt
     std::vector<double> known;
@@ -131,10 +154,14 @@ class OneSided {
     if (known.empty()) return;
     const auto middle = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
     std::nth_element(known.begin(), middle, known.end());
-    const double most = std::max(kLessExact * kLessExact * *middle,
-                                 kNoticeable * kNoticeable * estimates.array().square().mean());
+    const double square = estimates.array().square().mean();
+    const double most =
+        std::max(kLessExact * kLessExact * *middle, kNoticeable * kNoticeable * square);
+    const auto count = static_cast<std::size_t>(std::count(near.begin(), near.end(), true));
+    const double most_near =
+        2 * count > near.size() ? std::min(most, kInexact * kInexact * square) : most;
     for (std::size_t row = 0; row < rows_.size(); ++row)
-      if (!(variances[row] <= most)) rows_[row] = true;
+      if (!(variances[row] <= (near[row] ? most_near : most))) rows_[row] = true;
   }
 
   void report(CompletionReport& report) && {
@@ -210,7 +237,7 @@ MotionTable completeMotion(const Mechanism& mechanism, MotionTable motion,
     recording.smooth(joint, settings.covariances || report != nullptr, take);
     if (report != nullptr && !stream.still)
       one_sided.add(given ? motion.velocities.col(column) : motion.accelerations.col(column),
-                    variances);
+                    variances, rowsNearEnds(recording, joint));
     did(1);
   }
   checkEstimates(motion);

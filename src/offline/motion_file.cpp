@@ -35,8 +35,12 @@ constexpr double kFineTimes = 1e-6;
 // beyond them.
 constexpr double kLatestTime = 1e11;
 constexpr double kLongestSpacing = 1e4;
-// Of recordings at 1 kHz and less whose times are milliseconds.
+// Of recordings at 1 kHz and less whose times are milliseconds, and how fast, in rad/s or m/s, the
+// fastest joint of a robot is then on average. What is slow indeed is faster, or hardly moves at
+// all.
 constexpr double kSlowSpacing = 1;
+constexpr double kSlowest = 0.1;
+constexpr double kFastest = 20;
 
 using Names = std::vector<std::string>;
 
@@ -93,6 +97,14 @@ bool cannotBeSeconds(const std::vector<double>& times) {
   return latest > kLatestTime || spacing > kLongestSpacing;
 }
 
+bool mayBeMilliseconds(const MotionTable& table, double spacing) {
+  const Eigen::Index steps = table.positions.rows() - 1;
+  if (spacing < kSlowSpacing || steps < 1 || table.positions.cols() == 0) return false;
+  const auto moved = table.positions.bottomRows(steps) - table.positions.topRows(steps);
+  const double speed = 1000 * moved.cwiseAbs().colwise().mean().maxCoeff() / spacing;
+  return speed > kSlowest && speed < kFastest;
+}
+
 void checkTimes(const MotionFile& motion) {
   const std::vector<double>& times = motion.table.times;
   const std::size_t row = firstTimeThatDoesNotIncrease(times);
@@ -110,7 +122,7 @@ void checkTimes(const MotionFile& motion) {
             "nanoseconds? Give seconds";
     throw FileError(text.str());
   }
-  if (spacing >= kSlowSpacing) {
+  if (mayBeMilliseconds(motion.table, spacing)) {
     std::cerr
         << "warning: " << printable(motion.path) << ": " << numberText(spacing)
         << " s from row to row, and derivatives have to be estimated: are times milliseconds?\n";

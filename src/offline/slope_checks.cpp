@@ -16,6 +16,11 @@ constexpr int kFewest = 10;  // rows that move
 // s from row to row, on average; what swings between rows that are farther apart has other slopes.
 constexpr double kFarthestRows = 0.1;
 
+// The least part that slopes over four steps are of those over two: a swing with six rows or more.
+constexpr double kResolved = 0.5;
+// What swings about once from row to row seems to go slowly, and backwards if a little less often.
+constexpr double kLeastAlias = 4;
+
 struct Unit {
   double factor;
   const char* name;
@@ -25,13 +30,16 @@ constexpr std::array<Unit, 3> kUnits{
 
 using Column = Eigen::Ref<const Eigen::VectorXd>;
 
-// By what factor values go with the slopes of others; 1 where nothing tells.
-double factorOf(const std::vector<double>& times, const Column& of, const Column& values) {
+// By what factor values go with the slopes of others, between the rows so far before and after each
+// row; 1 where nothing tells.
+double factorOf(const std::vector<double>& times, const Column& of, const Column& values,
+                Eigen::Index far) {
   double slopes = 0, products = 0, squares = 0;
   int moving = 0;
-  for (Eigen::Index row = 1; row + 1 < of.size(); ++row) {
-    const auto at = static_cast<std::size_t>(row);
-    const double slope = (of[row + 1] - of[row - 1]) / (times[at + 1] - times[at - 1]);
+  for (Eigen::Index row = far; row + far < of.size(); ++row) {
+    const auto after = static_cast<std::size_t>(row + far);
+    const auto before = static_cast<std::size_t>(row - far);
+    const double slope = (of[row + far] - of[row - far]) / (times[after] - times[before]);
     slopes += slope * slope;
     products += slope * values[row];
     squares += values[row] * values[row];
@@ -39,6 +47,17 @@ double factorOf(const std::vector<double>& times, const Column& of, const Column
   }
   const bool tells = moving >= kFewest && products * products > (1 - kLeft) * slopes * squares;
   return tells ? products / slopes : 1;
+}
+
+// 1 also where rows are too far apart for slopes, so that these depend on how far.
+double resolvedFactor(const std::vector<double>& times, const Column& of, const Column& values) {
+  const double factor = factorOf(times, of, values, 1), wider = factorOf(times, of, values, 2);
+  const bool resolved = factor / wider > kResolved && factor / wider < 1 / kResolved;
+  return resolved && factor > -kLeastAlias ? factor : 1;
+}
+
+bool isDoubtful(double factor) {
+  return factor > kLargestFactor || factor < 1 / kLargestFactor;
 }
 
 std::string doubt(const char* what, const std::string& joint, const char* of, double factor) {
@@ -62,15 +81,18 @@ std::vector<std::string> slopeDoubts(const MotionTable& motion) {
   if (steps < kFewest || times.back() - times.front() > kFarthestRows * steps) return doubts;
   for (std::size_t i = 0; i < motion.joints.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
-    const auto judge = [&](const char* what, const Eigen::MatrixXd& values, const char* of,
-                           const Eigen::MatrixXd& positions) {
-      const double factor = factorOf(motion.times, positions.col(column), values.col(column));
-      if (factor > kLargestFactor || factor < 1 / kLargestFactor) {
-        doubts.push_back(doubt(what, motion.joints[i], of, factor));
-      }
+    const auto factor = [&](const Eigen::MatrixXd& of, const Eigen::MatrixXd& values) {
+      return resolvedFactor(times, of.col(column), values.col(column));
     };
-    judge("velocities", motion.velocities, "positions", motion.positions);
-    judge("accelerations", motion.accelerations, "velocities", motion.velocities);
+    const double velocity = factor(motion.positions, motion.velocities);
+    const double acceleration = factor(motion.velocities, motion.accelerations);
+    // Both derivatives of what swings a little more often than once from row to row.
+    const bool alias = velocity > kLeastAlias && std::abs(acceleration / velocity - 1) < 0.05;
+    if (alias) continue;
+    if (isDoubtful(velocity))
+      doubts.push_back(doubt("velocities", motion.joints[i], "positions", velocity));
+    if (isDoubtful(acceleration))
+      doubts.push_back(doubt("accelerations", motion.joints[i], "velocities", acceleration));
   }
   return doubts;
 }

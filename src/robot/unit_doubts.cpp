@@ -18,6 +18,7 @@ constexpr long double kFar = 10;          // times the size of the robot
 constexpr long double kLeastFar = 1;      // m: nothing nearer is doubted
 constexpr long double kUnknownSize = 2;   // m, of a robot whose joints are all in one place
 constexpr long double kLongest = 50;      // m, from joint to joint
+constexpr long double kLight = 10;        // kg for each of these metres, as no large machine is
 constexpr long double kSteel = 7850;      // kg/m^3
 constexpr long double kLeastSize = 0.3L;  // m, where masses are judged
 
@@ -60,6 +61,15 @@ long double sizeOf(const std::vector<Link>& links, const std::vector<Joint>& joi
   return others > 0 && longest > kFar * others ? others : sum;
 }
 
+// How far the slides reach together.
+long double travelOf(const std::vector<Joint>& joints) {
+  long double sum = 0;
+  for (const Joint& joint : joints)
+    if (joint.type == JointType::kPrismatic && joint.lower < joint.upper)
+      sum += std::min<long double>(joint.upper - joint.lower, kLongest);
+  return sum;
+}
+
 std::string inertiaUnits(const Link& link, long double gyration, long double size) {
   std::string units;
   for (const InertiaUnit& unit : kInertiaUnits) {
@@ -75,7 +85,7 @@ std::string inertiaUnits(const Link& link, long double gyration, long double siz
 class Judge {
  public:
   Judge(const std::vector<Link>& links, const std::vector<Joint>& joints)
-      : links_(links), joints_(joints), size_(sizeOf(links, joints)) {}
+      : links_(links), joints_(joints), size_(sizeOf(links, joints)), travel_(travelOf(joints)) {}
 
   std::vector<Doubt> judge() {
     for (const Joint& joint : joints_) judgeOrigin(joint);
@@ -94,6 +104,9 @@ class Judge {
   void judgeOrigin(const Joint& joint) {
     const long double distance = joint.p_PoKo_P.norm();
     if (distance <= kLongest || places(joint, links_)) return;
+    long double mass = 0;
+    for (const Link& link : links_) mass += link.mass;
+    if (mass > kLight * distance) return;  // as that of a wind turbine or a crane
     doubts_.push_back({"joint " + inQuotes(joint.name) + ": its origin is " + text(distance) +
                        " m from that of its parent: is it in mm?"});
   }
@@ -115,10 +128,19 @@ class Judge {
     }
   }
 
+  // Whether a link's mass can be judged by a size: not that of a point, nor, where no distance is
+  // known, that of an inertia that may stand for none.
+  bool hasSize(const Link& link) const {
+    const Vector3l moments = link.inertia_Cm_K.diagonal();
+    const bool alike = moments.x() == moments.y() && moments.y() == moments.z();
+    return moments.cwiseAbs().maxCoeff() > 0 && (size_ + travel_ > 0 || !alike);
+  }
+
   void judgeMass() {
-    long double mass = 0, size = std::max(size_, kLeastSize);
+    long double mass = 0, size = std::max(size_ + travel_, kLeastSize);
     const Link* heaviest = &links_[0];
     for (const Link& link : links_) {
+      if (!hasSize(link)) continue;
       mass += link.mass;
       if (link.mass > heaviest->mass) heaviest = &link;
       if (link.mass > 0) size = std::max({size, 2 * gyrationOf(link), link.p_KoCm_K.norm()});
@@ -129,20 +151,23 @@ class Judge {
                        " kg, more than steel of that size weighs: is it in g?"});
   }
 
-  // Limits in degrees are multiples of five from 30 on; powers of ten and such stand for none.
+  // Limits in degrees are multiples of five to both sides, one from 30 on; powers of ten and such
+  // stand for none, and shafts and winches turn from 0 on.
   void judgeLimits(const Joint& joint) {
     if (joint.type != JointType::kRevolute || !(joint.lower < joint.upper)) return;
-    const double most = std::max(std::abs(joint.lower), std::abs(joint.upper));
+    if (joint.lower >= 0 || joint.upper <= 0) return;
+    const double most = std::max(-joint.lower, joint.upper);
+    const bool fives = std::fmod(joint.lower, 5) == 0 && std::fmod(joint.upper, 5) == 0;
     constexpr std::array<double, 4> kRound{50, 100, 200, 500};
     const bool round = std::find(kRound.begin(), kRound.end(), most) != kRound.end();
-    if (most < 30 || most > 720 || std::fmod(most, 5) != 0 || round) return;
+    if (most < 30 || most > 720 || !fives || round) return;
     doubts_.push_back({"joint " + inQuotes(joint.name) + ": limits from " + text(joint.lower) +
                        " to " + text(joint.upper) + " rad: are they degrees?"});
   }
 
   const std::vector<Link>& links_;
   const std::vector<Joint>& joints_;
-  const long double size_;
+  const long double size_, travel_;
   std::vector<Doubt> doubts_;
 };
 

@@ -11,9 +11,9 @@
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr double kLargestGravity = 300;  // m/s^2; that of the sun is 274
-constexpr double kHeavyPayload = 20;     // times the mass of the robot
-constexpr double kDegrees = 10;          // rad, of no angle between two frames
+constexpr double kLargestGravity = 3000;  // m/s^2, of a centrifuge of 300 g; in mm/s^2 it is 9810
+constexpr double kHeavyPayload = 50;      // times the mass of the robot, which a jack may lift
+constexpr double kDegrees = 10;           // rad, of no angle between two frames
 
 std::string listText(const Eigen::Vector3d& vector) {
   return "[" + numberText(vector.x()) + ", " + numberText(vector.y()) + ", " +

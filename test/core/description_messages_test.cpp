@@ -295,13 +295,52 @@ TEST(DescriptionMessages, MassesInGramsAreDoubted) {
             std::vector<std::string>{});
 }
 
+std::string slidingMachine(const std::string& first, const std::string& second, double travel) {
+  const std::string limits = "<axis xyz='0 0 1'/><limit lower='0' upper='" +
+                             std::to_string(travel) + "' effort='9' velocity='9'/>";
+  const std::string text = "<robot name='s'>" + link("base", "") + link("x", first) +
+                           link("y", second) + joint("jx", "base", "x", limits, "prismatic") +
+                           joint("jy", "x", "y", limits, "prismatic") + "</robot>";
+  return replaced(replaced(text, "xyz='0.3 0 0'", "xyz='0 0 0'"), "xyz='0.3 0 0'", "xyz='0 0 0'");
+}
+
+// How far it travels is the size of a Cartesian machine; bodies without extent have none.
+TEST(DescriptionMessages, MassesOfSlidesAreJudgedByTheirTravel) {
+  const std::string carriage = body("400", "1", "0 0 0"), tool = body("150", "1", "0 0 0");
+  EXPECT_EQ(doubts(slidingMachine(carriage, tool, 3)), std::vector<std::string>{});
+  EXPECT_EQ(doubts(slidingMachine(body("1500", "0", "0 0 0"), tool, 30)),
+            std::vector<std::string>{});
+  EXPECT_EQ(doubts(slidingMachine(body("1500", "0", "0 0 0"), body("9", "0", "0 0 0"), 0.1)),
+            std::vector<std::string>{});
+  EXPECT_EQ(doubts(slidingMachine(carriage, tool, 0)), std::vector<std::string>{});
+  EXPECT_EQ(theDoubt(slidingMachine(body("1500", "1", "0 0 0"), tool, 0.2)),
+            "link 'x': mass 1500 kg, the heaviest of a robot of 0.4 m and 1650 kg, more than steel "
+            "of that size weighs: is it in g?");
+}
+
+// The hub of a wind turbine is 87.6 m above its foot, and the tower weighs accordingly.
+TEST(DescriptionMessages, LargeMachinesAreNotInMillimetres) {
+  const auto tower = [](const char* mass) {
+    return "<robot name='t'>" + link("base", "") + link("tower", body(mass, "1.7e8", "0 0 40")) +
+           link("rotor", body("110000", "3.8e7", "0 0 0")) +
+           "<joint name='foot' type='fixed'><parent link='base'/><child link='tower'/></joint>"
+           "<joint name='yaw' type='continuous'><parent link='tower'/><child link='rotor'/>"
+           "<origin xyz='0 0 87.6'/><axis xyz='0 0 1'/></joint></robot>";
+  };
+  EXPECT_EQ(doubts(tower("347460")), std::vector<std::string>{});
+}
+
 TEST(DescriptionMessages, DegreesAreDoubted) {
   EXPECT_EQ(theDoubt(replaced(arm(), "lower='-3' upper='3'", "lower='-170' upper='170'")),
             "joint 'shoulder': limits from -170 to 170 rad: are they degrees?");
+  EXPECT_EQ(theDoubt(replaced(arm(), "lower='-3' upper='3'", "lower='-90' upper='135'")),
+            "joint 'shoulder': limits from -90 to 135 rad: are they degrees?");
   EXPECT_EQ(theDoubt(replaced(arm(), "xyz='0.3 0 0'", "xyz='0.3 0 0' rpy='0 -90 0'")),
             "joint 'shoulder': origin rpy '0 -90 0' rad: are they degrees?");
-  for (const char* limits : {"lower='-6.28' upper='6.28'", "lower='-100' upper='100'",
-                             "lower='0' upper='31.4'", "lower='-1e6' upper='1e6'"}) {
+  for (const char* limits :
+       {"lower='-6.28' upper='6.28'", "lower='-100' upper='100'", "lower='0' upper='31.4'",
+        "lower='-1e6' upper='1e6'", "lower='0' upper='60'", "lower='0' upper='125'",
+        "lower='0' upper='150'", "lower='-2' upper='150'"}) {
     EXPECT_EQ(doubts(replaced(arm(), "lower='-3' upper='3'", limits)), std::vector<std::string>{});
   }
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -337,6 +338,41 @@ TEST(MotionCompletion, OneSidedRowsAreThoseThatAreLessExact) {
     EXPECT_FALSE(rows[300]) << resolution;
     EXPECT_TRUE(rows[0] && rows[600]) << resolution;
   }
+}
+
+// A noisy swing in pieces of so many rows, with pauses.
+CompletionReport reportOfBursts(int rows, int pieces) {
+  std::mt19937 generator(1);
+  std::normal_distribution<double> noise(0, 1e-4);
+  MotionTable motion;
+  motion.joints = {"hinge"};
+  motion.positions.resize(static_cast<Eigen::Index>(rows) * pieces, 1);
+  for (int i = 0; i < rows * pieces; ++i) {
+    const double t = 3 * (i / rows) + 0.01 * (i % rows);
+    motion.times.push_back(t);
+    motion.positions(i, 0) = 0.3 * std::sin(2 * t) + noise(generator);
+  }
+  CompletionReport report;
+  completeMotion(twoJoints(), motion, {}, &report);
+  return report;
+}
+
+// Where nearly all rows are near an end, that in the middle is no better, and tells nothing.
+TEST(MotionCompletion, OneSidedRowsMayBeNearlyAll) {
+  const std::pair<int, int> kBurstsOfRows[] = {{8, 62}, {20, 25}, {40, 12}, {30, 1}};
+  for (const auto& [rows, pieces] : kBurstsOfRows) {
+    const CompletionReport report = reportOfBursts(rows, pieces);
+    const auto all = static_cast<std::size_t>(rows * pieces);
+    EXPECT_GT(report.one_sided, all * 9 / 10) << rows;
+    EXPECT_EQ(report.one_sided_rows.size(), all);
+  }
+  const CompletionReport whole = reportOfBursts(500, 1);
+  EXPECT_LT(whole.one_sided, 100U);
+  EXPECT_FALSE(whole.one_sided_rows[250]);
+  // With more than half of the rows inside, those in the middle are the measure.
+  const CompletionReport longer = reportOfBursts(80, 6);
+  EXPECT_GT(longer.one_sided, 40U);
+  EXPECT_LT(longer.one_sided, 150U);
 }
 
 // Powers of such times overflow.

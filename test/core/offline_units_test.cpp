@@ -55,6 +55,13 @@ TEST_F(OfflineUnits, TimesInMilliseconds) {
   expectAsked("",
               "warning: m.csv: 10 s from row to row, and derivatives have to be estimated: are "
               "times milliseconds?\n");
+  record(1, 0.2);  // at 1 kHz, 10 m/s
+  expectAsked("", "m.csv: 1 s from row to row, and derivatives have to be estimated");
+  // A slow axis, once a second: 45 m/s if these were milliseconds, and one that hardly moves.
+  record(1, 0.9);
+  expectAsked("", "");
+  record(1, 0.001);
+  expectAsked("", "");
 }
 
 TEST_F(OfflineUnits, GravityInMillimetres) {
@@ -66,8 +73,8 @@ TEST_F(OfflineUnits, GravityInMillimetres) {
   EXPECT_EQ(check.exit_code, 0);
   EXPECT_NE(check.out.find(question), std::string::npos) << check.out;
   EXPECT_NE(check.out.find("\ngravity:      0 0 -9810 m/s^2\n"), std::string::npos) << check.out;
-  // Twice that of Jupiter is a centrifuge's, perhaps.
-  write("g.yaml", "gravity: [0, 30, -40]\n");
+  // Of a centrifuge of 50 g.
+  write("g.yaml", "gravity: [0, 0, -490]\n");
   expectAsked("--scene g.yaml", "");
 }
 
@@ -97,18 +104,19 @@ TEST_F(OfflineUnits, PayloadsInGrams) {
   expectAsked(
       "--scene p.yaml",
       "warning: p.yaml: payload: 2500 kg on link 'tool' of a robot of 6.25 kg: is it in g?\n");
-  write("p.yaml", "payload: [{link: tool, mass: 25, at: [0, 0, 0]}]\n");
+  // Of a jack that lifts 25 times what it weighs.
+  write("p.yaml", "payload: [{link: tool, mass: 156, at: [0, 0, 0]}]\n");
   expectAsked("--scene p.yaml", "");
 }
 
 // A swing with its own derivatives, times these factors.
-std::string swing(double velocity, double acceleration, double step = 0.01) {
+std::string swing(double velocity, double acceleration, double step = 0.01, double rate = 3) {
   std::ostringstream csv;
   csv << "time,position.hinge,velocity.hinge,acceleration.hinge\n";
   for (int i = 0; i < 100; ++i) {
     const double t = step * i;
-    csv << t << "," << std::sin(3 * t) << "," << velocity * 3 * std::cos(3 * t) << ","
-        << acceleration * -9 * std::sin(3 * t) << "\n";
+    csv << t << "," << std::sin(rate * t) << "," << velocity * rate * std::cos(rate * t) << ","
+        << acceleration * -rate * rate * std::sin(rate * t) << "\n";
   }
   return csv.str();
 }
@@ -136,6 +144,17 @@ TEST_F(OfflineUnits, DerivativesThatDoNotGoWithThePositions) {
   write("m.csv", swing(57.29578, 57.29578));
   write("static.yaml", "motion: static\n");
   expectAsked("--scene static.yaml", "");
+}
+
+// What swings nearly as often as there are rows, or more often, has no slopes from row to row.
+TEST_F(OfflineUnits, SwingsThatRowsDoNotResolveAreNotAskedAbout) {
+  write("c.urdf", kPendulum);
+  for (const double hertz : {20, 30, 35, 40, 45, 60, 85, 99, 101}) {
+    write("m.csv", swing(1, 1, 0.01, 2 * 3.14159265358979 * hertz));
+    expectAsked("", "");
+  }
+  write("m.csv", swing(57.29578, 57.29578, 0.01, 2 * 3.14159265358979 * 12));
+  expectAsked("", "times the slope of its positions");
 }
 
 TEST_F(OfflineUnits, ColumnsWithoutTheirKind) {
