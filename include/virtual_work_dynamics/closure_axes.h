@@ -18,8 +18,9 @@ namespace virtual_work_dynamics {
 ///   name is that of a link.
 SceneOfMechanism withClosureAxes(const Mechanism& mechanism, const Scene& scene);
 
-/// The name of the closure that the joint of a closure's free axis stands for; empty for others.
-std::string axisOfClosure(const Closure& closure);
+/// The name of the closure that `closure` of what withClosureAxes() returns is the rest of; empty
+/// for others, whatever their names.
+std::string axisOfClosure(const Mechanism& mechanism, const Scene& scene, const Closure& closure);
 
 /// The mechanism and scene that are computed: withJointTypes(), withTransmissions() and
 /// withClosureAxes(), one after the other.

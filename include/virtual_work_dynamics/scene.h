@@ -308,6 +308,7 @@ struct Scene {
   /// Transmissions of the description whose actuators become joints; withTransmissions() makes the
   /// mechanism that has them, and the scene that goes with it.
   TransmissionSelection transmissions = TransmissionSelection::kNone;
+  /// Of kNamed; of a scene that withTransmissions() has made the joints that actuators now move.
   std::vector<std::string> transmission_names;
 
   std::vector<Closure> closures;  ///< empty: an open chain

@@ -10,9 +10,9 @@
 #include "base/printable.h"
 #include "loops/link_kinematics.h"
 #include "robot/added_joints.h"
-#include "scene/closure_types.h"
 #include "scene/lookup.h"
 #include "scene/resolved_loops.h"
+#include "scene/touch_rows.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/joint_types.h"
 
@@ -39,7 +39,7 @@ std::set<std::string> coupledClosures(const Mechanism& mechanism, const Scene& s
       const Closure* const closure = closureNamed(scene, term.name);
       if (!closure) continue;
       const std::string name = inQuotes(term.name);
-      if (!traitsOf(closure->type).free_axis) {
+      if (closure->type != ClosureType::kRevolute && closure->type != ClosureType::kPrismatic) {
         throw SceneError("couplings: " + inQuotes(coupling.name) + ": closure " + name +
                          " is neither revolute nor prismatic");
       }
@@ -120,15 +120,21 @@ class ClosureAxes {
     return std::atan2(R(1, 0) - R(0, 1), R(0, 0) + R(1, 1));
   }
 
-  // The joints of the tree carry effort and are given as before, and the new ones where the scene
-  // names them.
+  // The joints of the tree carry effort as before, and the new ones where the scene names them.
+  // What motions give follows from that, except where closures are actuated besides joints: the
+  // joints then still are enough.
   void tellWhatMoves() {
     if (!old_.actuated && old_.free_motion) return;
-    std::vector<std::string> joints;
-    for (const std::string& name : old_.actuated.value_or(mechanism_.coordinateNames())) {
-      if (!closureNamed(old_, name)) joints.push_back(name);
+    const std::vector<std::string> all = old_.actuated.value_or(mechanism_.coordinateNames());
+    std::vector<std::string> joints, given;
+    for (const std::string& name : all) {
+      if (closureNamed(old_, name)) continue;
+      joints.push_back(name);
+      const auto is_it = [&](const DriveLaw& drive) { return drive.name == name; };
+      if (std::none_of(old_.drives.begin(), old_.drives.end(), is_it)) given.push_back(name);
     }
-    if (!old_.given) scene_.given = joints;
+    const bool both = joints.size() < all.size() && !joints.empty();
+    if (!old_.given && both && hasPositions(old_)) scene_.given = given;
     if (!old_.actuated) scene_.actuated = joints;
   }
 
@@ -166,9 +172,19 @@ SceneOfMechanism withClosureAxes(const Mechanism& mechanism, const Scene& scene)
   return ClosureAxes(mechanism, scene, names).read();
 }
 
-std::string axisOfClosure(const Closure& closure) {
-  const bool is_rest = closure.name == closure.parent.link + kRest;
-  return is_rest && closure.type == ClosureType::kFixed ? closure.parent.link : "";
+std::string axisOfClosure(const Mechanism& mechanism, const Scene& scene, const Closure& closure) {
+  const std::string& axis = closure.parent.link;
+  const int joint = mechanism.jointIndex(axis);
+  if (closure.type != ClosureType::kFixed || closure.name != axis + kRest || joint < 0) return "";
+  const Link& link = mechanism.link(mechanism.joint(joint).child_link);
+  const bool added = link.name == axis && link.mass == 0 && closure.parent.xyz.isZero(0) &&
+                     closure.parent.rpy.isZero(0);
+  const auto names_it = [&](const Coupling& coupling) {
+    return std::any_of(coupling.terms.begin(), coupling.terms.end(),
+                       [&](const NamedNumber& term) { return term.name == axis; });
+  };
+  const auto& couplings = scene.couplings;
+  return added && std::any_of(couplings.begin(), couplings.end(), names_it) ? axis : "";
 }
 
 SceneOfMechanism mechanismFor(const Mechanism& described, const Scene& scene) {

@@ -60,12 +60,7 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
     if (residuals[i]) effort_names[i] = kMotionResidual + effort_names[i];
   }
   given = loops->given();
-  for (const Closure& closure : scene.closures) {
-    if (!hasPositions(closure)) have_positions = false;
-  }
-  for (const Coupling& coupling : scene.couplings) {
-    if (coupling.rate_only) have_positions = false;
-  }
+  have_positions = hasPositions(scene);
   // The axes of actuated closures that have no drives would have to be given, too, and where there
   // are no positions to be found all of them.
   const bool axes_lack = loops->actuatedClosures().size() > given.closures.size();

@@ -22,7 +22,12 @@ std::string listed(const std::vector<std::string>& names) {
 }  // namespace
 
 GivenJoints::GivenJoints(const Mechanism& mechanism, const Dynamics& dynamics)
-    : dynamics_(dynamics), names_(mechanism.coordinateNames()) {}
+    : dynamics_(dynamics), names_(mechanism.coordinateNames()) {
+  for (const int k : mechanism.coordinates()) {
+    const Link& link = mechanism.link(mechanism.joint(k).child_link);
+    added_.push_back(link.mass == 0 && link.name == mechanism.joint(k).name);
+  }
+}
 
 bool GivenJoints::givesAll(const Given& given) {
   return std::count(given.coordinates.begin(), given.coordinates.end(), false) == 0;
@@ -44,15 +49,24 @@ std::optional<std::string> GivenJoints::problem(const Given& given) const {
   if (finding.follow.empty()) return std::nullopt;
   if (needsPositionOf(finding.follow.front(), given)) {
     return "too much is given: rates of " + listed(finding.follow) +
-           " follow from each other, though their positions do not; give all joints and nothing "
-           "else";
+           " follow from each other, though their positions do not; " + orGiveAll(given);
   }
   if (finding.follow.size() == 1) {
     return "too much is given: " + listed(finding.follow) +
-           " follows from the rest; leave it out, or give all joints and nothing else";
+           " follows from the rest; leave it out, or " + orGiveAll(given);
   }
   return "too much is given: each of " + listed(finding.follow) +
-         " follows from the rest; leave one out, or give all joints and nothing else";
+         " follows from the rest; leave one out, or " + orGiveAll(given);
+}
+
+// Motors and axes of closures are joints, too, which who gives all joints may not think of.
+std::string GivenJoints::orGiveAll(const Given& given) const {
+  std::vector<std::string> missing;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    if (added_[i] && !given.coordinates[i]) missing.push_back(names_[i]);
+  }
+  return "give all joints" + (missing.empty() ? "" : ", with " + listed(missing) + ",") +
+         " and nothing else";
 }
 
 // Whether the position of a coordinate does not follow from what is given besides it.

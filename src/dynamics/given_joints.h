@@ -27,11 +27,13 @@ class GivenJoints {
   static std::vector<bool> resting(const Dynamics& dynamics);
 
  private:
+  std::string orGiveAll(const Given& given) const;
   bool needsPositionOf(const std::string& name, Given given) const;
   std::string tooLittle(const ClosedLoopDynamics::GivenFinding& finding, const Given& given) const;
 
   const Dynamics& dynamics_;
   std::vector<std::string> names_;  // of coordinates
+  std::vector<bool> added_;         // whether the description does not have the coordinate
 };
 
 }  // namespace virtual_work_dynamics

@@ -63,6 +63,15 @@ ResidualRows::ResidualRows(const Mechanism& mechanism, const Dynamics& dynamics,
   for (const std::string& name : offered) {
     if (!name.empty()) unused.push_back(name);
   }
+  const auto known = [&](const std::string& name) {
+    return std::find(efforts.begin(), efforts.end(), name) != efforts.end();
+  };
+  if (joints_.empty() && std::all_of(unused.begin(), unused.end(), known)) {
+    throw FileError(where + ": no measured effort is one of an actuator: they are of " +
+                    namesInQuotes(unused) + ", and " +
+                    (scene.transmission_names.empty() ? "" : "as transmissions are read, ") +
+                    "those of " + namesInQuotes(lacking) + " are needed (effort.<name>)");
+  }
   if (joints_.empty()) {
     throw FileError(where + ": no measured effort is one of the robot's: they are of " +
                     namesInQuotes(unused) + nameHelp(unused[0], efforts));

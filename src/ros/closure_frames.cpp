@@ -34,7 +34,8 @@ tf2_msgs::TFMessage closureFrames(const Mechanism& mechanism, const Scene& scene
   tf2_msgs::TFMessage message;
   const std::unordered_set<std::string> shown(reactions.begin(), reactions.end());
   for (const Closure& closure : scene.closures) {
-    const std::string axis = axisOfClosure(closure);  // a link that the description does not have
+    // A link that the description does not have.
+    const std::string axis = axisOfClosure(mechanism, scene, closure);
     const std::string& name = axis.empty() ? closure.name : axis;
     if (shown.count(name) == 0) continue;
     if (axis.empty() && mechanism.linkIndex(name) >= 0) {

@@ -153,6 +153,13 @@ class Resolver {
     }
   }
 
+  // Whether transmissions that have been read move it: their actuators then deliver its effort.
+  bool isMovedByActuators(int coordinate) const {
+    const std::string& name = mechanism_.coordinateNames()[static_cast<std::size_t>(coordinate)];
+    const std::vector<std::string>& moved = scene_.transmission_names;
+    return std::find(moved.begin(), moved.end(), name) != moved.end();
+  }
+
   // Cylinders and what is driven are actuators whether they are named or not.
   void readActuated(const std::vector<Driven>& driven) {
     if (!scene_.actuated && scene_.free_motion) {
@@ -165,7 +172,9 @@ class Resolver {
     }
     for (const Driven& drive : driven) {
       if (drive.coordinate < 0) closures[drive.closure] = true;
-      if (drive.coordinate >= 0) loops_.actuated[static_cast<std::size_t>(drive.coordinate)] = true;
+      if (drive.coordinate >= 0 && !isMovedByActuators(drive.coordinate)) {
+        loops_.actuated[static_cast<std::size_t>(drive.coordinate)] = true;
+      }
     }
     for (std::size_t i = 0; scene_.actuated && i < scene_.actuated->size(); ++i) {
       const std::string& name = (*scene_.actuated)[i];

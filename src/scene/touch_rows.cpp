@@ -35,6 +35,13 @@ bool hasPositions(const Closure& closure) {
                      [](const TouchRow& row) { return row.has_position; });
 }
 
+bool hasPositions(const Scene& scene) {
+  return std::all_of(scene.closures.begin(), scene.closures.end(),
+                     [](const Closure& closure) { return hasPositions(closure); }) &&
+         std::none_of(scene.couplings.begin(), scene.couplings.end(),
+                      [](const Coupling& coupling) { return coupling.rate_only; });
+}
+
 int conditionCount(const Closure& closure) {
   const ClosureTypeTraits& traits = traitsOf(closure.type);
   return traits.touches() ? static_cast<int>(touchRows(closure).size()) : traits.conditions;

@@ -19,6 +19,8 @@ std::vector<TouchRow> touchRows(const Closure& closure);
 
 /// Whether all conditions of any closure restrict positions.
 bool hasPositions(const Closure& closure);
+/// Whether that holds for all closures and couplings of a scene.
+bool hasPositions(const Scene& scene);
 
 /// How many conditions any closure has.
 int conditionCount(const Closure& closure);

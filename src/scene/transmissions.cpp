@@ -11,6 +11,7 @@
 #include "base/printable.h"
 #include "robot/added_joints.h"
 #include "scene/lookup.h"
+#include "scene/touch_rows.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -149,6 +150,7 @@ class TransmissionScene {
       motors_.push_back(motorOn(parent, actuators[i]));
       couplings_.push_back(couplingOf(transmission, i));
     }
+    all_read_.push_back(transmission);
     read_.push_back(transmission.name);
     unread_.insert(transmission.unread);
   }
@@ -214,7 +216,7 @@ class TransmissionScene {
   Scene changedScene() const {
     Scene scene = scene_;
     scene.transmissions = TransmissionSelection::kNone;
-    scene.transmission_names.clear();
+    scene.transmission_names = movedJoints();
     scene.couplings.insert(scene.couplings.end(), couplings_.begin(), couplings_.end());
     if (scene.reactions == ReactionSelection::kAll) {
       scene.reaction_names = requestedReactions(mechanism_, scene_);
@@ -223,9 +225,57 @@ class TransmissionScene {
     // What free motions demand of a scene is not met by what is added here.
     if (!scene.actuated && scene.free_motion) return scene;
     const NameList moved = scene.actuated.value_or(mechanism_.coordinateNames());
-    if (!scene.given) scene.given = replaced(moved, joints_of_);
-    scene.actuated = replaced(moved, actuators_of_);
+    // Where positions do not follow from each other motions give everything, as without motors.
+    if (!scene.given && hasPositions(scene)) scene.given = givenFor(moved);
+    scene.actuated = replaced(withDriven(moved), actuators_of_);
     return scene;
+  }
+
+  NameList movedJoints() const {
+    NameList joints;
+    for (const auto& [joint, actuators] : actuators_of_) joints.push_back(joint);
+    return joints;
+  }
+
+  bool isDriven(const std::string& name) const {
+    return std::any_of(scene_.drives.begin(), scene_.drives.end(),
+                       [&](const DriveLaw& drive) { return drive.name == name; });
+  }
+
+  // What is actuated, with the joints that drives move: their motors then deliver.
+  NameList withDriven(NameList moved) const {
+    for (const DriveLaw& drive : scene_.drives) {
+      const bool named = std::count(moved.begin(), moved.end(), drive.name) > 0;
+      if (!named && actuators_of_.count(drive.name) > 0) moved.push_back(drive.name);
+    }
+    return moved;
+  }
+
+  // What motions give in place of what is actuated: of an open chain that moves freely all joints,
+  // and nothing that drives say already.
+  NameList givenFor(const NameList& moved) const {
+    const bool all = scene_.free_motion && scene_.closures.empty() && scene_.couplings.empty();
+    NameList given = replaced(all ? mechanism_.coordinateNames() : moved, joints_of_);
+    given.erase(std::remove_if(given.begin(), given.end(),
+                               [&](const std::string& name) { return isDriven(name); }),
+                given.end());
+    for (const Transmission& transmission : all_read_) {
+      for (std::size_t i = 0; i < transmission.actuators.size(); ++i) {
+        if (isDriven(transmission.actuators[i].name)) dropJointOf(transmission, i, given);
+      }
+    }
+    return given;
+  }
+
+  // Takes a joint away that an actuator, which is driven, moves.
+  static void dropJointOf(const Transmission& transmission, std::size_t i, NameList& given) {
+    const std::vector<long double> ratios = ratiosOf(transmission, i);
+    for (std::size_t k = 0; k < ratios.size(); ++k) {
+      const auto found = std::find(given.begin(), given.end(), transmission.joints[k].name);
+      if (ratios[k] == 0 || found == given.end()) continue;
+      given.erase(found);
+      return;
+    }
   }
 
   const Mechanism& mechanism_;
@@ -233,7 +283,8 @@ class TransmissionScene {
   std::vector<Joint> motors_;
   std::vector<Coupling> couplings_;
   std::map<std::string, NameList> joints_of_, actuators_of_;  // by actuator, and by joint
-  NameList read_;
+  std::vector<Transmission> all_read_;
+  NameList read_;  // their names
   std::set<std::string> unread_;
 };
 

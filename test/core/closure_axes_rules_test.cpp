@@ -7,6 +7,7 @@
 
 #include "touching_bodies.h"
 #include "virtual_work_dynamics/closure_axes.h"
+#include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -157,18 +158,57 @@ TEST(ClosureAxesRules, NamesOfTheSceneHoldForTheJoint) {
   const Scene plain = with(GearedCrank::gear(""));
   EXPECT_EQ(plain.closures[0].name, "pin.fixed");
   EXPECT_EQ(plain.closures[0].type, ClosureType::kFixed);
-  EXPECT_EQ(axisOfClosure(plain.closures[0]), "pin");
-  EXPECT_EQ(axisOfClosure(as_is.closures[0]), "");
   EXPECT_EQ(plain.actuated, Names({"joint_1", "joint_2", "joint_3", "joint_4"}));
-  EXPECT_EQ(plain.given, plain.actuated);
+  EXPECT_FALSE(plain.given.has_value());  // the actuated ones, as always
   EXPECT_EQ(plain.reaction_names, Names({"joint_1", "joint_2", "joint_3", "joint_4", "pin"}));
   const Scene driven = with(GearedCrank::gear("") + "actuated: [joint_1, pin]");
   EXPECT_EQ(driven.actuated, Names({"joint_1", "pin"}));
   EXPECT_EQ(driven.given, Names({"joint_1"}));
+  EXPECT_FALSE(with(GearedCrank::gear("") + "actuated: [pin]").given.has_value());
+  EXPECT_FALSE(with(GearedCrank::gear(", rate_only: true") + "actuated: [joint_1, pin]").given);
   EXPECT_EQ(with(GearedCrank::gear("") + "actuated: []\ngiven: [pin]").given, Names({"pin"}));
   EXPECT_EQ(with(GearedCrank::gear("") + "redundancy: {policy: zero_at, zero_at: [pin]}")
                 .redundancy.zero_at,
             Names({"pin.fixed"}));
+}
+
+// What is actuated, and what motions then give, of a crank as withClosureAxes() makes it.
+std::vector<std::string> givenNames(const std::string& more) {
+  const GearedCrank crank;
+  const SceneOfMechanism robot =
+      withClosureAxes(crank.mechanism, sceneOf(GearedCrank::closures() + GearedCrank::gear("") +
+                                               GearedCrank::assemblyAt(0.7) + more));
+  const Dynamics dynamics(robot.mechanism, robot.scene, Request());
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < robot.mechanism.coordinates().size(); ++i) {
+    if (dynamics.given().coordinates[i]) names.push_back(robot.mechanism.coordinateNames()[i]);
+  }
+  return names;
+}
+
+TEST(ClosureAxesRules, GivenIsWhatIsActuatedOrDriven) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(givenNames("actuated: [pin]"), Names({"pin"}));
+  EXPECT_EQ(givenNames("actuated: [joint_1]"), Names({"joint_1"}));
+  EXPECT_EQ(givenNames("actuated: [joint_1]\ndrives: [{name: joint_1, law: polynomial, "
+                       "coefficients: [0, 1]}]"),
+            Names({"joint_1"}));
+  EXPECT_EQ(givenNames("actuated: [joint_1, pin]\ndrives: [{name: joint_1, law: polynomial, "
+                       "coefficients: [0, 1]}]"),
+            Names({"joint_1"}));
+}
+
+// Whatever closures are called: the rest of a free axis is what was made of it.
+TEST(ClosureAxesRules, AxesAreFoundByWhatWasMade) {
+  const GearedCrank crank;
+  const SceneOfMechanism robot =
+      withClosureAxes(crank.mechanism, sceneOf(GearedCrank::closures() + GearedCrank::gear("")));
+  EXPECT_EQ(axisOfClosure(robot.mechanism, robot.scene, robot.scene.closures[0]), "pin");
+  const Scene own = sceneOf(
+      "closures: [{name: link_3.fixed, type: fixed, parent: {link: link_3}, child: {link: "
+      "link_0}}]\ncouplings: [{name: gear, terms: [{name: joint_3, factor: 1}, {name: joint_4, "
+      "factor: 2}]}]");
+  EXPECT_EQ(axisOfClosure(crank.mechanism, own, own.closures[0]), "");
 }
 
 std::string refusalOf(const Mechanism& mechanism, const std::string& text, bool directly = false) {
@@ -194,6 +234,11 @@ TEST(ClosureAxesRules, WhatHasNotOneAxisIsRefused) {
   EXPECT_EQ(refusalOf(crank.mechanism,
                       "closures: [{name: pin, type: spherical, parent: {link: link_0}, child: "
                       "{link: link_3, xyz: [-0.1, 0, 0]}}]\n" +
+                          GearedCrank::gear("")),
+            "couplings: 'gear': closure 'pin' is neither revolute nor prismatic");
+  EXPECT_EQ(refusalOf(crank.mechanism,
+                      "cylinders: [{name: pin, link_a: link_0, at_a: [0, 0.3, 0], link_b: link_3, "
+                      "at_b: [-0.1, 0, 0]}]\n" +
                           GearedCrank::gear("")),
             "couplings: 'gear': closure 'pin' is neither revolute nor prismatic");
   EXPECT_EQ(refusalOf(crank.mechanism,

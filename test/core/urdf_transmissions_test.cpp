@@ -7,6 +7,7 @@
 
 #include "closed_loop_results.h"
 #include "transmitting_robot.h"
+#include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/inverse_dynamics.h"
 #include "virtual_work_dynamics/joint_types.h"
 #include "virtual_work_dynamics/scene_reader.h"
@@ -236,6 +237,71 @@ TEST_F(TransmissionsOfUrdf, NamesGoFromJointsToActuators) {
   EXPECT_EQ(motors.given, Names({"pitch", "roll"}));
   EXPECT_EQ(with("reactions: none").transmissions, TransmissionSelection::kNone);
   EXPECT_EQ(with("{urdf_transmissions: all, reactions: none}").reactions, ReactionSelection::kNone);
+}
+
+// Drives say how joints or motors move, and motions give the rest.
+TEST_F(TransmissionsOfUrdf, WhatDrivesMoveIsNotGiven) {
+  using Names = std::vector<std::string>;
+  const auto given = [&](const std::string& driven, const std::string& more = "") {
+    const Scene scene = sceneOf("{urdf_transmissions: all" + more + ", drives: [{name: " + driven +
+                                ", law: polynomial, coefficients: [0, 1]}]}");
+    const SceneOfMechanism made = withTransmissions(described, scene);
+    // Too much or too little given would be refused.
+    const Dynamics dynamics(made.mechanism, made.scene, Request());
+    return made.scene.given.value_or(Names());
+  };
+  EXPECT_EQ(given("slide"), Names({"shoulder", "elbow", "pitch", "roll"}));
+  EXPECT_EQ(given("spindle"), Names({"shoulder", "elbow", "pitch", "roll"}));
+  EXPECT_EQ(given("right"), Names({"slide", "shoulder", "elbow", "roll"}));
+  EXPECT_EQ(given("lower"), Names({"slide", "elbow", "pitch", "roll"}));
+  EXPECT_EQ(given("a_remote"), Names({"slide", "elbow", "pitch", "roll"}));
+  EXPECT_EQ(given("elbow", ", actuated: [lower, a_remote, slide, left, right]"),
+            Names({"shoulder", "slide", "pitch", "roll"}));
+}
+
+// A drive moves the joint, and its motors deliver what it takes.
+TEST_F(TransmissionsOfUrdf, MotorsDeliverWhatDrivesOfJointsTake) {
+  for (const char* actuated : {"", ", actuated: [shoulder, elbow, pitch, roll]"}) {
+    const SceneOfMechanism driven = withTransmissions(
+        described, sceneOf(std::string("{urdf_transmissions: all") + actuated +
+                           ", drives: [{name: slide, law: polynomial, coefficients: [0, 1]}, "
+                           "{name: pitch, law: polynomial, coefficients: [0, 1]}]}"));
+    ClosedLoopResults results(driven.mechanism, driven.scene);
+    const InverseDynamics chain(described, Scene());
+    Workspace workspace = chain.makeWorkspace();
+    chain.compute(motionOf(described, 2), workspace);
+    Motion moving = motionOf(driven.mechanism, 2);
+    ASSERT_TRUE(results.dynamics.complete(moving, givenJoints(driven.mechanism)));
+    results.dynamics.compute(moving);
+    const auto found_at = [&](const std::string& name) {
+      return results.dynamics.effort()[driven.mechanism.coordinateIndex(name)];
+    };
+    const auto torque = [&](const std::string& name) {
+      return workspace.effort()[described.coordinateIndex(name)];
+    };
+    EXPECT_EQ(found_at("slide"), 0);
+    EXPECT_EQ(found_at("pitch"), 0);
+    expectNear(found_at("spindle"), torque("slide") / kSimple);
+    expectNear(found_at("left"), (torque("pitch") / kJ1 + torque("roll") / kJ2) / (2 * kA1));
+  }
+}
+
+// Joints that nothing holds are given, too; where positions do not follow everything is.
+TEST_F(TransmissionsOfUrdf, MotionsGiveAllThatDoesNotFollow) {
+  using Names = std::vector<std::string>;
+  const SceneOfMechanism loose = withTransmissions(
+      described, sceneOf("{urdf_transmissions: [lead], actuated: [slide, elbow], free_motion: "
+                         "true}"));
+  EXPECT_EQ(loose.scene.given, Names({"slide", "shoulder", "elbow", "pitch", "roll"}));
+  const Dynamics dynamics(loose.mechanism, loose.scene, Request());
+  EXPECT_TRUE(
+      dynamics.residuals()[static_cast<std::size_t>(loose.mechanism.coordinateIndex("pitch"))]);
+  const SceneOfMechanism belt = withTransmissions(
+      described, sceneOf("{urdf_transmissions: [lead], couplings: [{name: belt, rate_only: true, "
+                         "terms: [{name: pitch, factor: 1}, {name: roll, factor: 2}]}]}"));
+  EXPECT_FALSE(belt.scene.given.has_value());
+  const Given given = Dynamics(belt.mechanism, belt.scene, Request()).given();
+  EXPECT_EQ(std::count(given.coordinates.begin(), given.coordinates.end(), false), 0);
 }
 
 TEST_F(TransmissionsOfUrdf, DoubtsSayWhatIsRead) {
