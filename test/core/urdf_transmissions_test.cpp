@@ -246,8 +246,7 @@ TEST_F(TransmissionsOfUrdf, WhatDrivesMoveIsNotGiven) {
     const Scene scene = sceneOf("{urdf_transmissions: all" + more + ", drives: [{name: " + driven +
                                 ", law: polynomial, coefficients: [0, 1]}]}");
     const SceneOfMechanism made = withTransmissions(described, scene);
-    // Too much or too little given would be refused.
-    const Dynamics dynamics(made.mechanism, made.scene, Request());
+    const Dynamics judged(made.mechanism, made.scene, Request());  // refuses too much or little
     return made.scene.given.value_or(Names());
   };
   EXPECT_EQ(given("slide"), Names({"shoulder", "elbow", "pitch", "roll"}));
@@ -273,16 +272,13 @@ TEST_F(TransmissionsOfUrdf, MotorsDeliverWhatDrivesOfJointsTake) {
     Motion moving = motionOf(driven.mechanism, 2);
     ASSERT_TRUE(results.dynamics.complete(moving, givenJoints(driven.mechanism)));
     results.dynamics.compute(moving);
-    const auto found_at = [&](const std::string& name) {
-      return results.dynamics.effort()[driven.mechanism.coordinateIndex(name)];
-    };
-    const auto torque = [&](const std::string& name) {
-      return workspace.effort()[described.coordinateIndex(name)];
-    };
-    EXPECT_EQ(found_at("slide"), 0);
-    EXPECT_EQ(found_at("pitch"), 0);
-    expectNear(found_at("spindle"), torque("slide") / kSimple);
-    expectNear(found_at("left"), (torque("pitch") / kJ1 + torque("roll") / kJ2) / (2 * kA1));
+    const Eigen::VectorXd &found_here = results.dynamics.effort(), &torque = workspace.effort();
+    const auto here = [&](const char* name) { return driven.mechanism.coordinateIndex(name); };
+    const auto there = [&](const char* name) { return described.coordinateIndex(name); };
+    for (const char* name : {"slide", "pitch"}) EXPECT_EQ(found_here[here(name)], 0);
+    expectNear(found_here[here("spindle")], torque[there("slide")] / kSimple);
+    expectNear(found_here[here("left")],
+               (torque[there("pitch")] / kJ1 + torque[there("roll")] / kJ2) / (2 * kA1));
   }
 }
 
@@ -294,8 +290,7 @@ TEST_F(TransmissionsOfUrdf, MotionsGiveAllThatDoesNotFollow) {
                          "true}"));
   EXPECT_EQ(loose.scene.given, Names({"slide", "shoulder", "elbow", "pitch", "roll"}));
   const Dynamics dynamics(loose.mechanism, loose.scene, Request());
-  EXPECT_TRUE(
-      dynamics.residuals()[static_cast<std::size_t>(loose.mechanism.coordinateIndex("pitch"))]);
+  EXPECT_EQ(std::count(dynamics.residuals().begin(), dynamics.residuals().end(), true), 3);
   const SceneOfMechanism belt = withTransmissions(
       described, sceneOf("{urdf_transmissions: [lead], couplings: [{name: belt, rate_only: true, "
                          "terms: [{name: pitch, factor: 1}, {name: roll, factor: 2}]}]}"));
