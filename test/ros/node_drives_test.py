@@ -5,12 +5,13 @@ import shutil
 import subprocess
 import tempfile
 
+import numpy
 import rosbag
 from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectory
 import yaml
 
-from closed_loops import SLIDER_CRANK, SLIDER_CRANK_SCENE, STEP, LoopTest, SliderCrank, by_name
+from closed_loops import JOINTS, SLIDER_CRANK, SLIDER_CRANK_SCENE, STEP, LoopTest, SliderCrank, by_name
 from node_under_test import (EPOCH, Node, NodeTest, Polynomials, executable, joint_state, read,
                              ros_time, run, trajectory_point)
 from rigid_bodies import RigidBodies
@@ -122,6 +123,47 @@ class DrivenJoints(NodeTest):
         for offset, effort in zip(offsets, messages):
             self.assertEffort(effort, self.bodies, motion(EPOCH + offset), EXACT)
 
+    def test_time_begins_anew_with_a_trajectory_before_its_zero(self):
+        self.start(polynomial('shoulder', COEFFICIENTS['shoulder']))
+        names = ['elbow', 'slide']
+        for start in (EPOCH, EPOCH - 10000000000):
+            motion = Polynomials(start, **COEFFICIENTS)
+            seen = len(self.efforts.messages())
+            message = JointTrajectory(joint_names=names)
+            message.header.stamp = ros_time(start)
+            for i in range(5):
+                message.points.append(trajectory_point(STEP * i, names, motion(start + STEP * i)))
+            self.trajectories.publish(message)
+            for i, effort in enumerate(self.efforts.wait(seen + 5)[seen:]):
+                self.assertEffort(effort, self.bodies, motion(start + STEP * i), EXACT)
+
+    def test_time_begins_with_the_first_result(self):
+        self.start(polynomial('shoulder', COEFFICIENTS['shoulder']))
+        motion = Polynomials(**COEFFICIENTS)
+        for i in range(-30, 0):
+            self.states.publish(joint_state(EPOCH + STEP * i, {'elbow': COEFFICIENTS['elbow'][0]}))
+        stamps = [EPOCH + STEP * i for i in range(40)]
+        for ns in stamps:
+            q, qd, _ = motion(ns)
+            self.states.publish(joint_state(ns, only(q, 'elbow', 'slide'), qd))
+        messages = self.efforts.wait(len(stamps) - LAG)
+        self.assertStamps(messages, stamps[:-LAG])
+        for ns, message in zip(stamps, messages):
+            self.assertClose([by_name(message, message.position)['shoulder']],
+                             [motion(ns)[0]['shoulder']], 1e-15, 'the law')
+
+    def test_a_law_is_exact(self):
+        drives = [polynomial(name, COEFFICIENTS[name]) for name in COEFFICIENTS]
+        self.start(drives[0], {'scene': {'drives': drives}})
+        deviations = self.node.record('effort_deviation', JointState)
+        self.node.wait_for_plan('effort', 'effort_deviation')
+        random = numpy.random.default_rng(5)
+        for i in range(60):
+            self.states.publish(joint_state(EPOCH + STEP * i,
+                                            {'elbow': 1 + 1e-3 * random.standard_normal()}))
+        for message in deviations.wait(40):
+            self.assertEqual(list(message.effort), [0, 0, 0])
+
     def test_samples_between_points_of_trajectories(self):
         self.start(polynomial('shoulder', COEFFICIENTS['shoulder']), {'trajectory_sampling': 200})
         motion = Polynomials(**COEFFICIENTS)
@@ -187,6 +229,20 @@ class DrivenLoops(LoopTest):
         self.assertGreater(len(messages), 40)
         values = self.node.diagnostics()
         self.assertEqual(values['passive joints'], 'from the closures')
+
+    def test_what_follows_from_drives_is_never_taken_from_joint_states(self):
+        scene = {key: value for key, value in SLIDER_CRANK_SCENE.items() if key != 'actuated'}
+        self.start('effort', scene=driven(scene, polynomial('crank_joint', CRANK)))
+        stamps = [EPOCH + STEP * i for i in range(60)]
+        random = numpy.random.default_rng(7)
+        for ns in stamps:
+            q = self.expected(ns).q
+            self.states.publish(joint_state(
+                ns, {name: q[name] + 0.01 * random.standard_normal() for name in JOINTS}))
+        messages = self.recorders['effort'].wait(len(stamps) - LAG - 1)
+        for message in messages:
+            expected = self.expected(message.header.stamp.to_nsec())
+            self.assertClose(message.position, [expected.q[name] for name in JOINTS], EXACT, 'q')
 
     def test_a_ram_that_lifts_a_boom(self):
         scene = driven(LIFT_SCENE, polynomial('ram', (0.8, 0.3, -0.2)))
