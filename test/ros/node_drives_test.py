@@ -251,7 +251,7 @@ class DrivenLoops(LoopTest):
         states = [joint_state(ns, {'pin': 0.0}) for ns in stamps]
         for state in states:
             self.states.publish(state)
-        messages = self.recorders['effort'].wait(len(stamps) - LAG - 1)
+        messages = self.recorders['effort'].wait(len(stamps) - LAG)
         for message in messages:
             t = (message.header.stamp.to_nsec() - EPOCH) / 1e9
             ram = dict(zip(message.name, zip(message.position, message.velocity)))['ram']
@@ -290,6 +290,47 @@ class DrivenLoops(LoopTest):
             row = lines[1 + (live[0].header.stamp.to_nsec() - EPOCH + at) // STEP].split(',')
             self.assertClose([float(row[column])], [message.effort[message.name.index('ram')]],
                              EXACT, 'effort of the ram')
+
+    def test_tables_and_bags_of_a_bag_have_one_zero_of_time(self):
+        scene = {'drives': [polynomial('shoulder', COEFFICIENTS['shoulder'])]}
+        path = {name: os.path.join(self.folder, name) for name in
+                ('robot.urdf', 'dump.yaml', 'late.yaml', 'run.bag', 'results.bag', 'results.csv')}
+        motion = Polynomials(**COEFFICIENTS)
+        with rosbag.Bag(path['run.bag'], 'w') as bag:
+            for i in range(-30, 40):
+                ns = EPOCH + STEP * i
+                q = {'elbow': 1.0} if i < 0 else only(motion(ns)[0], 'elbow', 'slide')
+                bag.write('/joint_states', joint_state(ns, q), ros_time(ns))
+        for name, content in (('robot.urdf', ARM),
+                              ('dump.yaml', yaml.safe_dump({'inverse_dynamics': {'scene': scene}})),
+                              ('late.yaml', yaml.safe_dump({'inverse_dynamics': {
+                                  'scene': scene, 'drive_start': 1600000000.0}}))):
+            with open(path[name], 'w', encoding='utf-8') as file:
+                file.write(content)
+
+        def tool(dump, output):
+            return subprocess.run(
+                [executable('inverse_dynamics_offline'), '--urdf', path['robot.urdf'], '--rosparam',
+                 path[dump], '--motion', path['run.bag'], '--positions', '--output', path[output]],
+                check=False, stderr=subprocess.PIPE, universal_newlines=True)
+
+        self.assertEqual(tool('dump.yaml', 'results.csv').returncode, 0)
+        with open(path['results.csv'], encoding='utf-8') as file:
+            header, first = [line.split(',') for line in file.read().splitlines()[:2]]
+        self.assertEqual(float(first[header.index('position.shoulder')]), 0.3)
+        refused = tool('late.yaml', 'results.csv')
+        self.assertNotEqual(refused.returncode, 0)
+        self.assertIn('drive_start: a table counts the time of drives from its first row',
+                      refused.stderr)
+        command = [executable('inverse_dynamics_offline'), '--urdf', path['robot.urdf'],
+                   '--rosparam', path['dump.yaml'], '--motion', path['run.bag'], '--output',
+                   path['results.bag']]
+        subprocess.run(command, check=True)
+        with rosbag.Bag(path['results.bag']) as bag:
+            efforts = [message for topic, message, _ in bag.read_messages()
+                       if topic.endswith('effort')]
+        self.assertEqual(efforts[0].header.stamp, ros_time(EPOCH))
+        self.assertEqual(by_name(efforts[0], efforts[0].position)['shoulder'], 0.3)
 
 
 if __name__ == '__main__':
