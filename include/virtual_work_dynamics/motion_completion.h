@@ -37,7 +37,7 @@ struct CompletionReport {
   std::size_t gaps = 0;     ///< longer than max_gap
   /// Rows near a gap, a jump or an end whose estimates, with rows on one side only, are less exact:
   /// by more than twice the standard deviation elsewhere, and by more than 1e-4 of the motion's
-  /// rms.
+  /// rms; where most rows are near one of these, by more than 0.2 % of that.
   std::size_t one_sided = 0;
   std::vector<bool> one_sided_rows{};    ///< which rows these are; empty: nothing was missing
   std::vector<StreamQuality> qualities;  ///< of each joint of the table

@@ -21,6 +21,40 @@ namespace {
 // Relative misfit below which the loops count as closed, so that the position is what hinders.
 constexpr double kClosed = 1e-9;
 
+// What motions give beside drives: of the coordinates that they gave without these, then, unless
+// the scene says which, of the others, those that do not follow.
+Given besideDrives(const ClosedLoopDynamics& loops, const std::vector<bool>& driven,
+                   bool others_too) {
+  const Given& usual = loops.given();
+  Given given = usual;
+  given.coordinates = driven;
+  Eigen::Index freedom = loops.judge(given).freedom;
+  for (const bool preferred : {true, false}) {
+    if (!preferred && !others_too) break;
+    for (std::size_t i = 0; i < driven.size() && freedom > 0; ++i) {
+      if (given.coordinates[i] || usual.coordinates[i] != preferred) continue;
+      given.coordinates[i] = true;
+      const Eigen::Index left = loops.judge(given).freedom;
+      if (left == freedom) given.coordinates[i] = false;
+      freedom = left;
+    }
+  }
+  return given;
+}
+
+// Refuses drives that say twice how something moves.
+void requireFree(const Dynamics& dynamics, const Scene& scene) {
+  const std::vector<std::string> follow = dynamics.judge(dynamics.given()).follow;
+  std::string names;
+  for (const DriveLaw& drive : scene.drives) {
+    if (std::find(follow.begin(), follow.end(), drive.name) == follow.end()) continue;
+    names += (names.empty() ? "" : ", ") + inQuotes(drive.name);
+  }
+  if (names.empty()) return;
+  throw SceneError("drives: the motion of " + names +
+                   " follows from what else drives and `given` say; leave one out");
+}
+
 Request everything(const Mechanism& mechanism, const Scene& scene) {
   Request request;
   request.child_axes = requestedReactions(mechanism, scene);
@@ -67,6 +101,9 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
   if (!scene.given && (axes_lack || !have_positions)) {
     given.coordinates.assign(actuated.size(), true);
   }
+  if (!scene.drives.empty() && have_positions) {
+    given = besideDrives(*loops, Drives(mechanism, scene).coordinates(), !scene.given);
+  }
   assembly = loops->assembly();
   const std::vector<std::string>& closures = loops->actuatedClosures();
   effort_names.insert(effort_names.end(), closures.begin(), closures.end());
@@ -88,6 +125,7 @@ Dynamics::Impl::Impl(const Mechanism& mechanism, const Scene& scene, const Reque
 Dynamics::Dynamics(const Mechanism& mechanism, const Scene& scene, const Request& request,
                    InstructionSet instruction_set)
     : impl_(new Impl(mechanism, scene, request, instruction_set)) {
+  if (!scene.drives.empty() && impl_->loops && impl_->have_positions) requireFree(*this, scene);
   if (!scene.given && given().closures.empty()) return;
   const auto problem = GivenJoints(mechanism, *this).problem(given());
   if (problem) throw GivenError(*problem);

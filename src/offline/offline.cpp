@@ -277,10 +277,22 @@ void refuseForTables(const Arguments& arguments, const Scene& scene) {
   }
 }
 
+// Of recorded joint states the time of drives begins with the first row.
+void refuseDriveStart(const Arguments& arguments, const Scene& scene) {
+  const YAML::Node& parameters = arguments.inputs->parameters;
+  if (scene.drives.empty() || !parameters.IsMap()) return;
+  const YAML::Node start = parameters["drive_start"];
+  if (!start || start.as<double>(1) == 0) return;
+  throw UsageError(arguments.rosparam +
+                   ": drive_start: a table counts the time of drives from its first row; bags of "
+                   "results (--output BAG) count it from that stamp");
+}
+
 void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene) {
   refuseForTables(arguments, scene);
   const Request written = requestOf(mechanism, scene, arguments);
   RecordedMotion recorded = readStart(arguments, mechanism, scene);
+  if (!recorded.file.stamps_ns.empty()) refuseDriveStart(arguments, scene);
   if (arguments.deviations && recorded.given.drivenNumbers() > recorded.drivenColumns()) {
     throw UsageError(
         "--deviations: an axis of a closure has a drive, and they are those of joints");

@@ -11,6 +11,7 @@
 #include "offline/free_turn_rows.h"
 #include "scene/closure_types.h"
 #include "scene/resolved_loops.h"
+#include "virtual_work_dynamics/dynamics.h"
 #include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/unwrap.h"
 
@@ -140,7 +141,12 @@ class Choice {
 // Takes from joint states what the scene says they give, as the node does: drives and they would
 // say too much.
 void leaveOutPassive(const Mechanism& mechanism, const Scene& scene, MotionSource& source) {
-  const std::vector<bool> given = resolveLoopScene(mechanism, scene).given.coordinates;
+  std::vector<bool> given;
+  try {
+    given = Dynamics(mechanism, scene, Request()).given().coordinates;
+  } catch (const AssemblyError&) {
+    given = resolveLoopScene(mechanism, scene).given.coordinates;  // the motion may assemble it
+  }
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (!given[i]) source.left_out.push_back(mechanism.coordinateNames()[i]);
   }

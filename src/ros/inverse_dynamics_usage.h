@@ -81,8 +81,8 @@ parameters
   ~loop_tolerance            closed loops: WARN where a motion violates one by more, relative (1e-6)
   ~start_patience            closed loops that cannot be assembled from the scene: s to wait at the start for
                              joint states that say where they are (0)
-  ~drive_start               stamp at which the time of the scene's drives is zero, s; 0: the first one of the
-                             joint states, or of a trajectory that comes before them (0)
+  ~drive_start               stamp at which the time of the scene's drives is zero, s; 0: that of the first result
+                             of joint states, or of a trajectory that comes before them (0)
   ~condition_warn            closed loops: WARN close to a singular position, from this condition on (1e4)
 )";
 

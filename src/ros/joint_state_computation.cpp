@@ -86,11 +86,10 @@ bool JointStateComputation::push(const JointSample& sample, Drop drop) {
   if (verdict == Verdict::kRestartedBack) {
     counters_.restarts.add();
     free_joints_.restart(sample.stamp_ns);
-    completer_.drives().beginAnew(sample.stamp_ns);
+    completer_.drives().beginAnew();
     if (efforts_) efforts_->restart();
     user_.noteRestart(sample.stamp_ns);
   }
-  completer_.drives().begin(sample.stamp_ns);
   counters_.accepted_joint_states.add();
   user_.noteSeen(sample.coordinates, sample.count);
   if (completer_.saw(sample.coordinates, sample.count)) {
@@ -102,13 +101,20 @@ bool JointStateComputation::push(const JointSample& sample, Drop drop) {
 
 void JointStateComputation::evaluate() {
   ActivePlan& plan = user_.plan();
-  if (!plan.wantsSamples()) {
+  // Time begins with the first instant, whether anybody listens or not.
+  if (!plan.wantsSamples() && completer_.drives().begunByJointStates()) {
     estimator_.skip();
     counters_.skipped.add();
     return;
   }
   MotionCovariance* covariance = plan.wantsCovariance() && covariances_ ? &covariance_ : nullptr;
-  const std::int64_t stamp_ns = estimator_.evaluate(samples_.motion(), covariance);
+  const std::int64_t stamp_ns =
+      estimator_.evaluate(samples_.motion(), completer_.measures() ? covariance : nullptr);
+  completer_.drives().begin(stamp_ns);
+  if (!plan.wantsSamples()) {
+    counters_.skipped.add();
+    return;
+  }
   if (estimator_.anyHeld()) counters_.held.add();
   const auto unknown =
       free_joints_.set(stamp_ns, estimator_, completer_.needed(), samples_.motion(), covariance);

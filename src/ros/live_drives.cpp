@@ -14,18 +14,26 @@ LiveDrives::LiveDrives(const Mechanism& mechanism, const Scene& scene, const Giv
       numbers_(static_cast<Eigen::Index>(given.drivenNumbers())) {}
 
 void LiveDrives::begin(std::int64_t stamp_ns) {
+  by_joint_states_ = true;
   if (begun_) return;
   begun_ = true;
   start_ns_ = stamp_ns;
 }
 
-void LiveDrives::beginAnew(std::int64_t stamp_ns) {
-  if (!starts_at_stamp_) start_ns_ = stamp_ns;
+void LiveDrives::beginTrajectory(std::int64_t stamp_ns) {
+  if (begun_ && (starts_at_stamp_ || by_joint_states_ || stamp_ns >= start_ns_)) return;
+  begun_ = true;
+  start_ns_ = stamp_ns;
+}
+
+void LiveDrives::beginAnew() {
+  begun_ = starts_at_stamp_;
+  by_joint_states_ = false;
 }
 
 bool LiveDrives::set(std::int64_t stamp_ns, Motion& motion) {
   if (!any()) return true;
-  begin(stamp_ns);
+  if (!begun_) begin(stamp_ns);
   // Of whole nanoseconds, as stamps of today are too long for a double.
   time_ = static_cast<double>(stamp_ns - start_ns_) / 1e9;
   none_ = drives_.evaluate(time_, given_, motion, numbers_);

@@ -25,10 +25,17 @@ class LiveDrives {
   /// Whether each generalized coordinate is driven.
   const std::vector<bool>& coordinates() const { return drives_.coordinates(); }
 
-  /// The drives' time is zero at this stamp unless an earlier call, or the start, says otherwise.
+  /// Joint states have a result at this stamp: the drives' time is zero there unless an earlier
+  /// call, or the start, says otherwise.
   void begin(std::int64_t stamp_ns);
-  /// Time went back to this stamp: it begins anew, unless the start says when.
-  void beginAnew(std::int64_t stamp_ns);
+  /// Whether there is nothing left to begin().
+  bool begunByJointStates() const { return !any() || by_joint_states_; }
+  /// Time of joint states went back: that of the drives begins anew with the next begin(), unless
+  /// the start says when.
+  void beginAnew();
+  /// A trajectory begins at this stamp: as begin(), and where there were trajectories alone, time
+  /// begins anew with one that begins before its zero.
+  void beginTrajectory(std::int64_t stamp_ns);
 
   /// Sets what is driven at a stamp. Returns false when a drive has no motion there; see problem().
   bool set(std::int64_t stamp_ns, Motion& motion);
@@ -44,6 +51,7 @@ class LiveDrives {
   const Given given_;
   const bool starts_at_stamp_;
   bool begun_;
+  bool by_joint_states_ = false;
   std::int64_t start_ns_;
   Motion numbers_;
   double time_ = 0;

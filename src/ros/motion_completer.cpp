@@ -70,6 +70,13 @@ bool MotionCompleter::saw(const int* coordinates, int count) {
   return true;
 }
 
+bool MotionCompleter::measures() const {
+  for (std::size_t i = 0; i < usual_.coordinates.size(); ++i) {
+    if (usual_.coordinates[i] && !drives_.coordinates()[i]) return true;
+  }
+  return false;
+}
+
 bool MotionCompleter::complete(Motion& motion, std::int64_t stamp_ns, const Dynamics& dynamics,
                                Dynamics::Workspace& workspace) {
   if (!drives_.set(stamp_ns, motion)) return false;
@@ -199,7 +206,8 @@ void MotionCompleter::complete(TrajectoryMotion& trajectory, const Dynamics& dyn
 
 // Sets what is driven at the points. Those at which it is not known are open.
 void MotionCompleter::drive(TrajectoryMotion& trajectory) {
-  if (!drives_.any()) return;
+  if (!drives_.any() || trajectory.stamps_ns.empty()) return;
+  drives_.beginTrajectory(trajectory.stamps_ns.front());
   MotionTable& table = trajectory.table;
   for (std::size_t i = 0; i < trajectory.stamps_ns.size(); ++i) {
     const auto row = static_cast<Eigen::Index>(i);
@@ -218,6 +226,7 @@ void MotionCompleter::drive(TrajectoryMotion& trajectory) {
 }
 
 void MotionCompleter::startSamples(const TrajectoryMotion& trajectory) {
+  if (!trajectory.stamps_ns.empty()) drives_.beginTrajectory(trajectory.stamps_ns.front());
   if (!closed_) return;
   const Given& given = chosenBy(trajectory).given;
   samples_give_all_ = GivenJoints::givesAll(given) && given.drivenNumbers() == 0;

@@ -45,6 +45,9 @@ class MotionCompleter {
   bool needsSome() const { return closed_ || drives_.any(); }
   /// Whether joint states give all joints.
   bool allGiven() const { return all_given_; }
+  /// Whether any motion is that of joint states: drives are exact, and so is what follows from
+  /// them.
+  bool measures() const;
   /// Takes note of the coordinates of a joint state. Returns whether needed() has changed.
   bool saw(const int* coordinates, int count);
   /// The drives that set what is driven.

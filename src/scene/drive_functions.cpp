@@ -191,8 +191,13 @@ std::unique_ptr<const TimeFunction> minimumJerk(const DriveLaw& law, const std::
 }
 
 void requirePeriod(const DriveLaw& law, const std::string& place) {
-  if (law.period > 0 && std::isfinite(law.period)) return;
-  throw SceneError(place + ": period = " + numberText(law.period) + " is not positive");
+  if (!(law.period > 0 && std::isfinite(law.period))) {
+    throw SceneError(place + ": period = " + numberText(law.period) + " is not positive");
+  }
+  const double rate = kTwoPi / law.period;
+  if (std::isfinite(rate * rate * law.amplitude) && std::isfinite(rate * rate)) return;
+  throw SceneError(place + ": period = " + numberText(law.period) +
+                   " s is too short: accelerations are not finite");
 }
 
 std::unique_ptr<const TimeFunction> functionOf(const DriveLaw& law, const std::string& place) {

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "base/number_text.h"
-#include "motion/far_positions.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -25,8 +24,22 @@ constexpr double kFits = 1e-6;
 // A function of time by samples.
 struct Samples {
   std::vector<double> times, values;
-  double resolution = 0;  // of the values
+  double rounding = 0;     // of the values, at most
+  std::size_t widest = 1;  // steps that a jump of it shows in, at most
 };
+
+// Steps beside a jump that tell what is usual, and those that are needed.
+constexpr std::size_t kBeside = 3;
+constexpr std::size_t kFewestBeside = 2;
+// By how much a jump exceeds what slopes beside it differ by.
+constexpr double kUnlike = 4;
+constexpr double kUnlikeAtEnds = 8;
+// Part of the range of a table that its decimals may leave out at most.
+constexpr double kCoarsest = 2e-3;
+// Fourth differences of white noise, in its standard deviations.
+constexpr double kOfNoise = 8;
+// Part of a velocity below which the way does not go along with it.
+constexpr double kAlong = 0.1;
 
 // The step from which the numbers of a table are made up, as far as it is decimal.
 double resolutionOf(const std::vector<double>& values) {
@@ -44,6 +57,34 @@ double resolutionOf(const std::vector<double>& values) {
   return largest * std::numeric_limits<double>::epsilon();
 }
 
+// What fourth differences of most rows that move stay below: round numbers need not be rounded
+// ones.
+double unevennessOf(const std::vector<double>& y) {
+  std::vector<double> uneven;
+  for (std::size_t i = 4; i < y.size(); ++i) {
+    if (std::all_of(&y[i - 4], &y[i], [&](double value) { return value == y[i]; })) continue;
+    uneven.push_back(std::abs(y[i] - 4 * y[i - 1] + 6 * y[i - 2] - 4 * y[i - 3] + y[i - 4]));
+  }
+  if (uneven.empty()) return std::numeric_limits<double>::infinity();
+  const auto most = uneven.begin() + static_cast<std::ptrdiff_t>(uneven.size() * 3 / 4);
+  std::nth_element(uneven.begin(), most, uneven.end());
+  return *most;
+}
+
+double roundingOf(const std::vector<double>& values) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const double exact =
+      std::max(std::abs(*least), std::abs(*most)) * std::numeric_limits<double>::epsilon();
+  const double uneven = unevennessOf(values);
+  const double step = std::min(
+      {std::max(resolutionOf(values), uneven / kOfNoise), uneven, kCoarsest * (*most - *least)});
+  return std::max(step / 2, exact);
+}
+
+Samples samplesOf(const std::vector<double>& times, const std::vector<double>& values) {
+  return {times, values, roundingOf(values), 1};
+}
+
 // Slopes between samples, at the instants in the middle of them.
 Samples differencesOf(const Samples& of) {
   Samples differences;
@@ -54,35 +95,80 @@ Samples differencesOf(const Samples& of) {
     differences.values.push_back((of.values[i] - of.values[i - 1]) / step);
     shortest = std::min(shortest, step);
   }
-  differences.resolution = 2 * of.resolution / shortest;
+  differences.rounding = 2 * of.rounding / shortest;
+  differences.widest = of.widest + 1;
   return differences;
 }
 
-double usualStep(const std::vector<double>& times) {
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < times.size(); ++i) steps.push_back(times[i] - times[i - 1]);
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
-  return *middle;
+// The largest difference between slopes one after the other.
+double roughness(const std::vector<double>& slopes, std::size_t first, std::size_t last) {
+  double rough = 0;
+  for (std::size_t i = first + 1; i < last; ++i) {
+    rough = std::max(rough, std::abs(slopes[i] - slopes[i - 1]));
+  }
+  return rough;
 }
 
-// As recordings are judged: see judgeFar().
+// Whether the samples jump within `width` steps from `first` on: they come elsewhere than by the
+// slopes beside, by more than these differ from each other.
+bool jumpsAt(const Samples& samples, const std::vector<double>& slopes, std::size_t first,
+             std::size_t width) {
+  const std::size_t after = first + width, count = slopes.size();
+  const bool has_left = first >= kFewestBeside, has_right = count - after >= kFewestBeside;
+  const bool at_end = width == 1 && samples.widest == 1 && (first == 0 || after == count);
+  if (!(has_left && has_right) && !(at_end && (has_left || has_right))) return false;
+  double rough = 0, slope = 0;
+  if (has_left) {
+    rough = roughness(slopes, first - std::min(first, kBeside), first);
+    slope += slopes[first - 1];
+  }
+  if (has_right) {
+    rough = std::max(rough, roughness(slopes, after, std::min(count, after + kBeside)));
+    slope += slopes[after];
+  }
+  if (has_left && has_right) {
+    rough = std::max(rough, std::abs(slopes[after] - slopes[first - 1]));
+    slope /= 2;
+  }
+  const double time = samples.times[after] - samples.times[first];
+  const double jump = samples.values[after] - samples.values[first] - slope * time;
+  double shortest = time;
+  for (std::size_t i = first - std::min(first, kBeside); i < std::min(count, after + kBeside);
+       ++i) {
+    shortest = std::min(shortest, samples.times[i + 1] - samples.times[i]);
+  }
+  const double unlike = at_end ? kUnlikeAtEnds : kUnlike;
+  return std::abs(jump) > unlike * rough * time + (2 + 2 * time / shortest) * samples.rounding;
+}
+
 void requireSteady(const Samples& samples, int level, const std::string& place) {
-  const std::size_t count = samples.times.size();
-  if (count < 3) return;
-  const double interval = usualStep(samples.times);
-  for (std::size_t i = 1; i < count; ++i) {
-    const double step = samples.values[i] - samples.values[i - 1];
-    const double time = samples.times[i] - samples.times[i - 1];
-    if (!isFar(step, time, interval, samples.resolution, 0)) continue;
-    const std::size_t first = i < kBeforeFar ? 0 : i - kBeforeFar;
-    const std::size_t shown = std::min(count - first, i - first + kMostFar);
-    const FarFinding found =
-        judgeFar(&samples.times[first], &samples.values[first], static_cast<int>(i - first),
-                 static_cast<int>(shown), interval);
-    if (found.verdict == FarVerdict::kJump || found.verdict == FarVerdict::kAlone) {
-      failAtJump(place, level, samples.times[i]);
+  std::vector<double> slopes;
+  for (std::size_t i = 1; i < samples.times.size(); ++i) {
+    slopes.push_back((samples.values[i] - samples.values[i - 1]) /
+                     (samples.times[i] - samples.times[i - 1]));
+  }
+  for (std::size_t first = 0; first < slopes.size(); ++first) {
+    for (std::size_t width = 1; width <= samples.widest && first + width <= slopes.size();
+         ++width) {
+      if (jumpsAt(samples, slopes, first, width)) {
+        failAtJump(place, level, samples.times[first + width]);
+      }
     }
+  }
+}
+
+// Positions go along where velocities at both ends of a step do.
+void requireAlong(const Samples& positions, const Samples& velocities, const std::string& place) {
+  for (std::size_t i = 1; i < positions.times.size(); ++i) {
+    const double before = velocities.values[i - 1], after = velocities.values[i];
+    if (!(before * after > 0)) continue;
+    const double time = positions.times[i] - positions.times[i - 1];
+    const double way = (positions.values[i] - positions.values[i - 1]) * (after > 0 ? 1 : -1);
+    const double least = std::min(std::abs(before), std::abs(after)) * time;
+    if (way + 2 * positions.rounding >= kAlong * (least - velocities.rounding * time)) continue;
+    throw SceneError(place + ": velocities are not those of the positions, which do not go along " +
+                     "with them from " + numberText(positions.times[i - 1]) + " s to " +
+                     numberText(positions.times[i]) + " s");
   }
 }
 
@@ -117,17 +203,15 @@ void requireFittingPieces(const DriveLaw& law, const std::string& place) {
 }
 
 void requireSteadyRows(const DriveLaw& law, const std::string& place) {
-  const Samples positions{law.times, law.positions, resolutionOf(law.positions)};
+  const Samples positions = samplesOf(law.times, law.positions);
   requireSteady(positions, 0, place);
-  const Samples velocities = law.velocities.empty()
-                                 ? differencesOf(positions)
-                                 : Samples{law.times, law.velocities, resolutionOf(law.velocities)};
+  const Samples velocities =
+      law.velocities.empty() ? differencesOf(positions) : samplesOf(law.times, law.velocities);
   requireSteady(velocities, 1, place);
-  const Samples accelerations =
-      law.accelerations.empty()
-          ? differencesOf(velocities)
-          : Samples{law.times, law.accelerations, resolutionOf(law.accelerations)};
+  const Samples accelerations = law.accelerations.empty() ? differencesOf(velocities)
+                                                          : samplesOf(law.times, law.accelerations);
   requireSteady(accelerations, 2, place);
+  if (!law.velocities.empty()) requireAlong(positions, velocities, place);
 }
 
 }  // namespace virtual_work_dynamics

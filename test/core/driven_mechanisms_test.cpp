@@ -16,6 +16,7 @@
 #include "virtual_work_dynamics/certificates.h"
 #include "virtual_work_dynamics/drives.h"
 #include "virtual_work_dynamics/dynamics.h"
+#include "virtual_work_dynamics/error.h"
 #include "virtual_work_dynamics/lagrange_dynamics.h"
 #include "virtual_work_dynamics/passive_joints.h"
 
@@ -58,6 +59,38 @@ TEST(DrivenMechanisms, BeadOnARotatingHoop) {
   expectNear(workspace.results().effort[0], 2 * m * R * R * s * c * qd * w);
   expectNear(workspace.results().effort[1],
              m * R * R * qdd - m * R * R * s * c * w * w + m * g * R * s);
+}
+
+// What follows from drives is not asked of motions, even where nothing is said to be passive.
+TEST(DrivenMechanisms, WhatFollowsFromDrivesIsNotGiven) {
+  const LoopExample example("slider_crank");
+  Scene scene = example.scene;
+  scene.actuated.reset();
+  DriveLaw law;
+  law.name = "crank_joint";
+  law.function = DriveFunction::kPolynomial;
+  law.coefficients = {{0.4, 2}};
+  scene.drives = {law};
+  const auto given = [&] {
+    return Dynamics(example.mechanism, scene, Request()).given().coordinates;
+  };
+  std::vector<bool> crank(example.mechanism.coordinates().size(), false);
+  crank[static_cast<std::size_t>(example.mechanism.coordinateIndex("crank_joint"))] = true;
+  EXPECT_EQ(given(), crank);
+  // A joint that is actuated, too, but follows.
+  scene.actuated = std::vector<std::string>{"slider_joint"};
+  EXPECT_EQ(given(), crank);
+  law.name = "slider_joint";
+  scene.drives.push_back(law);
+  try {
+    given();
+    FAIL() << "accepted";
+  } catch (const SceneError& error) {
+    EXPECT_EQ(
+        std::string(error.what()),
+        "drives: the motion of 'crank_joint', 'slider_joint' follows from what else drives and "
+        "`given` say; leave one out");
+  }
 }
 
 // A pendulum whose pivot moves sideways by a sine.

@@ -5,12 +5,13 @@ import shutil
 import subprocess
 import tempfile
 
+import numpy
 import rosbag
 from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectory
 import yaml
 
-from closed_loops import SLIDER_CRANK, SLIDER_CRANK_SCENE, STEP, LoopTest, SliderCrank, by_name
+from closed_loops import JOINTS, SLIDER_CRANK, SLIDER_CRANK_SCENE, STEP, LoopTest, SliderCrank, by_name
 from node_under_test import (EPOCH, Node, NodeTest, Polynomials, executable, joint_state, read,
                              ros_time, run, trajectory_point)
 from rigid_bodies import RigidBodies
@@ -122,6 +123,47 @@ class DrivenJoints(NodeTest):
         for offset, effort in zip(offsets, messages):
             self.assertEffort(effort, self.bodies, motion(EPOCH + offset), EXACT)
 
+    def test_time_begins_anew_with_a_trajectory_before_its_zero(self):
+        self.start(polynomial('shoulder', COEFFICIENTS['shoulder']))
+        names = ['elbow', 'slide']
+        for start in (EPOCH, EPOCH - 10000000000):
+            motion = Polynomials(start, **COEFFICIENTS)
+            seen = len(self.efforts.messages())
+            message = JointTrajectory(joint_names=names)
+            message.header.stamp = ros_time(start)
+            for i in range(5):
+                message.points.append(trajectory_point(STEP * i, names, motion(start + STEP * i)))
+            self.trajectories.publish(message)
+            for i, effort in enumerate(self.efforts.wait(seen + 5)[seen:]):
+                self.assertEffort(effort, self.bodies, motion(start + STEP * i), EXACT)
+
+    def test_time_begins_with_the_first_result(self):
+        self.start(polynomial('shoulder', COEFFICIENTS['shoulder']))
+        motion = Polynomials(**COEFFICIENTS)
+        for i in range(-30, 0):
+            self.states.publish(joint_state(EPOCH + STEP * i, {'elbow': COEFFICIENTS['elbow'][0]}))
+        stamps = [EPOCH + STEP * i for i in range(40)]
+        for ns in stamps:
+            q, qd, _ = motion(ns)
+            self.states.publish(joint_state(ns, only(q, 'elbow', 'slide'), qd))
+        messages = self.efforts.wait(len(stamps) - LAG)
+        self.assertStamps(messages, stamps[:-LAG])
+        for ns, message in zip(stamps, messages):
+            self.assertClose([by_name(message, message.position)['shoulder']],
+                             [motion(ns)[0]['shoulder']], 1e-15, 'the law')
+
+    def test_a_law_is_exact(self):
+        drives = [polynomial(name, COEFFICIENTS[name]) for name in COEFFICIENTS]
+        self.start(drives[0], {'scene': {'drives': drives}})
+        deviations = self.node.record('effort_deviation', JointState)
+        self.node.wait_for_plan('effort', 'effort_deviation')
+        random = numpy.random.default_rng(5)
+        for i in range(60):
+            self.states.publish(joint_state(EPOCH + STEP * i,
+                                            {'elbow': 1 + 1e-3 * random.standard_normal()}))
+        for message in deviations.wait(40):
+            self.assertEqual(list(message.effort), [0, 0, 0])
+
     def test_samples_between_points_of_trajectories(self):
         self.start(polynomial('shoulder', COEFFICIENTS['shoulder']), {'trajectory_sampling': 200})
         motion = Polynomials(**COEFFICIENTS)
@@ -188,6 +230,20 @@ class DrivenLoops(LoopTest):
         values = self.node.diagnostics()
         self.assertEqual(values['passive joints'], 'from the closures')
 
+    def test_what_follows_from_drives_is_never_taken_from_joint_states(self):
+        scene = {key: value for key, value in SLIDER_CRANK_SCENE.items() if key != 'actuated'}
+        self.start('effort', scene=driven(scene, polynomial('crank_joint', CRANK)))
+        stamps = [EPOCH + STEP * i for i in range(60)]
+        random = numpy.random.default_rng(7)
+        for ns in stamps:
+            q = self.expected(ns).q
+            self.states.publish(joint_state(
+                ns, {name: q[name] + 0.01 * random.standard_normal() for name in JOINTS}))
+        messages = self.recorders['effort'].wait(len(stamps) - LAG - 1)
+        for message in messages:
+            expected = self.expected(message.header.stamp.to_nsec())
+            self.assertClose(message.position, [expected.q[name] for name in JOINTS], EXACT, 'q')
+
     def test_a_ram_that_lifts_a_boom(self):
         scene = driven(LIFT_SCENE, polynomial('ram', (0.8, 0.3, -0.2)))
         self.start('effort', 'reaction/ram', robot=LIFT, scene=scene)
@@ -195,7 +251,7 @@ class DrivenLoops(LoopTest):
         states = [joint_state(ns, {'pin': 0.0}) for ns in stamps]
         for state in states:
             self.states.publish(state)
-        messages = self.recorders['effort'].wait(len(stamps) - LAG - 1)
+        messages = self.recorders['effort'].wait(len(stamps) - LAG)
         for message in messages:
             t = (message.header.stamp.to_nsec() - EPOCH) / 1e9
             ram = dict(zip(message.name, zip(message.position, message.velocity)))['ram']
@@ -234,6 +290,47 @@ class DrivenLoops(LoopTest):
             row = lines[1 + (live[0].header.stamp.to_nsec() - EPOCH + at) // STEP].split(',')
             self.assertClose([float(row[column])], [message.effort[message.name.index('ram')]],
                              EXACT, 'effort of the ram')
+
+    def test_tables_and_bags_of_a_bag_have_one_zero_of_time(self):
+        scene = {'drives': [polynomial('shoulder', COEFFICIENTS['shoulder'])]}
+        path = {name: os.path.join(self.folder, name) for name in
+                ('robot.urdf', 'dump.yaml', 'late.yaml', 'run.bag', 'results.bag', 'results.csv')}
+        motion = Polynomials(**COEFFICIENTS)
+        with rosbag.Bag(path['run.bag'], 'w') as bag:
+            for i in range(-30, 40):
+                ns = EPOCH + STEP * i
+                q = {'elbow': 1.0} if i < 0 else only(motion(ns)[0], 'elbow', 'slide')
+                bag.write('/joint_states', joint_state(ns, q), ros_time(ns))
+        for name, content in (('robot.urdf', ARM),
+                              ('dump.yaml', yaml.safe_dump({'inverse_dynamics': {'scene': scene}})),
+                              ('late.yaml', yaml.safe_dump({'inverse_dynamics': {
+                                  'scene': scene, 'drive_start': 1600000000.0}}))):
+            with open(path[name], 'w', encoding='utf-8') as file:
+                file.write(content)
+
+        def tool(dump, output):
+            return subprocess.run(
+                [executable('inverse_dynamics_offline'), '--urdf', path['robot.urdf'], '--rosparam',
+                 path[dump], '--motion', path['run.bag'], '--positions', '--output', path[output]],
+                check=False, stderr=subprocess.PIPE, universal_newlines=True)
+
+        self.assertEqual(tool('dump.yaml', 'results.csv').returncode, 0)
+        with open(path['results.csv'], encoding='utf-8') as file:
+            header, first = [line.split(',') for line in file.read().splitlines()[:2]]
+        self.assertEqual(float(first[header.index('position.shoulder')]), 0.3)
+        refused = tool('late.yaml', 'results.csv')
+        self.assertNotEqual(refused.returncode, 0)
+        self.assertIn('drive_start: a table counts the time of drives from its first row',
+                      refused.stderr)
+        command = [executable('inverse_dynamics_offline'), '--urdf', path['robot.urdf'],
+                   '--rosparam', path['dump.yaml'], '--motion', path['run.bag'], '--output',
+                   path['results.bag']]
+        subprocess.run(command, check=True)
+        with rosbag.Bag(path['results.bag']) as bag:
+            efforts = [message for topic, message, _ in bag.read_messages()
+                       if topic.endswith('effort')]
+        self.assertEqual(efforts[0].header.stamp, ros_time(EPOCH))
+        self.assertEqual(by_name(efforts[0], efforts[0].position)['shoulder'], 0.3)
 
 
 if __name__ == '__main__':
