@@ -13,6 +13,9 @@ constexpr double kZero = 1e-10;
 // Coefficients and multipliers below this are rounding errors.
 constexpr double kNoCoefficient = 1e-9;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+// Values of this many scales are none that forces have.
+constexpr double kMostScales = 1000;
 constexpr double kSideAngle = 2 * M_PI / ConeProgram::kSides;
 constexpr int kQuarter = ConeProgram::kSides / 4;
 // Corners of pyramids with fewer sides lead close to a least value, with fewer steps.
@@ -292,7 +295,10 @@ ConeProgram::Step ConeProgram::restore() {
       if (best < 0 || factors[j] > factors[best]) best = j;
     }
     if (best < 0) {
-      if (exchanges_ == 0) return Step::kInfeasible;
+      if (exchanges_ == 0) {
+        const double by_rounding = factors.cwiseMax(0.0).sum() * kMostScales * scale_;
+        return out.value + by_rounding < 0 ? Step::kInfeasible : Step::kStuck;
+      }
       if (!refresh()) return Step::kStuck;
       continue;
     }
@@ -357,24 +363,34 @@ ConeProgram::Found ConeProgram::solve(double scale) {
   if (!refresh()) return Found::kUnclear;
   keepCorner();
   const Step step = restore();
+  start_ = corner_;
   if (step == Step::kDone) return Found::kFeasible;
   return step == Step::kInfeasible ? Found::kInfeasible : Found::kUnclear;
 }
 
-// First on pyramids of few sides, whose least value the others are then added to.
+// First on pyramids of few sides, whose least value the others are then added to. It begins at the
+// corner that solve() found: where an objective is unbounded, the search ends far away.
 double ConeProgram::least(Eigen::Index function, double sign) {
   if (unbounded_[function] > kNoCoefficient) return -kInfinity;
+  corner_ = start_;
+  if (!refresh()) return kNotKnown;
   const auto aim = [&] {
     objective_.head(rank_) = sign * reduced_.row(function).segment(1, rank_).transpose();
   };
   aim();
   side_step_ = kCoarse;
-  const bool bounded = improve() == Step::kDone;
+  const Step coarse = improve();
   side_step_ = 1;
-  if (!bounded) keepCorner();
-  if (restore() != Step::kDone) return -kInfinity;
+  if (coarse != Step::kDone) {
+    corner_ = start_;
+    if (!refresh()) return kNotKnown;
+    keepCorner();
+  }
+  if (restore() != Step::kDone) return kNotKnown;
   aim();
-  return improve() == Step::kDone ? sign * valueOf(function) : -kInfinity;
+  const Step fine = improve();
+  if (fine == Step::kUnbounded) return -kInfinity;
+  return fine == Step::kDone ? sign * valueOf(function) : kNotKnown;
 }
 
 std::pair<double, double> ConeProgram::range(Eigen::Index function) {

@@ -33,7 +33,8 @@ class ConeProgram {
 
   /// Looks for any solution. @param scale the largest of values: what is small of it is zero
   Found solve(double scale);
-  /// Least and greatest value of a function; infinite where there is none. After kFeasible.
+  /// Least and greatest value of a function; infinite where there is none, and NaN where that was
+  /// not found out. After kFeasible.
   std::pair<double, double> range(Eigen::Index function);
 
  private:
@@ -81,7 +82,7 @@ class ConeProgram {
   std::vector<Cone> cones_;
   std::vector<double> cosines_, sines_;  // by side
   std::vector<Plane> corner_;            // planes that meet there
-  std::vector<Plane> start_;
+  std::vector<Plane> start_;    // planes to choose the first corner of; then solve()'s last corner
   std::vector<Met> met_;        // by cone
   Eigen::MatrixXd start_rows_;  // by start plane
   using Table = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

@@ -1,10 +1,19 @@
 #include "dynamics/contact_gaps.h"
 
+#include <cmath>
+
 #include "scene/lookup.h"
 
 namespace virtual_work_dynamics {
 
 namespace {
+
+// What stays within this share of what lies between closing and opening, for so many samples,
+// stands; noise of more than that is not waited for any longer than so.
+constexpr double kStands = 0.02;
+constexpr int kStandingSamples = 10, kMostLandingSamples = 100;
+// Heights that differ by less are the same.
+constexpr double kSameHeight = 1e-9;  // m
 
 LinkKinematics::Frame gapFrame(const Mechanism& mechanism, const LinkFrame& from, const char* key) {
   const Eigen::Matrix3d R = (Eigen::AngleAxisd(from.rpy.z(), Eigen::Vector3d::UnitZ()) *
@@ -24,6 +33,22 @@ ContactGaps::ContactGaps(const Mechanism& mechanism, const Scene& scene) : links
     frames_.push_back({gapFrame(mechanism, closure.parent, "plane.link"),
                        gapFrame(mechanism, closure.child, "link"), *closure.touch.gap});
   }
+  landings_.resize(contacts_.size());
+}
+
+// Has the surface be where the point is, until that stands. Returns whether it moves.
+bool ContactGaps::land(std::size_t i) {
+  Contact& contact = contacts_[i];
+  Landing& landing = landings_[i];
+  if (landing.stays >= kStandingSamples || landing.all >= kMostLandingSamples) return false;
+  const Gap& gap = frames_[i].gap;
+  const bool stays = std::abs(contact.distance - landing.about) <= kStands * (gap.open - gap.close);
+  if (!stays) landing.about = contact.distance;
+  landing.stays = stays ? landing.stays + 1 : 0;
+  ++landing.all;
+  if (std::abs(contact.distance - contact.height) <= kSameHeight) return false;
+  contact.height = contact.distance;
+  return true;
 }
 
 bool ContactGaps::take(const Motion& motion) {
@@ -37,7 +62,9 @@ bool ContactGaps::take(const Motion& motion) {
     contact.distance = links_.axisOf(frames.plane, 2)
                            .dot(links_.originOf(frames.point) - links_.originOf(frames.plane));
     const bool closed = contact.distance <= (contact.closed ? frames.gap.open : frames.gap.close);
-    changes = changes || closed != contact.closed;
+    if (closed != contact.closed) landings_[i] = Landing();
+    const bool moves = closed && land(i);
+    changes = changes || closed != contact.closed || moves;
     contact.closed = closed;
   }
   return changes;

@@ -60,30 +60,46 @@ class GapRecord {
  public:
   /// @throws SceneError as ContactGaps
   GapRecord(const Mechanism& mechanism, const Scene& scene)
-      : gaps_(mechanism, scene), closed_(gaps_.contacts().size()) {}
+      : gaps_(mechanism, scene), found_(gaps_.contacts().size()) {}
 
   /// For the computing thread: a motion that is computed.
   void take(const Motion& motion) {
-    if (!gaps_.take(motion)) return;
-    for (std::size_t i = 0; i < closed_.size(); ++i) {
-      closed_[i].store(gaps_.contacts()[i].closed, std::memory_order_relaxed);
+    const bool again = refused_.load(std::memory_order_relaxed) && ++waited_ >= kAgain;
+    if (!gaps_.take(motion) && !again) return;
+    waited_ = 0;
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      found_[i].closed.store(gaps_.contacts()[i].closed, std::memory_order_relaxed);
+      found_[i].height.store(gaps_.contacts()[i].height, std::memory_order_relaxed);
     }
     news_.store(true, std::memory_order_release);
   }
   /// For the compiling thread: sets them in a scene that changes, where one has changed, and
-  /// returns whether one has.
+  /// returns whether one has, or one that was refused is to be tried again.
   bool hand(SceneInputs& scene) {
+    if (found_.empty()) return false;
+    refused_.store(scene.refused(), std::memory_order_relaxed);
     if (!news_.exchange(false, std::memory_order_acquire)) return false;
-    for (std::size_t i = 0; i < closed_.size(); ++i) {
-      scene.setContact(gaps_.contacts()[i].closure, closed_[i].load(std::memory_order_relaxed));
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      const double height = found_[i].height.load(std::memory_order_relaxed);
+      scene.setContact(gaps_.contacts()[i].closure,
+                       found_[i].closed.load(std::memory_order_relaxed), gaps_.surface(i, height));
     }
+    scene.tryAgain();
     return true;
   }
 
  private:
+  // After so many samples what was refused is tried again: the robot moves on.
+  static constexpr int kAgain = 100;
+  struct Found {
+    std::atomic<bool> closed{false};
+    std::atomic<double> height{0};
+  };
+
   ContactGaps gaps_;
-  std::vector<std::atomic<bool>> closed_;  // by contact of gaps_
-  std::atomic<bool> news_{false};
+  std::vector<Found> found_;  // by contact of gaps_
+  int waited_ = 0;            // samples, with what is refused
+  std::atomic<bool> news_{false}, refused_{false};
 };
 
 }  // namespace virtual_work_dynamics

@@ -136,14 +136,20 @@ std::optional<Rejection> SceneInputs::takeContact(int closure, const std_msgs::B
   return std::nullopt;
 }
 
-void SceneInputs::setContact(std::size_t index, bool closed) {
+void SceneInputs::setContact(std::size_t index, bool closed,
+                             const std::optional<Eigen::Vector3d>& surface) {
   Closure contact = wanted_.closures[index];
-  if (contact.touch.closed == closed) return;
+  const Eigen::Vector3d at = closed && surface ? *surface : contact.parent.xyz;
+  if (contact.touch.closed == closed && contact.parent.xyz == at) return;
   contact.touch.closed = closed;
   Change change;
   change.of = contactTopic(static_cast<int>(index));
   change.text = inQuotes(contact.name) + (closed ? " touches" : " is lifted");
-  change.apply = [index, closed](Scene& scene) { scene.closures[index].touch.closed = closed; };
+  change.quiet = scene_.closures[index].touch.closed == closed;
+  change.apply = [index, closed, at](Scene& scene) {
+    scene.closures[index].touch.closed = closed;
+    scene.closures[index].parent.xyz = at;
+  };
   const std::vector<TouchRow> rows = touchRows(contact);
   if (std::any_of(rows.begin(), rows.end(),
                   [](const TouchRow& row) { return row.adopts_constant; })) {
@@ -239,6 +245,12 @@ void SceneInputs::want(Change change) {
   changes_.erase(std::remove_if(changes_.begin(), changes_.end(), replaced), changes_.end());
   changes_.push_back(std::move(change));
   changed_ = true;
+  again_ = false;
+}
+
+void SceneInputs::tryAgain() {
+  if (!refused()) return;
+  changed_ = again_ = true;
 }
 
 bool SceneInputs::closesSticking() const {
@@ -269,7 +281,9 @@ SceneInputs::News SceneInputs::adapt(const Compile& compile, const Place& place)
     } catch (const std::exception& error) {
       return printable(error.what());
     }
-    for (const Change& change : changes) addSentence(news.changes, change.text);
+    for (const Change& change : changes) {
+      if (!change.quiet) addSentence(news.changes, change.text);
+    }
     return "";
   };
   // One foot may be lifted when the other one stands: all at once, then each as often as needed.
@@ -293,7 +307,7 @@ SceneInputs::News SceneInputs::adapt(const Compile& compile, const Place& place)
     }
   }
   for (std::size_t i = 0; i < changes_.size(); ++i) {
-    if (changes_[i].why_not != why[i])
+    if (changes_[i].why_not.empty() || (!again_ && changes_[i].why_not != why[i]))
       addSentence(news.refused, changes_[i].text + " (" + why[i] + ")");
     changes_[i].why_not = why[i];
   }

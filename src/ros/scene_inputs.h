@@ -70,7 +70,13 @@ class SceneInputs {
   /// @param closure index of the contact, wheel or blade whose topic it came by
   std::optional<Rejection> takeContact(int closure, const std_msgs::Bool& message);
   /// Wants a contact closed or lifted.
-  void setContact(std::size_t closure, bool closed);
+  /// @param surface a point of the plane that it is closed on; none: the plane stays where it is
+  void setContact(std::size_t closure, bool closed,
+                  const std::optional<Eigen::Vector3d>& surface = std::nullopt);
+  /// Whether something is refused, as it was tried the last time.
+  bool refused() const { return !changed_ && !changes_.empty(); }
+  /// Has what is refused tried again. Reasons that it had before are not said anew.
+  void tryAgain();
 
   /// The links that have a topic of payloads, by topic below the node's own.
   std::map<std::string, int> payloadTopics() const;
@@ -89,6 +95,7 @@ class SceneInputs {
     std::string text;  // as a sentence says it
     std::function<void(Scene& scene)> apply;
     std::optional<std::size_t> sticks;  // the closure that it closes
+    bool quiet = false;                 // nothing to tell, unless it is refused
     std::string why_not;                // it was refused; empty: not yet
   };
 
@@ -107,6 +114,7 @@ class SceneInputs {
   Scene scene_, wanted_;
   std::vector<Change> changes_;  // from the one to the other
   bool changed_ = false;         // since they were tried
+  bool again_ = false;           // nothing has changed, and they are tried nevertheless
   Throttle drop_throttle_, change_throttle_;
   std::vector<ros::Subscriber> subscribers_;
 };

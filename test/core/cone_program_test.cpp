@@ -139,5 +139,60 @@ TEST(ConeProgram, WhatNothingBoundsIsInfinite) {
   }
 }
 
+// Pads around a peg, of which only some can squeeze by any force: after a function that is
+// unbounded comes one that is bounded. Directions turn about a ray along which all pads press
+// harder.
+TEST(ConeProgram, BoundsAreFoundAfterAFunctionWithoutOne) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> number(-1, 1);
+  constexpr Eigen::Index kVariables = 9, kPads = 5;
+  int bounded = 0, unbounded = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    ConeProgram first(kVariables, 3 * kPads, kPads);
+    first.start(kVariables, 3 * kPads);
+    for (Eigen::Index i = 0; i < 3 * kPads; ++i) {
+      for (Eigen::Index j = 0; j <= kVariables; ++j) first.function(i)[j] = number(random);
+    }
+    for (Eigen::Index i = 0; i < kPads; ++i) {
+      first.function(3 * i + 2)[0] = 1;
+      first.addCone({3 * i + 2, 3 * i, 2, i % 2 == 0 ? 0.01 : 0.5});
+    }
+    if (first.solve(1) != Found::kFeasible) continue;
+    ConeProgram again = first;
+    for (Eigen::Index i = 0; i < 3 * kPads; ++i) {
+      const auto [lower, upper] = first.range(i);
+      ConeProgram fresh = again;
+      const auto [fresh_lower, fresh_upper] = fresh.range(i);
+      for (const auto& [found, expected] :
+           {std::make_pair(lower, fresh_lower), std::make_pair(upper, fresh_upper)}) {
+        if (std::isinf(expected)) {
+          EXPECT_EQ(found, expected) << trial << " " << i;
+          ++unbounded;
+        } else {
+          EXPECT_NEAR(found, expected, kSameCorner * std::max(1.0, std::abs(expected)))
+             << trial << " " << i;
+          ++bounded;
+        }
+      }
+      EXPECT_TRUE(i % 3 != 2 || lower >= -kSameCorner) << trial << " " << i;
+    }
+  }
+  EXPECT_GT(bounded, 100);
+  EXPECT_GT(unbounded, 100);
+}
+
+// A second pad that presses only where the first one does with all it has: there is such a force,
+// and that its effect is small makes nobody certain that there is none.
+TEST(ConeProgram, WhatRoundingErrorsDecideIsNotInfeasible) {
+  ConeProgram program(1, 2, 2);
+  program.start(1, 2);
+  program.function(0)[1] = 1;
+  program.function(1)[0] = -5e-10;
+  program.function(1)[1] = 5e-10;
+  program.addCone({0, 0, 0, 0});
+  program.addCone({1, 0, 0, 0});
+  EXPECT_NE(program.solve(1), Found::kInfeasible);
+}
+
 }  // namespace
 }  // namespace virtual_work_dynamics

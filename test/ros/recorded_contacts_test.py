@@ -169,6 +169,22 @@ class RecordedContacts(NodeTest):
         self.assertEqual(text.count("'foot_point' touches"), 1)
         self.assertTrue(math.isfinite(held[0]))
 
+    def test_what_stands_beside_the_plane_violates_nothing(self):
+        """Calibration has the foot stand off the plane; it stands there, and sticks or slips."""
+        for stand in (0.0015, -0.003):
+            for more in ({}, {'slip': 'all'}, {'closed': True}):
+                ups = [max(stand, 0.02 - 0.0001 * i) for i in range(800)]
+                states = [(EPOCH + i * STEP, 0.1, up) for i, up in enumerate(ups)]
+                if 'closed' in more:
+                    states = [(ns, along, stand) for ns, along, _ in states]
+                _, text = self.compute(dict({'closed': False, 'gap': {'close': 0.002, 'open': 0.006}}, **more),
+                                       states)
+                # Samples that come down on a contact that is closed already move against it.
+                violating = [int(line.split(' samples violate')[0].split()[-1])
+                             for line in text.splitlines() if ' samples violate' in line]
+                landing = 1 if 'closed' in more else (0.002 - stand) / 0.0001 + 30
+                self.assertLessEqual(sum(violating), landing, (stand, more, text))
+
     def biped(self, rates, output=None):
         """What the tool makes of a recording with noise and jitter, of both joints in each message or, with
         two rates, of one."""
