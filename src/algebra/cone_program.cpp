@@ -13,7 +13,6 @@ constexpr double kZero = 1e-10;
 // Coefficients and multipliers below this are rounding errors.
 constexpr double kNoCoefficient = 1e-9;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 // Values of this many scales are none that forces have.
 constexpr double kMostScales = 1000;
 constexpr double kSideAngle = 2 * M_PI / ConeProgram::kSides;
@@ -368,29 +367,28 @@ ConeProgram::Found ConeProgram::solve(double scale) {
   return step == Step::kInfeasible ? Found::kInfeasible : Found::kUnclear;
 }
 
-// First on pyramids of few sides, whose least value the others are then added to. It begins at the
-// corner that solve() found: where an objective is unbounded, the search ends far away.
+// First on pyramids of few sides, whose least value the others are then added to; where that leads
+// nowhere, on all sides from the corner that solve() found. There each search begins: one that
+// finds no least value ends far away.
 double ConeProgram::least(Eigen::Index function, double sign) {
   if (unbounded_[function] > kNoCoefficient) return -kInfinity;
-  corner_ = start_;
-  if (!refresh()) return kNotKnown;
-  const auto aim = [&] {
-    objective_.head(rank_) = sign * reduced_.row(function).segment(1, rank_).transpose();
-  };
-  aim();
-  side_step_ = kCoarse;
-  const Step coarse = improve();
-  side_step_ = 1;
-  if (coarse != Step::kDone) {
+  for (const int step : {kCoarse, 1}) {
     corner_ = start_;
-    if (!refresh()) return kNotKnown;
-    keepCorner();
+    if (!refresh()) break;
+    objective_.head(rank_) = sign * reduced_.row(function).segment(1, rank_).transpose();
+    side_step_ = step;
+    Step found = improve();
+    side_step_ = 1;
+    // An edge that no side meets needs no corner that is exact.
+    if (found == Step::kUnbounded && !blocking(false).found) return -kInfinity;
+    if (step > 1 && (found != Step::kDone || restore() != Step::kDone)) continue;
+    if (step > 1) found = improve();
+    if (found == Step::kUnbounded) return -kInfinity;
+    const double value = sign * valueOf(function);
+    if (found == Step::kDone) return value;
+    if (value < -kMostScales * scale_) return -kInfinity;
   }
-  if (restore() != Step::kDone) return kNotKnown;
-  aim();
-  const Step fine = improve();
-  if (fine == Step::kUnbounded) return -kInfinity;
-  return fine == Step::kDone ? sign * valueOf(function) : kNotKnown;
+  return std::numeric_limits<double>::quiet_NaN();
 }
 
 std::pair<double, double> ConeProgram::range(Eigen::Index function) {
