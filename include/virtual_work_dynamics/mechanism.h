@@ -115,8 +115,8 @@ struct TransmissionEnd {
   double offset = 0;  ///< of a joint: its position where the actuators are at zero, rad or m
 };
 
-/// A <transmission> of a description. Its ratios count only where a scene asks for them, see
-/// withTransmissions().
+/// A transmission of a description, as ros_control has them. Its ratios count only where a scene
+/// asks for them, see withTransmissions().
 struct Transmission {
   std::string name;
   std::string type;  ///< without its package: "DifferentialTransmission"

@@ -1,10 +1,7 @@
 #include "algebra/elimination_order.h"
 
 #include <algorithm>
-#include <numeric>
 #include <set>
-
-#include "algebra/kernel/front_kernel.h"
 
 namespace virtual_work_dynamics {
 
@@ -100,57 +97,10 @@ class Elimination {
   std::vector<Front> fronts_;
 };
 
-// Instructions of one matrix, counted in those that the package runs on: what a front and a
-// reflection cost whatever their size, and a reflection of another column, without and for each
-// chunk of its rows.
-constexpr std::size_t kOfFront = 60, kOfReflection = 35, kOfColumn = 8, kOfChunk = 6;
-// One front must cost less than so many tenths of what others do.
-constexpr std::size_t kClearlyLess = 8;
-
-std::size_t rowsOf(const std::vector<RowBlock>& blocks, const std::vector<std::size_t>& of) {
-  return std::accumulate(of.begin(), of.end(), std::size_t{0}, [&](std::size_t sum, std::size_t b) {
-    return sum + static_cast<std::size_t>(blocks[b].rows) - blocks[b].zeros.size();
-  });
-}
-
-std::size_t costOf(std::size_t rows, std::size_t width, std::size_t steps) {
-  const std::size_t chunks = (rows + kRowChunk - 1) / kRowChunk;
-  std::size_t cost = kOfFront + steps * kOfReflection;
-  for (std::size_t step = 1; step <= std::min(steps, width); ++step) {
-    cost += (width - step) * (kOfColumn + kOfChunk * chunks);
-  }
-  return cost;
-}
-
-std::size_t costOf(const std::vector<RowBlock>& blocks, const std::vector<Front>& fronts) {
-  std::size_t cost = 0;
-  std::vector<std::size_t> remaining;  // rows, by front
-  for (const Front& front : fronts) {
-    std::size_t rows = rowsOf(blocks, front.blocks);
-    for (const std::size_t child : front.children) rows += remaining[child];
-    const std::size_t width = front.pivots.size() + front.rest.size();
-    const std::size_t steps = std::min(rows, width);
-    remaining.push_back(steps - std::min(steps, front.pivots.size()));
-    cost += costOf(rows, width, steps);
-  }
-  return cost;
-}
-
-Front wholeFront(const std::vector<RowBlock>& blocks, int columns) {
-  Front front;
-  front.pivots.resize(static_cast<std::size_t>(columns));
-  std::iota(front.pivots.begin(), front.pivots.end(), 0);
-  front.blocks.resize(blocks.size());
-  std::iota(front.blocks.begin(), front.blocks.end(), std::size_t{0});
-  return front;
-}
-
 }  // namespace
 
 std::vector<Front> eliminationOrder(const std::vector<RowBlock>& blocks, int columns) {
-  std::vector<Front> fronts = Elimination(blocks, columns).run();
-  std::vector<Front> one{wholeFront(blocks, columns)};
-  return 10 * costOf(blocks, one) < kClearlyLess * costOf(blocks, fronts) ? one : fronts;
+  return Elimination(blocks, columns).run();
 }
 
 }  // namespace virtual_work_dynamics

@@ -56,8 +56,9 @@ TEST(Couplings, FactorsCountHoweverSmallTheyAre) {
   EXPECT_NEAR(found.dynamics.effort()[0], 100 * advance, 100 * 2.2e-16);
 }
 
-// Two motors on one screw carry half of its load each, wherever it is and whether its joints are
-// side by side, at one point, or beside it by rounding.
+// Two motors on one screw share its load by least squares over its size, wherever it is: the
+// distance of its joints, or its advance where they are closer, at one point or beside it by
+// rounding.
 TEST(Couplings, MotorsOnAScrewShareItsLoadWhereverItIs) {
   const double advance = 0.02;  // m/rad
   const auto balanced = [&](const Vector3l& first, long double apart) {
@@ -70,11 +71,14 @@ TEST(Couplings, MotorsOnAScrewShareItsLoadWhereverItIs) {
     motion.qdd << 1, advance;
     found.dynamics.compute(motion);
     const double load = 10 + 100 * advance * advance;
-    EXPECT_NEAR(found.dynamics.effort()[0], load / 2, 1e-11) << first << ", " << apart;
-    EXPECT_NEAR(found.dynamics.effort()[1], load / 2 / advance, 1e-9) << first << ", " << apart;
+    const double share = advance / std::max(std::sqrt(1.5 * 10), static_cast<double>(apart));
+    const double turning = load / (1 + share * share);
+    EXPECT_NEAR(found.dynamics.effort()[0], turning, 1e-9) << first << ", " << apart;
+    EXPECT_NEAR(found.dynamics.effort()[1], (load - turning) / advance, 1e-7)
+        << first << ", " << apart;
     EXPECT_LT(found.dynamics.determinacy().condition, 10) << first << ", " << apart;
   };
-  for (const long double apart : {0.05L, 1e-6L, 1e-12L, 3e-18L, 0.0L}) {
+  for (const long double apart : {5.0L, 0.05L, 1e-6L, 1e-12L, 3e-18L, 0.0L}) {
     for (const long double away : {0.0L, 1e3L, 1e5L}) balanced({away, 0, 0}, apart);
   }
 }

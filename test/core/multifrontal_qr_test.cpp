@@ -135,12 +135,6 @@ std::vector<RowBlock> legs(int count, int others) {
   return blocks;
 }
 
-TEST(MultifrontalQr, HasOneFrontWhereThatCostsLess) {
-  EXPECT_EQ(eliminationOrder({{3, {0, 1, 2, 3}, {}}, {3, {1, 2, 3, 4}, {}}}, 5).size(), 1u);
-  EXPECT_EQ(eliminationOrder({{5, {0, 1, 2}, {1, 3, 4}}, {5, {0, 1, 3}, {1, 3, 4}}}, 4).size(), 1u);
-  EXPECT_EQ(eliminationOrder(legs(5, 5), 15).size(), 6u);
-}
-
 TEST(MultifrontalQr, FrontsHaveRoomForTheRowsThatTheyAreHandedAndNoMore) {
   FrontLayout layout(legs(5, 5), 15);
   const auto lastRows = [&] {
