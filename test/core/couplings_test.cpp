@@ -43,7 +43,8 @@ TEST(Couplings, GearOfChronoShafts) {
 }
 
 // Factors of slides and turns have different units, so that none is small beside another. What
-// drives the slide's 100 N is off by no more than their rounding.
+// drives the slide's 100 N is off by no more than their rounding over the size of the mechanism,
+// the radius of gyration of its shaft.
 TEST(Couplings, FactorsCountHoweverSmallTheyAre) {
   const double advance = 1e-13;  // m/rad
   CoupledShafts shafts({{10, false}, {100, true}});
@@ -53,7 +54,7 @@ TEST(Couplings, FactorsCountHoweverSmallTheyAre) {
   Motion motion(2);
   motion.qdd << 0, 1;
   found.dynamics.compute(motion);
-  EXPECT_NEAR(found.dynamics.effort()[0], 100 * advance, 100 * 2.2e-16);
+  EXPECT_NEAR(found.dynamics.effort()[0], 100 * advance, 100 * 2.2e-16 * std::sqrt(1.5 * 10));
 }
 
 // Two motors on one screw share its load by least squares over its size, wherever it is: the
