@@ -3,6 +3,7 @@ vwd_core(
   closed_loop_dynamics.cpp
   closed_loop_workspace.cpp
   closure_conditions.cpp
+  compared_length.cpp
   completion.cpp
   completion_positions.cpp
   completion_rates.cpp
