@@ -136,6 +136,7 @@ class Dynamics {
  private:
   friend class SampleRows;
   friend class Deviations;
+  friend class MotionFit;
   friend class PassiveJoints;
   struct Impl;
   std::unique_ptr<GivenLoops> givenLoops(const Given& given) const;

@@ -100,6 +100,9 @@ class MotionEstimator {
   bool held(int coordinate) const;
   /// Whether a coordinate was held that came before.
   bool anyHeld() const;
+  /// Whether the noise of all coordinates waited for is known, be it from the settings, from what
+  /// their samples show, or as they have not moved. Covariances before say little.
+  bool knowsNoise() const;
   /// s from the latest sample of the coordinate to the latest one of any; infinite: none.
   double age(int coordinate) const;
   /// What the samples of the coordinate were found to be.

@@ -14,6 +14,7 @@ vwd_core(
   momentum_observer.cpp
   momentum_terms.cpp
   motion_start.cpp
+  motion_fit.cpp
   passive_joints.cpp
   pressing_teeth.cpp
   root_by_link.cpp

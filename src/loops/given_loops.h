@@ -56,6 +56,10 @@ class GivenLoops {
     return kinematics_.closure(given_.closures[number]).freeUnit() == Unit::kRadian;
   }
 
+  /// The conditions, and what makes lengths comparable with angles, m.
+  const LoopKinematics& kinematics() const { return kinematics_; }
+  double length() const { return completion_.length(); }
+
   /// Why complete() failed, in one line. Allocates.
   /// @param q the position where it ended
   std::string whyOpen(const Eigen::VectorXd& q);

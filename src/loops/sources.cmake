@@ -24,6 +24,7 @@ vwd_core(
   kernel/loop_kernel_choice.cpp
   kinematics.cpp
   link_kinematics.cpp
+  loop_fit.cpp
   loop_rows.cpp
   nearest_closing.cpp
   packed_rows.cpp

@@ -303,6 +303,7 @@ void CoordinateTrack::adapt(TrackSample& now) {
 /// model is learnt, how large their noise is.
 void CoordinateTrack::noteNoise(int age) {
   const int came = stretch() - age;
+  moves_ = moves_ || (came >= 2 && samples_[age].q != samples_[age + 1].q);
   if (came < 3 || samples_[age + 2].turns != samples_[age].turns) return;
   for (int i = 0; i < std::min(came, static_cast<int>(kDifferenced)); ++i)
     if (!samples_[age + i].counts) return;

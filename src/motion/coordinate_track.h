@@ -77,6 +77,10 @@ class CoordinateTrack {
 
   /// What the samples were found to be.
   StreamQuality quality() const;
+  /// Whether the noise of the samples is known: given, learnt or shown, or as they do not move.
+  bool knowsNoise() const {
+    return !moves_ || !learner_.finds() || learner_.learnt() || noise_.deviation() > 0;
+  }
   /// Whether the positions jump to and fro, as those of two publishers that contradict each other.
   bool contradictory() const { return jumps_ >= kManyJumps; }
 
@@ -114,6 +118,7 @@ class CoordinateTrack {
   int far_ = 0;    // newest samples of which it is open what they are
   int begun_ = 0;  // motions that began with a jump
   int left_out_ = 0;
+  bool moves_ = false;  // whether a position was another than that before
 
   ShownNoise noise_;
   StreamSurprise surprise_;

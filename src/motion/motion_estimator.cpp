@@ -336,6 +336,14 @@ bool MotionEstimator::anyHeld() const {
       [](const Impl::Coordinate& coordinate) { return coordinate.held && coordinate.seen; });
 }
 
+bool MotionEstimator::knowsNoise() const {
+  return std::all_of(impl_->coordinates.begin(), impl_->coordinates.end(),
+                     [](const Impl::Coordinate& coordinate) {
+                       return !coordinate.needed || !coordinate.seen ||
+                              coordinate.track.knowsNoise();
+                     });
+}
+
 double MotionEstimator::age(int coordinate) const {
   const CoordinateTrack& track = impl_->at(coordinate).track;
   if (track.empty()) return std::numeric_limits<double>::infinity();

@@ -98,12 +98,18 @@ CompletedMotion::CompletedMotion(RecordedMotion recorded, const Mechanism& mecha
     closures_.push_back(dynamics.closureLabel(i));
   }
   positions_follow_ = !GivenJoints::givesAll(recorded.given);
-  if ((dynamics.closuresDetermine() || positions_follow_) && !scene.static_motion) {
+  const bool estimates = !file_.table.hasAccelerations();
+  if (!positions_follow_ && estimates && recorded.drives.empty() && !scene.static_motion) {
+    fit_.emplace(mechanism, dynamics);
+    if (!fit_->any()) fit_.reset();
+  }
+  if (!fit_ && (dynamics.closuresDetermine() || positions_follow_) && !scene.static_motion) {
     velocities_follow_ = positions_follow_ || !file_.table.hasVelocities();
     accelerations_follow_ = positions_follow_ || !file_.table.hasAccelerations();
   }
   CompletionSettings completion = options.completion;
-  completion.keep_positions = dynamics.closed();
+  completion.keep_positions = dynamics.closed() && !fit_;
+  if (fit_) completion.covariances = true;
   completion.other_columns = recorded.drivenColumns() > 0;
   completeDerivatives(mechanism, scene, completion, file_);
   completeRoots(mechanism, scene, completion, file_);
@@ -135,6 +141,7 @@ CompletedMotion::CompletedMotion(RecordedMotion recorded, const Mechanism& mecha
 void CompletedMotion::complete(std::size_t row, const Dynamics& dynamics,
                                Dynamics::Workspace& workspace) {
   if (!completes()) return;
+  if (fit_) return fit(row);
   MotionTable& table = file_.table;
   takeRow(table, row, row_);
   takeRow(driven_, row, driven_row_);
@@ -155,11 +162,53 @@ void CompletedMotion::complete(std::size_t row, const Dynamics& dynamics,
   if (accelerations_follow_) table.accelerations.row(index) = row_.qdd;
 }
 
+void CompletedMotion::fit(std::size_t row) {
+  MotionTable& table = file_.table;
+  takeRow(table, row, row_);
+  const std::size_t count = table.joints.size();
+  const auto first = table.covariances.begin() + static_cast<std::ptrdiff_t>(row * count);
+  covariance_.coordinates.assign(first, first + static_cast<std::ptrdiff_t>(count));
+  ++(fit_->fit(row_, covariance_) ? fitted_.rows : fitted_.unexplained);
+  if (fit_->farthest().deviations > fitted_.farthest.deviations) {
+    fitted_.farthest = fit_->farthest();
+    fitted_.farthest_row = row;
+  }
+  const auto index = static_cast<Eigen::Index>(row);
+  table.positions.row(index) = row_.q;
+  table.velocities.row(index) = row_.qd;
+  table.accelerations.row(index) = row_.qdd;
+}
+
+std::string CompletedMotion::fitNote(const Mechanism& mechanism) const {
+  if (fitted_.farthest.coordinate < 0) return "";
+  static const char* const kOne[] = {"position", "velocity", "acceleration"};
+  const auto coordinate = static_cast<std::size_t>(fitted_.farthest.coordinate);
+  std::ostringstream text;
+  text.precision(3);
+  const bool explained = fitted_.unexplained == 0;
+  text << (explained ? "note: " : "warning: ") << printable(file_.path) << ": ";
+  if (explained) {
+    text << fitted_.rows << (fitted_.rows == 1 ? " row" : " rows")
+         << " fitted to the closed loops: ";
+  } else {
+    text << fitted_.unexplained << (fitted_.unexplained == 1 ? " row violates" : " rows violate")
+         << " a closed loop by more than noise explains: ";
+  }
+  text << "the " << kOne[fitted_.farthest.level] << " of "
+       << inQuotes(mechanism.coordinateNames()[coordinate]) << " the most, by "
+       << fitted_.farthest.deviations << " of its standard deviations, in "
+       << file_.place(fitted_.farthest_row);
+  if (!explained) text << "; wheels slip, or dimensions are wrong";
+  return text.str() + "\n";
+}
+
 void CompletedMotion::check(std::size_t row, const Results& computed) const {
   for (std::size_t i = 0; i < closures_.size(); ++i) {
     for (const Level& level : kLevels) {
       const double relative = computed.loops.relative_residuals[i].*level.residual;
       if (relative <= tolerance_) continue;
+      // What noise does not explain is told by fitNote(); it would be wrong to take positions so.
+      if (fit_ && level.residual != &ClosureResidual::position) continue;
       std::ostringstream text;
       text << file_.at(row) << ": the " << level.name << " violate " << closures_[i] << " by "
            << computed.loops.residuals[i].*level.residual << " " << level.unit << ", " << relative

@@ -3,17 +3,21 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "offline/motion_file.h"
 #include "offline/recorded_motion.h"
 #include "virtual_work_dynamics/dynamics.h"
+#include "virtual_work_dynamics/motion_covariance.h"
+#include "virtual_work_dynamics/motion_fit.h"
 #include "virtual_work_dynamics/passive_joints.h"
 
 namespace virtual_work_dynamics {
 
-/// The recorded motion of all coordinates of a mechanism. A file that gives all joints is taken as
-/// it is and checked against the loops, if there are any. One that gives only what determines the
-/// others is completed by the closures, row by row.
+/// The recorded motion of all coordinates of a mechanism. A file that gives all joints with their
+/// accelerations is taken as it is and checked against the loops, if there are any; where they are
+/// estimated, the motion is fitted to the loops. A file that gives only what determines the others
+/// is completed by the closures, row by row.
 class CompletedMotion {
  public:
   /// Derivatives that the recorded motion lacks are estimated for what it gives, and follow from
@@ -31,17 +35,22 @@ class CompletedMotion {
 
   /// Whether anything in its rows follows from the closures.
   bool completes() const {
-    return positions_follow_ || velocities_follow_ || accelerations_follow_;
+    return fit_ || positions_follow_ || velocities_follow_ || accelerations_follow_;
   }
   /// Completes a row of file(). Positions that it lacks are searched for from those of the row
   /// completed before; for the first row, from the assembly.
   /// @throws FileError naming line, closure and amount when the loops cannot be closed.
   void complete(std::size_t row, const Dynamics& dynamics, Dynamics::Workspace& workspace);
-  /// Checks that a row closes the loops.
+  /// Checks that a row closes the loops. Estimated rates need not.
   /// @throws FileError naming line, closure and amount when the computed row violates a loop.
   void check(std::size_t row, const Results& computed) const;
+  /// A line on how far rows were fitted to the loops, and on rows that could not be; empty where
+  /// none was.
+  std::string fitNote(const Mechanism& mechanism) const;
 
  private:
+  void fit(std::size_t row);
+
   std::vector<std::string> closures_;  // and couplings, as messages name them
   double tolerance_;
   MotionFile file_;
@@ -50,6 +59,12 @@ class CompletedMotion {
   bool positions_follow_ = false, velocities_follow_ = false, accelerations_follow_ = false;
   Motion row_, driven_row_;
   PassiveJoints passive_;
+  std::optional<MotionFit> fit_;
+  MotionCovariance covariance_;  // of a row that is fitted
+  struct Fitted {
+    std::size_t rows = 0, unexplained = 0, farthest_row = 0;
+    MotionFit::Farthest farthest;
+  } fitted_;
 };
 
 }  // namespace virtual_work_dynamics

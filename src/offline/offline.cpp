@@ -190,6 +190,7 @@ void checkMotion(const Arguments& arguments, RecordedMotion recorded, const Mech
           conditions.note(row, results);
         });
   }
+  std::cerr << motion.fitNote(mechanism);
   printMotion(motion.file());
   if (dynamics.closed()) printNames(std::cout, "closed loops", {conditions.worst(motion.file())});
 }
@@ -246,6 +247,7 @@ void writeRegressor(const Arguments& arguments, const Mechanism& mechanism, Scen
   CompletedMotion motion(std::move(recorded), mechanism, scene, dynamics, toleranceOf(arguments),
                          arguments.recording);
   files.write(dynamics, motion, RowLoads(scene, motion.file()), parameters);
+  std::cerr << motion.fitNote(mechanism);
 }
 
 std::unique_ptr<ResultTable> tableOf(const Arguments& arguments, OutputFile& file,
@@ -338,7 +340,7 @@ void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene
         });
     warning = rows.warning();
   }
-  std::cerr << warning << extra.notes();
+  std::cerr << warning << motion.fitNote(mechanism) << extra.notes();
   table->finish();
   if (reports) makeLoadReport(arguments, described);
 }

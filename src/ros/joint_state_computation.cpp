@@ -107,7 +107,10 @@ void JointStateComputation::evaluate() {
     counters_.skipped.add();
     return;
   }
-  MotionCovariance* covariance = plan.wantsCovariance() && covariances_ ? &covariance_ : nullptr;
+  const bool known = covariances_ && estimator_.knowsNoise();
+  const bool fits = known && completer_.fits();
+  MotionCovariance* covariance =
+      fits || (known && plan.wantsCovariance()) ? &covariance_ : nullptr;
   const std::int64_t stamp_ns =
       estimator_.evaluate(samples_.motion(), completer_.measures() ? covariance : nullptr);
   completer_.drives().begin(stamp_ns);
@@ -123,7 +126,9 @@ void JointStateComputation::evaluate() {
     user_.dropSample(Outcome::kNoTurn, plan, stamp_ns);
     return;
   }
-  const Outcome outcome = samples_.compute(plan, stamp_ns, covariance);
+  // A joint that is held may be anywhere, and must not take the others with it.
+  const bool fit = fits && !estimator_.anyHeld();
+  const Outcome outcome = samples_.compute(plan, stamp_ns, covariance, fit);
   if (outcome != Outcome::kDone) {
     user_.dropSample(outcome, plan, stamp_ns);
     return;

@@ -36,6 +36,15 @@ LoopRecord::LoopRecord(const Dynamics& dynamics, std::size_t reactions, const Lo
       efforts_(dynamics.effortNames().size()),
       reactions_(reactions) {}
 
+void LoopRecord::recordFit(const MotionFit::Farthest& farthest, bool explained) {
+  (explained ? fitted_ : unexplained_).add();
+  // A report that is taken between these lines may have the coordinate of another sample.
+  if (!(farthest.deviations > fit_deviations_.load(std::memory_order_relaxed))) return;
+  fit_deviations_.store(farthest.deviations, std::memory_order_relaxed);
+  fit_coordinate_.store(farthest.coordinate, std::memory_order_relaxed);
+  fit_level_.store(farthest.level, std::memory_order_relaxed);
+}
+
 void LoopRecord::record(const Results& results, const ActivePlan& plan) {
   if (!closed_) return;
   recordResiduals(results);
@@ -125,6 +134,11 @@ LoopRecord::Report LoopRecord::take() {
   report.determinacy.gap = gap_;
   report.determinacy.condition = condition_;
   report.passive_given = passive_given_;
+  report.fitted = fitted_.value();
+  report.unexplained = unexplained_.value();
+  report.farthest = {fit_deviations_.exchange(0, std::memory_order_relaxed),
+                     fit_coordinate_.load(std::memory_order_relaxed),
+                     fit_level_.load(std::memory_order_relaxed)};
   return report;
 }
 

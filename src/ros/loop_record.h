@@ -10,6 +10,7 @@
 #include "ros/active_plan.h"
 #include "ros/counters.h"
 #include "ros/loop_limits.h"
+#include "virtual_work_dynamics/motion_fit.h"
 
 namespace virtual_work_dynamics {
 
@@ -27,6 +28,9 @@ class LoopRecord {
   /// @param reactions number of reactions that the scene asks for
   LoopRecord(const Dynamics& dynamics, std::size_t reactions, const LoopLimits& limits);
 
+  /// Records how far a motion was fitted to the loops, and whether noise explains that. Does not
+  /// allocate.
+  void recordFit(const MotionFit::Farthest& farthest, bool explained);
   /// Records a sample. Does not allocate.
   void record(const Results& results, const ActivePlan& plan);
   /// Whether the positions of passive joints come with the joint states.
@@ -44,7 +48,10 @@ class LoopRecord {
     std::uint64_t close_to_singular = 0;          ///< samples, ever, without singular ones
     /// By Dynamics::oneSided(): how many samples were found to be so, by Hold.
     std::vector<std::array<std::uint64_t, kHolds>> holds;
-    Determinacy determinacy;  ///< of the latest sample
+    Determinacy determinacy;        ///< of the latest sample
+    std::uint64_t fitted = 0;       ///< samples, ever, whose noise was taken out by the loops
+    std::uint64_t unexplained = 0;  ///< samples, ever, that stayed as noise does not explain them
+    MotionFit::Farthest farthest;   ///< of samples of either kind
     bool passive_given = false;
   };
   /// What was recorded since the call before. Allocates.
@@ -68,6 +75,9 @@ class LoopRecord {
   std::atomic<int> rank_{0}, redundant_constraints_{0}, redundancy_{0}, free_motions_{0};
   std::atomic<double> gap_{0}, condition_{0};
   std::atomic<bool> passive_given_{false};
+  std::atomic<double> fit_deviations_{0};
+  std::atomic<int> fit_coordinate_{-1}, fit_level_{0};
+  Counter fitted_, unexplained_;
   Counter samples_, singular_, undirected_, violations_, close_to_singular_;
   std::uint64_t reported_ = 0;  // samples; only the taking thread uses it
 };

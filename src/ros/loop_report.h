@@ -22,9 +22,10 @@ std::vector<std::string> loopLines(const Mechanism& mechanism, const Scene& scen
 class LoopReport {
  public:
   /// @param dynamics of the mechanism and the scene; for an open chain there is nothing to report
+  /// @param coordinates names of the generalized coordinates
   /// @param reactions those that the scene asks for
-  LoopReport(const Dynamics& dynamics, std::vector<std::string> reactions, LoopRecord& record,
-             const LoopLimits& limits);
+  LoopReport(const Dynamics& dynamics, std::vector<std::string> coordinates,
+             std::vector<std::string> reactions, LoopRecord& record, const LoopLimits& limits);
 
   /// Adds what was recorded since the call before, and to the summary what is wrong with it.
   /// Residuals stay until there are new ones.
@@ -35,6 +36,8 @@ class LoopReport {
                     const LoopRecord::Report& report) const;
   void addViolations(diagnostic_updater::DiagnosticStatusWrapper& status,
                      const LoopRecord::Report& report) const;
+  void addFit(diagnostic_updater::DiagnosticStatusWrapper& status,
+              const LoopRecord::Report& report) const;
   void addConditions(diagnostic_updater::DiagnosticStatusWrapper& status,
                      const std::vector<double>& conditions) const;
   void addHolds(diagnostic_updater::DiagnosticStatusWrapper& status,
@@ -42,12 +45,12 @@ class LoopReport {
   void addLeftOut(diagnostic_updater::DiagnosticStatusWrapper& status,
                   const LoopRecord::Report& report, const std::string& why) const;
 
-  std::vector<std::string> closures_, labels_, one_sided_, efforts_, reactions_;
+  std::vector<std::string> closures_, labels_, one_sided_, efforts_, coordinates_, reactions_;
   bool closed_;
   LoopRecord& record_;
   LoopLimits limits_;
   LoopRecord::Report latest_;  // the last one with news
-  std::uint64_t singular_ = 0, undirected_ = 0, violations_ = 0;
+  std::uint64_t singular_ = 0, undirected_ = 0, violations_ = 0, unexplained_ = 0;
 };
 
 }  // namespace virtual_work_dynamics

@@ -11,6 +11,8 @@
 #include "ros/rejection.h"
 #include "ros/trajectory_conversion.h"
 #include "virtual_work_dynamics/dynamics.h"
+#include "virtual_work_dynamics/motion_covariance.h"
+#include "virtual_work_dynamics/motion_fit.h"
 #include "virtual_work_dynamics/passive_joints.h"
 
 namespace virtual_work_dynamics {
@@ -59,6 +61,14 @@ class MotionCompleter {
   /// @param stamp_ns of the motion, for what is driven
   bool complete(Motion& motion, std::int64_t stamp_ns, const Dynamics& dynamics,
                 Dynamics::Workspace& workspace);
+  /// Whether motions of joint states are fitted to the closures: those that give all joints.
+  bool fits() const { return all_given_ && !drives_.any() && fit_.any(); }
+  /// Fits a motion of joint states, see MotionFit::fit(). Needs fits().
+  /// @returns whether noise explains by how much it violated the closures; see farthest()
+  bool fit(Motion& motion, const MotionCovariance& covariance) {
+    return fit_.fit(motion, covariance, !static_motion_);
+  }
+  const MotionFit::Farthest& farthest() const { return fit_.farthest(); }
   /// Takes note of the results of a motion of joint states. Where all joints are given and leave
   /// the loops open, later completions do not start there, but where loops were closed last. Does
   /// not allocate.
@@ -118,6 +128,7 @@ class MotionCompleter {
   const Given usual_;  // what motions give unless they give all
   const GivenJoints rule_;
   LiveDrives drives_;
+  MotionFit fit_;
   PassiveJoints joint_states_, trajectories_, samples_;
   const PassiveJoints* latest_ = &joint_states_;  // completed something last
   std::vector<bool> named_;                       // by the trajectory of choice_

@@ -1,0 +1,294 @@
+// Measured motions that are moved to where loops and wheels allow them, by as little as can be.
+#include "virtual_work_dynamics/motion_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "loop_examples.h"
+#include "virtual_work_dynamics/error.h"
+
+namespace virtual_work_dynamics {
+namespace {
+
+constexpr const char* kLoops[] = {"four_bar",       "slider_crank",          "planar_3rrr",
+                                  "stewart_gough",  "spatial_parallelogram", "andrews_squeezer",
+                                  "planetary_gear", "coupled_wrist"};
+
+// Deviations of position, velocity and acceleration, different for each coordinate.
+MotionCovariance unevenCovariance(Eigen::Index coordinates, const Eigen::Vector3d& deviations) {
+  MotionCovariance covariance;
+  for (Eigen::Index i = 0; i < coordinates; ++i) {
+    const double factor = std::pow(3.0, static_cast<double>((5 * i) % 4) - 2);
+    const Eigen::Vector3d own = factor * deviations;
+    covariance.coordinates.emplace_back(own.cwiseAbs2().asDiagonal());
+  }
+  return covariance;
+}
+
+Motion withNoise(Motion motion, const MotionCovariance& covariance, std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  for (std::size_t i = 0; i < covariance.coordinates.size(); ++i) {
+    const Eigen::Vector3d own = covariance.coordinates[i].diagonal().cwiseSqrt();
+    const auto k = static_cast<Eigen::Index>(i);
+    motion.q[k] += own[0] * normal(random);
+    motion.qd[k] += own[1] * normal(random);
+    motion.qdd[k] += own[2] * normal(random);
+  }
+  return motion;
+}
+
+double violationBy(const Dynamics& dynamics, const Motion& motion) {
+  Dynamics::Workspace workspace = dynamics.makeWorkspace();
+  dynamics.compute(motion, workspace);
+  double most = 0;
+  for (const ClosureResidual& residual : workspace.results().loops.relative_residuals) {
+    most = std::max({most, residual.position, residual.velocity, residual.acceleration});
+  }
+  return most;
+}
+
+// An example, away from its assembly, in a motion that closes its loops.
+struct Moving : LoopExample {
+  explicit Moving(const std::string& name)
+      : LoopExample(name), dynamics(mechanism, scene), motion(dynamics.coordinates()) {
+    Dynamics::Workspace workspace = dynamics.makeWorkspace();
+    motion.q = dynamics.assembly();
+    for (Eigen::Index i = 0; i < motion.q.size(); ++i) {
+      const auto k = static_cast<double>(i);
+      motion.q[i] += 0.02 * std::sin(2 + k);
+      motion.qd[i] = std::sin(1 + 2 * k);
+      motion.qdd[i] = 3 * std::sin(3 + k);
+    }
+    EXPECT_TRUE(dynamics.complete(motion, workspace)) << name;
+  }
+  // The ways that the loops leave open, found by completing motions beside this one.
+  std::vector<Eigen::VectorXd> waysAt(const Eigen::VectorXd& q) const {
+    std::vector<Eigen::VectorXd> ways;
+    Dynamics::Workspace workspace = dynamics.makeWorkspace();
+    for (std::size_t i = 0; i < dynamics.actuated().size(); ++i) {
+      if (!dynamics.actuated()[i]) continue;
+      Motion at(q.size());
+      at.q = q;
+      at.qd[static_cast<Eigen::Index>(i)] = 1;
+      EXPECT_TRUE(dynamics.complete(at, workspace));
+      ways.push_back(at.qd);
+    }
+    return ways;
+  }
+
+  Dynamics dynamics;
+  Motion motion;
+};
+
+// The sum of moves, each over its variance, along a way, against the sums of magnitudes.
+double slopeAlong(const Eigen::VectorXd& way, const Eigen::VectorXd& moves,
+                  const MotionCovariance& covariance, int level) {
+  double sum = 0, magnitudes = 0;
+  for (std::size_t i = 0; i < covariance.coordinates.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    const double term = way[k] * moves[k] / covariance.coordinates[i](level, level);
+    sum += term;
+    magnitudes += std::abs(term);
+  }
+  return magnitudes == 0 ? 0 : std::abs(sum) / magnitudes;
+}
+
+TEST(MotionFit, NoisyLoopsCloseByTheLeastMoves) {
+  for (const char* name : kLoops) {
+    SCOPED_TRACE(name);
+    const Moving example(name);
+    MotionFit fit(example.mechanism, example.dynamics);
+    ASSERT_TRUE(fit.any());
+    const Eigen::Index n = example.motion.q.size();
+    const MotionCovariance covariance = unevenCovariance(n, {1e-4, 1e-2, 0.3});
+    std::mt19937 random(7);
+    for (int draw = 0; draw < 20; ++draw) {
+      const Motion measured = withNoise(example.motion, covariance, random);
+      Motion fitted = measured;
+      ASSERT_TRUE(fit.fit(fitted, covariance)) << fit.farthest().deviations;
+      EXPECT_GT(violationBy(example.dynamics, measured), 1e-6);
+      EXPECT_LT(violationBy(example.dynamics, fitted), 1e-12);
+      // Where the least move ends, none of the ways that are open leads closer.
+      for (const Eigen::VectorXd& way : example.waysAt(fitted.q)) {
+        EXPECT_LT(slopeAlong(way, fitted.q - measured.q, covariance, 0), 1e-5);
+        EXPECT_LT(slopeAlong(way, fitted.qd - measured.qd, covariance, 1), 1e-9);
+        EXPECT_LT(slopeAlong(way, fitted.qdd - measured.qdd, covariance, 2), 1e-9);
+      }
+    }
+  }
+}
+
+TEST(MotionFit, MotionsThatCloseTheLoopsStay) {
+  for (const char* name : kLoops) {
+    const Moving example(name);
+    MotionFit fit(example.mechanism, example.dynamics);
+    Motion motion = example.motion;
+    ASSERT_TRUE(fit.fit(motion, unevenCovariance(motion.q.size(), {1e-4, 1e-2, 0.3}))) << name;
+    EXPECT_LT((motion.q - example.motion.q).norm(), 1e-12) << name;
+    EXPECT_LT((motion.qd - example.motion.qd).norm(), 1e-10) << name;
+    EXPECT_LT((motion.qdd - example.motion.qdd).norm(), 1e-9) << name;
+    EXPECT_LT(fit.farthest().deviations, 1e-6) << name;
+  }
+}
+
+// The sum of squares that the fit takes away is as large as noise makes it: one for each condition
+// that counts.
+TEST(MotionFit, MovesAreAsLargeAsTheNoiseMakesThem) {
+  const Moving example("planar_3rrr");
+  MotionFit fit(example.mechanism, example.dynamics);
+  const Eigen::Index n = example.motion.q.size();
+  const MotionCovariance covariance = unevenCovariance(n, {1e-5, 1e-3, 0.03});
+  std::mt19937 random(3);
+  double squares[3] = {0, 0, 0};
+  constexpr int kDraws = 400;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const Motion measured = withNoise(example.motion, covariance, random);
+    Motion fitted = measured;
+    ASSERT_TRUE(fit.fit(fitted, covariance));
+    const Eigen::VectorXd moves[3] = {fitted.q - measured.q, fitted.qd - measured.qd,
+                                      fitted.qdd - measured.qdd};
+    for (int level = 0; level < 3; ++level) {
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const double variance = covariance.coordinates[static_cast<std::size_t>(i)](level, level);
+        squares[level] += moves[level][i] * moves[level][i] / variance;
+      }
+    }
+  }
+  const double conditions = static_cast<double>(n) - 3;  // three motors move it
+  // Four standard deviations of the mean. Velocities contain those of positions, too, times how
+  // the conditions turn, which is little at these deviations.
+  const double most = 4 * std::sqrt(2 * conditions / kDraws);
+  for (const double sum : squares) EXPECT_NEAR(sum / kDraws, conditions, most);
+}
+
+TEST(MotionFit, WheelsTellHowTheBaseMoves) {
+  const LoopExample example("mobile_manipulator");
+  const Dynamics dynamics(example.mechanism, example.scene);
+  MotionFit fit(example.mechanism, dynamics);
+  ASSERT_TRUE(fit.any());
+  const auto place = [&](const char* name) { return example.mechanism.coordinateIndex(name); };
+  // Half the track and the radius are those of the description.
+  const double angle = 0.6, v = 0.7, w = -0.9, a = 0.4, turn = 1.3, r = 0.08, half = 0.2;
+  Motion truth(dynamics.coordinates());
+  truth.q[place("base_yaw")] = angle;
+  truth.q[place("shoulder")] = 0.3;
+  truth.qd[place("base_x")] = v * std::cos(angle);
+  truth.qd[place("base_y")] = v * std::sin(angle);
+  truth.qd[place("base_yaw")] = w;
+  truth.qd[place("left_wheel")] = (v - half * w) / r;
+  truth.qd[place("right_wheel")] = (v + half * w) / r;
+  truth.qdd[place("base_x")] = a * std::cos(angle) - v * w * std::sin(angle);
+  truth.qdd[place("base_y")] = a * std::sin(angle) + v * w * std::cos(angle);
+  truth.qdd[place("base_yaw")] = turn;
+  truth.qdd[place("left_wheel")] = (a - half * turn) / r;
+  truth.qdd[place("right_wheel")] = (a + half * turn) / r;
+  truth.qdd[place("shoulder")] = 2;
+  ASSERT_LT(violationBy(dynamics, truth), 1e-14);
+
+  MotionCovariance covariance;
+  covariance.coordinates.assign(8, Eigen::Vector3d(1e-8, 1e-6, 1e-4).asDiagonal());
+  for (const char* name : {"base_x", "base_y", "base_yaw"}) {
+    covariance.coordinates[static_cast<std::size_t>(place(name))] =
+        Eigen::Vector3d(1e-14, 0.01, 1).asDiagonal();
+  }
+  std::mt19937 random(11);
+  double before = 0, after = 0;
+  for (int draw = 0; draw < 100; ++draw) {
+    const Motion measured = withNoise(truth, covariance, random);
+    Motion fitted = measured;
+    ASSERT_TRUE(fit.fit(fitted, covariance));
+    EXPECT_LT(violationBy(dynamics, fitted), 1e-13);
+    // Nothing says where the base is, or how the arm moves, but measurements.
+    EXPECT_EQ(fitted.q, measured.q);
+    EXPECT_EQ(fitted.qdd[place("shoulder")], measured.qdd[place("shoulder")]);
+    before += std::pow(measured.qdd[place("base_yaw")] - truth.qdd[place("base_yaw")], 2);
+    after += std::pow(fitted.qdd[place("base_yaw")] - truth.qdd[place("base_yaw")], 2);
+  }
+  // Deviations of 1 rad/s^2, and of the difference of two wheels' 0.01 rad/s^2 over the track.
+  EXPECT_NEAR(std::sqrt(before / 100), 1, 0.3);
+  EXPECT_LT(std::sqrt(after / 100), 1.5 * 0.01 * std::sqrt(2.0) * r / (2 * half));
+}
+
+TEST(MotionFit, WhatNoiseDoesNotExplainStaysAsItIsMeasured) {
+  const LoopExample example("mobile_manipulator");
+  const Dynamics dynamics(example.mechanism, example.scene);
+  MotionFit fit(example.mechanism, dynamics);
+  const int wheel = example.mechanism.coordinateIndex("left_wheel");
+  Motion slipping(dynamics.coordinates());
+  slipping.qd[wheel] = 3;
+  MotionCovariance covariance;
+  covariance.coordinates.assign(8, Eigen::Vector3d(1e-12, 1e-8, 1e-4).asDiagonal());
+  covariance.coordinates[static_cast<std::size_t>(wheel)] *= 1e4;
+  Motion fitted = slipping;
+  EXPECT_FALSE(fit.fit(fitted, covariance));
+  EXPECT_EQ(fitted.qd, slipping.qd);
+  EXPECT_EQ(fitted.qdd, slipping.qdd);
+  EXPECT_GT(fit.farthest().deviations, MotionFit::kMost);
+  EXPECT_EQ(fit.farthest().level, 1);
+  EXPECT_EQ(fit.farthest().coordinate, wheel);
+
+  const Moving bar("four_bar");
+  MotionFit bars(bar.mechanism, bar.dynamics);
+  Motion open = bar.motion;
+  open.q[1] += 0.1;
+  fitted = open;
+  EXPECT_FALSE(bars.fit(fitted, unevenCovariance(open.q.size(), {1e-4, 1e-2, 0.3})));
+  EXPECT_EQ(fitted.q, open.q);
+  EXPECT_EQ(fitted.qd, open.qd);
+  EXPECT_EQ(bars.farthest().level, 0);
+}
+
+TEST(MotionFit, ExactCoordinatesStay) {
+  const Moving example("four_bar");
+  MotionFit fit(example.mechanism, example.dynamics);
+  MotionCovariance covariance = unevenCovariance(example.motion.q.size(), {1e-4, 1e-2, 0.3});
+  std::mt19937 random(2);
+  const Motion measured = withNoise(example.motion, covariance, random);
+  covariance.coordinates[0].setZero();
+  Motion fitted = measured;
+  ASSERT_TRUE(fit.fit(fitted, covariance));
+  EXPECT_EQ(fitted.q[0], measured.q[0]);
+  EXPECT_EQ(fitted.qd[0], measured.qd[0]);
+  EXPECT_EQ(fitted.qdd[0], measured.qdd[0]);
+  EXPECT_LT(violationBy(example.dynamics, fitted), 1e-12);
+}
+
+TEST(MotionFit, RatesStayWhereTheyAreNotAskedFor) {
+  const Moving example("four_bar");
+  MotionFit fit(example.mechanism, example.dynamics);
+  const MotionCovariance covariance = unevenCovariance(example.motion.q.size(), {1e-4, 1e-2, 0.3});
+  std::mt19937 random(2);
+  const Motion measured = withNoise(example.motion, covariance, random);
+  Motion fitted = measured;
+  ASSERT_TRUE(fit.fit(fitted, covariance, false));
+  EXPECT_NE(fitted.q, measured.q);
+  EXPECT_EQ(fitted.qd, measured.qd);
+  EXPECT_EQ(fitted.qdd, measured.qdd);
+}
+
+TEST(MotionFit, OpenChainsAreNotFitted) {
+  const LoopExample example("six_axis_arm");
+  const Dynamics dynamics(example.mechanism, example.scene);
+  MotionFit fit(example.mechanism, dynamics);
+  EXPECT_FALSE(fit.any());
+  Motion motion(dynamics.coordinates());
+  EXPECT_TRUE(fit.fit(motion, MotionCovariance()));
+  EXPECT_EQ(fit.farthest().coordinate, -1);
+}
+
+TEST(MotionFit, RefusesAnotherNumberOfCoordinates) {
+  const Moving example("four_bar");
+  MotionFit fit(example.mechanism, example.dynamics);
+  Motion motion = example.motion;
+  EXPECT_THROW(fit.fit(motion, unevenCovariance(2, {1, 1, 1})), MotionError);
+  Motion short_motion(2);
+  EXPECT_THROW(fit.fit(short_motion, unevenCovariance(2, {1, 1, 1})), MotionError);
+}
+
+}  // namespace
+}  // namespace virtual_work_dynamics
