@@ -114,7 +114,8 @@ std::string JointStateRows::missing(const Names& joints) const {
     if (!has(most->names, joint)) apart.push_back(joint);
   }
   return "no message has all joints: those with the most lack " + namesInQuotes(apart) +
-         ", which others have; --rest JOINT=X gives a joint that rests its position";
+         ", which others have; --rest JOINT=X gives a joint that rests its position, and for an "
+         "--output BAG joint states may come in parts";
 }
 
 JointStateRows::Table JointStateRows::make(const Names& joints) const {
