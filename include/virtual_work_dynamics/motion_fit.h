@@ -49,12 +49,12 @@ class MotionFit {
     int coordinate = -1;  ///< -1: nothing had to be moved
     int level = 0;        ///< 0, 1, 2: position, velocity, acceleration
   };
-  const Farthest& farthest() const;
+  const Farthest& farthest() const { return farthest_; }
 
  private:
   Eigen::Index coordinates_;
   std::unique_ptr<LoopFit> loops_;
-  Farthest none_;
+  Farthest farthest_;
 };
 
 }  // namespace virtual_work_dynamics

@@ -18,7 +18,7 @@ MotionFit::MotionFit(const Mechanism& mechanism, const Dynamics& dynamics)
   Given all;
   all.coordinates.assign(static_cast<std::size_t>(dynamics.coordinates()), true);
   const std::unique_ptr<GivenLoops> loops = dynamics.givenLoops(all);
-  loops_ = std::make_unique<LoopFit>(mechanism, loops->kinematics(), loops->length());
+  loops_ = std::make_unique<LoopFit>(mechanism, loops->kinematics(), loops->length(), kMost);
 }
 
 MotionFit::~MotionFit() = default;
@@ -33,11 +33,10 @@ bool MotionFit::fit(Motion& motion, const MotionCovariance& covariance, bool rat
                       std::to_string(covariance.coordinates.size()) + " coordinates, expected " +
                       std::to_string(coordinates_));
   }
-  return loops_->fit(motion, covariance, rates);
-}
-
-const MotionFit::Farthest& MotionFit::farthest() const {
-  return any() ? loops_->farthest() : none_;
+  const bool explained = loops_->fit(motion, covariance, rates);
+  const LoopFit::Farthest& found = loops_->farthest();
+  farthest_ = {found.deviations, found.coordinate, found.level};
+  return explained;
 }
 
 }  // namespace virtual_work_dynamics

@@ -34,10 +34,12 @@ LoopFit::Group::Group(const LoopGroup& loops, const LoopKinematics& kinematics)
   found.setZero(width);
 }
 
-LoopFit::LoopFit(const Mechanism& mechanism, const LoopKinematics& kinematics, double length)
+LoopFit::LoopFit(const Mechanism& mechanism, const LoopKinematics& kinematics, double length,
+                 double most)
     : kinematics_(kinematics),
       row_scales_(kinematics.conditions()),
-      column_scales_(static_cast<Eigen::Index>(mechanism.coordinates().size())) {
+      column_scales_(static_cast<Eigen::Index>(mechanism.coordinates().size())),
+      most_(most) {
   for (const LoopGroup& group : loopGroups(mechanism, kinematics_)) {
     groups_.emplace_back(group, kinematics_);
   }
@@ -52,7 +54,7 @@ LoopFit::LoopFit(const Mechanism& mechanism, const LoopKinematics& kinematics, d
 }
 
 bool LoopFit::fit(Motion& motion, const MotionCovariance& covariance, bool rates) {
-  farthest_ = MotionFit::Farthest();
+  farthest_ = Farthest();
   setDeviations(covariance, 0);
   const bool closes = fitPositions(motion.q);
   kinematics_.setPosition(motion.q);
@@ -110,7 +112,7 @@ bool LoopFit::isLikely(const Group& group) {
   bool likely = true;
   for (std::size_t k = 0; k < group.coordinates.size(); ++k) {
     const double deviations = std::abs(group.found[static_cast<Eigen::Index>(k)]);
-    likely = likely && deviations <= MotionFit::kMost;
+    likely = likely && deviations <= most_;
     if (!(deviations > farthest_.deviations)) continue;
     farthest_ = {deviations, group.coordinates[k], level_};
   }
@@ -128,7 +130,7 @@ bool LoopFit::fitPositions(Eigen::VectorXd& q) {
     residuals_ = kinematics_.phi() - residuals_;
     likely = true;
     double longest = 0;
-    farthest_ = MotionFit::Farthest();
+    farthest_ = Farthest();
     step_ = moved_;
     for (Group& group : groups_) {
       if (!solve(group, residuals_, true)) return false;

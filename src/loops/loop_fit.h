@@ -9,7 +9,6 @@
 #include "virtual_work_dynamics/mechanism.h"
 #include "virtual_work_dynamics/motion.h"
 #include "virtual_work_dynamics/motion_covariance.h"
-#include "virtual_work_dynamics/motion_fit.h"
 
 namespace virtual_work_dynamics {
 
@@ -22,11 +21,18 @@ class LoopFit {
  public:
   /// @param kinematics conditions that are at the assembly; copied
   /// @param length makes lengths comparable with angles, m
-  LoopFit(const Mechanism& mechanism, const LoopKinematics& kinematics, double length);
+  /// @param most deviations that a coordinate may be moved by
+  LoopFit(const Mechanism& mechanism, const LoopKinematics& kinematics, double length, double most);
 
-  /// See MotionFit::fit().
+  /// Positions, then velocities and accelerations if `rates`. Returns false at the first level at
+  /// which a coordinate would have to be moved further; it and those after it stay.
   bool fit(Motion& motion, const MotionCovariance& covariance, bool rates);
-  const MotionFit::Farthest& farthest() const { return farthest_; }
+  /// What was, or would have been, moved the most by the latest fit().
+  struct Farthest {
+    double deviations = 0;
+    int coordinate = -1, level = 0;
+  };
+  const Farthest& farthest() const { return farthest_; }
 
  private:
   struct Group {
@@ -51,7 +57,8 @@ class LoopFit {
   Eigen::VectorXd deviations_;     // by coordinate, of the level at hand
   int level_ = 0;
   Eigen::VectorXd step_, moved_, residuals_;  // by coordinate, by coordinate, by condition
-  MotionFit::Farthest farthest_;
+  double most_;
+  Farthest farthest_;
 };
 
 }  // namespace virtual_work_dynamics

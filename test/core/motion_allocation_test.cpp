@@ -6,12 +6,14 @@
 
 #include "allocation_guard.h"
 #include "base/run_time_histogram.h"
+#include "loop_examples.h"
 #include "motion/root_estimator.h"
 #include "motion/root_trajectory.h"
 #include "motion/trajectory_curve.h"
 #include "sample_robots.h"
 #include "tumbling_roots.h"
 #include "virtual_work_dynamics/motion_estimator.h"
+#include "virtual_work_dynamics/motion_fit.h"
 #include "virtual_work_dynamics/spline.h"
 #include "virtual_work_dynamics/unwrap.h"
 #include "virtual_work_dynamics/urdf_reader.h"
@@ -115,6 +117,25 @@ TEST(RootTrajectory, ReadingDoesNotAllocate) {
   for (int i = -10; i < 120; ++i) known += trajectory.read(10000000LL * i, motion);
   EXPECT_EQ(guard.allocations(), 0u);
   EXPECT_EQ(known, 111);
+}
+
+TEST(MotionFit, FitDoesNotAllocate) {
+  for (const char* name : {"stewart_gough", "four_bar", "mobile_manipulator"}) {
+    const LoopExample example(name);
+    const Dynamics dynamics(example.mechanism, example.scene);
+    MotionFit fit(example.mechanism, dynamics);
+    Motion motion(dynamics.coordinates());
+    motion.q = dynamics.assembly();
+    motion.q[0] += 1e-4;
+    motion.qd.setConstant(1e-3);
+    MotionCovariance covariance;
+    covariance.coordinates.assign(static_cast<std::size_t>(motion.q.size()),
+                                  1e-4 * Eigen::Matrix3d::Identity());
+    const AllocationGuard guard;
+    EXPECT_TRUE(fit.fit(motion, covariance)) << name;
+    EXPECT_EQ(guard.allocations(), 0u) << name;
+    EXPECT_GT(fit.farthest().deviations, 0) << name;
+  }
 }
 
 TEST(Spline, EvaluateDoesNotAllocate) {

@@ -100,16 +100,18 @@ TEST_F(OfflineLoopThreads, TheFirstRowThatIsWrongIsNamed) {
   }
 }
 
-// Rates follow from the closures, positions are given: those of one row violate a loop, and a row
-// behind it is singular.
+// Velocities follow from the closures, positions and accelerations are given: the positions of one
+// row violate a loop, and a row behind it is singular.
 TEST_F(OfflineLoopThreads, ARowThatViolatesALoopIsNamedBeforeOneThatIsSingular) {
   for (const bool violated : {true, false}) {
-    std::string text = "time,position.drive,position.elbow,position.wrist\n";
+    std::string text =
+        "time,position.drive,position.elbow,position.wrist,acceleration.drive,acceleration.elbow,"
+        "acceleration.wrist\n";
     for (int i = 0; i < 200; ++i) {
       const double q = std::acos(0.0) + 0.001 * (i - 110);
       const double off = violated && i == 105 ? 1e-3 : 0;
       text += numberText(0.01 * i) + "," + numberText(q) + "," + numberText(-q + off) + "," +
-              numberText(q) + "\n";
+              numberText(q) + ",0,0,0\n";
     }
     write("m.csv", text);
     const Run one = expectSame("", 1);
