@@ -198,7 +198,7 @@ std::string CompletedMotion::fitNote(const Mechanism& mechanism) const {
        << inQuotes(mechanism.coordinateNames()[coordinate]) << " the most, by "
        << fitted_.farthest.deviations << " of its standard deviations, in "
        << file_.place(fitted_.farthest_row);
-  if (!explained) text << "; wheels slip, or dimensions are wrong";
+  if (!explained) text << "; wheels slip, or dimensions or zeros of encoders are wrong";
   return text.str() + "\n";
 }
 

@@ -92,7 +92,7 @@ std::string loopNotes(const LoopRecord::Report& report, const Dynamics& dynamics
     add("warning: ",
         samples(report.unexplained) + (report.unexplained == 1 ? " violates" : " violate") +
             " a closed loop by more than noise explains: " + fitText(report, coordinates) +
-            "; wheels slip, or dimensions are wrong");
+            "; wheels slip, or dimensions or zeros of encoders are wrong");
   } else if (report.fitted > 0) {
     add("note: ",
         samples(report.fitted) + " fitted to the closed loops: " + fitText(report, coordinates));

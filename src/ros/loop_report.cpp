@@ -196,11 +196,12 @@ void LoopReport::addFit(DiagnosticStatusWrapper& status, const LoopRecord::Repor
                            inQuotes(coordinates_[static_cast<std::size_t>(farthest.coordinate)]);
   status.add("fit, largest (standard deviations)", shortNumber(farthest.deviations) + ", " + what);
   if (report.unexplained == unexplained_) return;
-  status.mergeSummary(DiagnosticStatus::WARN,
-                      count(report.unexplained - unexplained_, "sample", "samples") +
-                          " violate the loops by more than noise explains: the " + what + " by " +
-                          shortNumber(farthest.deviations) +
-                          " standard deviations; wheels slip, or dimensions are wrong");
+  status.mergeSummary(
+      DiagnosticStatus::WARN,
+      count(report.unexplained - unexplained_, "sample", "samples") +
+          " violate the loops by more than noise explains: the " + what + " by " +
+          shortNumber(farthest.deviations) +
+          " standard deviations; wheels slip, or dimensions or zeros of encoders are wrong");
 }
 
 void LoopReport::addConditions(DiagnosticStatusWrapper& status,

@@ -151,7 +151,7 @@ class RecordedWheels(unittest.TestCase):
     def test_wheel_that_slips_is_told(self):
         text, _, _ = self.computed(self.record(SPLIT, 4, slip=2.0))
         self.assertRegex(text, r'warning: .*violate a closed loop by more than noise explains: the velocity of .* '
-                               r'wheels slip, or dimensions are wrong')
+                               r'wheels slip, or dimensions or zeros of encoders are wrong')
 
     def test_file_of_positions(self):
         """The offline tool estimates and fits, too: its rows had been refused."""
