@@ -91,17 +91,24 @@ class Comment {
   void add(const std::string& line) { lines_.push_back(line); }
 
   void ofLoops(const LoopModel& loops) {
-    add("The motion gives all joints, also those that loops move: closing the loops is up to the");
-    add("caller. Where the status is 0 or 1, efforts and reactions are those of");
-    add("ClosedLoopDynamics::compute(), to the last bit but the sign of zeros where products are");
-    add("fused; without fused products sums are in another order than in the package's build.");
-    add("Status: 0: the position is regular; 1: it is close to a singular one (condition above " +
-        numberText(kCloseToSingular) + "): small");
-    add("errors of positions change forces much; 2: it is singular, or so close to it that the "
-        "rank");
-    add("is in doubt, or numbers are not finite: all results are zero.");
+    add("The motion gives all joints, also those that loops move. How far it leaves loops open is "
+        "not");
+    add("judged, but where conditions are redundant the status is 2 from about 1e-10 on.");
+    add("Where the status is 0 or 1, efforts and reactions are those of "
+        "ClosedLoopDynamics::compute(),");
+    add("to the last bit but the sign of zeros where products are fused; without fused products "
+        "they");
+    add("agree within rounding times the condition, as sums are in another order.");
+    add("Status 0: the position is regular. 1: it is close to a singular one (condition above " +
+        numberText(kCloseToSingular) + "),");
+    add("so that small errors of positions change forces much. 2: it is singular, or so close to "
+        "it that");
+    add("the rank is in doubt (condition above " +
+        numberText(MultifrontalQr::sureCondition(loops.loops.rank_tolerance)) +
+        "), efforts are not determined, a spring has no");
+    add("direction, or numbers are not finite: all results are zero.");
     for (const std::string& name : loops.undetermined()) {
-      add("Not determined by mechanics, but of least norm: " + name + ".");
+      add("Not determined by mechanics, but chosen of least norm: " + name + ".");
     }
     for (const std::string& name : loops.dynamics.oneSided()) {
       add("Whether the force can act so is not judged: " + name + ".");

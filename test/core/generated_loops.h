@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <random>
@@ -88,6 +90,37 @@ class GeneratedLoops {
     return motion;
   }
 
+  /// Adds the samples of a search, along the line from one motion to another, for where the
+  /// condition is worst: conditions grow from step to step, if there is a singular position.
+  /// Returns the number of samples whose rank is in doubt.
+  int addTowardsSingular(const Motion& from, const Motion& to, std::mt19937& generator) {
+    constexpr int kPieces = 40, kSteps = 45;
+    constexpr double kGolden = 0.381966;
+    int doubtful = 0;
+    const auto goodness = [&](double t) {
+      Motion motion = from;
+      motion.q = from.q + t * (to.q - from.q);
+      add(motion, generator);
+      const Sample& sample = samples_.back();
+      const bool doubt = sample.singular || sample.condition > kSure;
+      doubtful += doubt ? 1 : 0;
+      return sample.singular ? 0 : 1 / sample.condition;
+    };
+    int worst = 0;
+    double least = 2;
+    for (int i = 0; i <= kPieces; ++i) {
+      const double good = goodness(static_cast<double>(i) / kPieces);
+      if (good < least) worst = i;
+      least = std::min(least, good);
+    }
+    double low = (worst - 1.0) / kPieces, high = (worst + 1.0) / kPieces;
+    for (int i = 0; i < kSteps; ++i) {
+      const double a = low + kGolden * (high - low), b = high - kGolden * (high - low);
+      (goodness(a) < goodness(b) ? high : low) = goodness(a) < goodness(b) ? b : a;
+    }
+    return doubtful;
+  }
+
   /// What was found when the compiled code was run on all samples, of one and in blocks.
   struct Finding {
     std::string compiler;             ///< what it said
@@ -98,12 +131,16 @@ class GeneratedLoops {
     std::size_t wrongly_close = 0;    ///< status 1 or 0 where the condition says the other
     std::size_t refused_regular = 0;  ///< status 2 although the package is sure of the rank
     std::size_t not_zero = 0;         ///< results where the status is 2
+    /// The largest error of a result, in roundings of the largest one, times the condition.
+    double error = 0;
   };
 
-  Finding run(const std::string& compiler, const std::string& options) {
+  /// @param fused whether products are fused, as the library's are
+  Finding run(const std::string& compiler, const std::string& options, bool fused = true) {
     Finding found;
     GeneratedProgram program(code_, options_.name, inputs(), outputs(), true);
-    found.compiler = program.compile(compiler, options + optionsFor(comparedInstructions()));
+    found.compiler = program.compile(
+        compiler, options + optionsFor(fused ? comparedInstructions() : InstructionSet::kBaseline));
     if (!found.compiler.empty()) return found;
     const std::vector<double> made = program.run(rows_);
     const std::size_t count = samples_.front().expected.size() + 1;
@@ -152,9 +189,14 @@ class GeneratedLoops {
     ++found.computed;
     if (sample.singular || !sample.finite) ++found.unsaid;
     if (status != (sample.condition > kCloseToSingular ? 1 : 0)) ++found.wrongly_close;
+    double error = 0, largest = std::numeric_limits<double>::min();
     for (std::size_t i = 0; i < count; ++i) {
       if (!(made[i] == sample.expected[i])) ++found.differences;
+      largest = std::max(largest, std::abs(sample.expected[i]));
+      error = std::max(error, std::abs(made[i] - sample.expected[i]));
     }
+    const double rounding = std::numeric_limits<double>::epsilon() * largest * sample.condition;
+    found.error = std::max(found.error, error / rounding);
   }
 
   Mechanism mechanism_;
