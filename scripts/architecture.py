@@ -21,7 +21,7 @@ MAY_INCLUDE = {
     "motion": {"base", "robot"},
     "scene": {"base", "robot", "motion", "results"},
     "tree": {"base", "robot", "motion", "scene", "results"},
-    "generate": {"base", "robot", "motion", "scene", "results", "tree"},
+    "generate": {"algebra", "base", "loops", "motion", "results", "robot", "scene", "tree"},
     "loops": {"base", "algebra", "robot", "motion", "scene", "results", "tree"},
     "witness": {"base", "robot", "motion", "scene", "results"},
     "dynamics": {"base", "robot", "motion", "scene", "results", "tree", "loops", "witness"},

@@ -84,11 +84,35 @@ std::string OperationWriter::spelling(const Node& node) {
       return capitals_ + "_EXACT_FMA(" + a + ", " + b + ", -" + c + ")";
     case Operation::kHeld:
       return name_ + (packs_ ? "_pack_held(" : "_held(") + a + ")";
+    case Operation::kDivide:
+      return a + " / " + b;
+    case Operation::kRoot:
+      return packs_ ? name_ + "_pack_root(" + a + ")" : capitals_ + "_ROOT(" + a + ")";
+    case Operation::kAwayFrom:
+      return selected("less", a, constant(0), b, "-" + b);
+    case Operation::kLarger:
+      return selected("less", b, a, a, b);
+    case Operation::kPositive:
+      return selected("less", constant(0), a, b, c);
+    case Operation::kUnlessAbove:
+      return selected("less", b, a, constant(0), constant(1));
+    case Operation::kUnlessAtMost:
+      return selected("at_most", a, b, constant(0), constant(1));
     case Operation::kInput:
     case Operation::kAngle:
       break;
   }
   return "";
+}
+
+// What is chosen by a < b, or by a <= b.
+std::string OperationWriter::selected(const std::string& by, const std::string& a,
+                                      const std::string& b, const std::string& then,
+                                      const std::string& otherwise) const {
+  if (packs_) {
+    return name_ + "_pack_" + by + "(" + a + ", " + b + ", " + then + ", " + otherwise + ")";
+  }
+  return "(" + a + (by == "less" ? " < " : " <= ") + b + ") ? " + then + " : " + otherwise;
 }
 
 void OperationWriter::assign(const std::string& to, const std::string& value) {

@@ -26,6 +26,8 @@ class OperationWriter {
   void operation(std::uint32_t node);
   std::string spelling(const Node& node);
   std::string text(const Term& term);
+  std::string selected(const std::string& by, const std::string& a, const std::string& b,
+                       const std::string& then, const std::string& otherwise) const;
   std::string constant(double value) const;
   std::string element(const std::string& array, int index) const;
   void assign(const std::string& to, const std::string& value);

@@ -203,6 +203,39 @@ $N_WITHIN int $n_sines(double a, double b, double c, double d, double e, double 
 #endif
 )";
 
+// Of loops: roots, and what packs choose number by number. First what all need, then packs.
+constexpr char kRoots[] = R"(
+#if defined(__GNUC__)
+#define $N_ROOT(a) __builtin_sqrt(a)
+#else
+#define $N_ROOT(a) sqrt(a)
+#endif
+)";
+constexpr char kPackChoices[] = R"(
+#if $N_PACK_WIDTH > 1
+$N_WITHIN $n_pack $n_pack_root($n_pack a) {
+#if defined(__AVX512F__)
+  return _mm512_sqrt_pd(a);
+#elif defined(__AVX__) && defined(__FMA__)
+  return _mm256_sqrt_pd(a);
+#else
+  int i;
+  for (i = 0; i < $N_PACK_WIDTH; ++i) a[i] = __builtin_sqrt(a[i]);
+  return a;
+#endif
+}
+/* Of each number the third where the first is less than the second, or at most that; else the fourth. */
+$N_WITHIN $n_pack $n_pack_less($n_pack a, $n_pack b, $n_pack then, $n_pack otherwise) {
+  const $n_pack_bits less = ($n_pack_bits)(a < b);
+  return ($n_pack)((($n_pack_bits)then & less) | (($n_pack_bits)otherwise & ~less));
+}
+$N_WITHIN $n_pack $n_pack_at_most($n_pack a, $n_pack b, $n_pack then, $n_pack otherwise) {
+  const $n_pack_bits at_most = ($n_pack_bits)(a <= b);
+  return ($n_pack)((($n_pack_bits)then & at_most) | (($n_pack_bits)otherwise & ~at_most));
+}
+#endif
+)";
+
 // Around what computes one sample.
 constexpr char kOneSample[] = R"(
 #if $N_NARROW

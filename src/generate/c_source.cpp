@@ -64,6 +64,13 @@ std::string declared(const NamedArray& array, const std::string& type, bool of_b
   return type + " " + array.name + "[" + std::to_string(array.count) + "]";
 }
 
+// The results but a status, which is handed over as a number of another type.
+std::vector<NamedArray> resultsOf(const RecordedPlan& recording) {
+  std::vector<NamedArray> results = recording.outputs;
+  if (recording.judged) results.pop_back();
+  return results;
+}
+
 class Source {
  public:
   explicit Source(const SourceContent& content)
@@ -80,6 +87,7 @@ class Source {
     const bool turns = !graph().angles().empty();
     out_ += filled(kPacks, name_, "pack");
     if (turns) out_ += filled(kSineConstants, name_) + filled(kPackSines, name_, "pack");
+    if (judged()) out_ += filled(kRoots, name_) + filled(kPackChoices, name_);
     out_ += filled(kOneSample, name_);
     out_ += filled(kPacks, name_, "few");
     if (turns) out_ += filled(kPackSines, name_, "few") + filled(kSines, name_);
@@ -99,6 +107,7 @@ class Source {
 
  private:
   const ExpressionGraph& graph() const { return content_.recording.graph; }
+  bool judged() const { return content_.recording.judged; }
   std::string angleCount() const { return std::to_string(graph().angles().size()); }
 
   void smallFunctions() {
@@ -234,9 +243,10 @@ $N_WITHIN $n_pack $n_exact_rest($n_pack a, $n_pack b, $n_pack product) {
     for (const NamedArray& array : content_.recording.inputs) {
       result.push_back(declared(array, "const double", of_block));
     }
-    for (const NamedArray& array : content_.recording.outputs) {
+    for (const NamedArray& array : resultsOf(content_.recording)) {
       result.push_back(declared(array, "double", of_block));
     }
+    if (of_block && judged()) result.push_back("int *status");
     if (of_block) result.insert(result.begin(), {"size_t samples", "size_t stride"});
     return result;
   }
@@ -251,8 +261,10 @@ $N_WITHIN $n_pack $n_exact_rest($n_pack a, $n_pack b, $n_pack product) {
   void computeFunction() {
     const std::size_t angles = graph().angles().size();
     const std::size_t room = (angles + kWidest - 1) / kWidest * kWidest;
-    out_ += "\n" + lines("void " + name_ + "_compute(", parameters(false), ") {\n");
+    out_ += "\n" +
+            lines((judged() ? "int " : "void ") + name_ + "_compute(", parameters(false), ") {\n");
     declareMemory("double", room);
+    if (judged()) out_ += "  double status[1];\n";
     if (angles > 0) out_ += "  int every;\n";
     ignoreInputs();
     if (angles > 0) {
@@ -260,7 +272,7 @@ $N_WITHIN $n_pack $n_exact_rest($n_pack a, $n_pack b, $n_pack product) {
       out_ += writer.angles();
     }
     callParts(false);
-    out_ += "}\n";
+    out_ += judged() ? "  return (int)status[0];\n}\n" : "}\n";
   }
 
   // Computes a sample of a block by the function for one.
@@ -282,16 +294,18 @@ $N_WITHIN $n_pack $n_exact_rest($n_pack a, $n_pack b, $n_pack product) {
       arguments.push_back(local);
     };
     for (const NamedArray& array : content_.recording.inputs) add(array, true);
-    for (const NamedArray& array : content_.recording.outputs) add(array, false);
-    out_ += locals + "  size_t i;\n" + reads + "  " + name_ + "_compute(" + listed(arguments) +
-            ");\n" + writes + "}\n";
+    for (const NamedArray& array : resultsOf(content_.recording)) add(array, false);
+    out_ += locals + "  size_t i;\n" + reads + "  " + (judged() ? "*status = " : "") + name_ +
+            "_compute(" + listed(arguments) + ");\n" + writes + "}\n";
   }
 
   // Computes a pack of samples; returns 0 where an angle is too large for it.
   void packFunction() {
     Names all = parameters(true);
     all.erase(all.begin());  // the number of samples
+    if (judged()) all.back() = "int *verdict";
     out_ += "\nstatic " + lines("int " + name_ + "_pack_of_block(", all, ") {\n");
+    if (judged()) out_ += "  double status[" + capitals_ + "_PACK_WIDTH];\n  int j;\n";
     declareMemory(name_ + "_pack", graph().angles().size());
     if (!graph().angles().empty()) out_ += "  int i, every = 1;\n";
     ignoreInputs();
@@ -303,6 +317,9 @@ $N_WITHIN $n_pack $n_exact_rest($n_pack a, $n_pack b, $n_pack product) {
               "_pack_sine_cosine(angle[i], &sine[i], &cosine[i]);\n  }\n  if (!every) return 0;\n";
     }
     callParts(true);
+    if (judged()) {
+      out_ += "  for (j = 0; j < " + capitals_ + "_PACK_WIDTH; ++j) verdict[j] = (int)status[j];\n";
+    }
     out_ += "  return 1;\n}\n";
   }
 
@@ -343,14 +360,20 @@ std::string cDeclarations(const std::string& name, const RecordedPlan& recording
   };
   for (const NamedArray& array : recording.inputs) add(array, "const double");
   says += "   Results:\n";
-  for (const NamedArray& array : recording.outputs) add(array, "double");
+  for (const NamedArray& array : resultsOf(recording)) add(array, "double");
+  if (recording.judged) {
+    says += "   Returns a status, see above.\n";
+    block.push_back("int *status");
+  }
   return "\n/* One sample. Numbers must be finite, and arrays must not overlap. Allocates nothing, "
          "keeps "
          "no state:\n   may be called from any thread.\n" +
-         says + "*/\n" + lines("void " + name + "_compute(", one, ");\n") +
+         says + "*/\n" +
+         lines((recording.judged ? "int " : "void ") + name + "_compute(", one, ");\n") +
          "\n/* Several samples: number c of sample n is at [c * stride + n] of each array, stride "
          ">= "
-         "samples. */\n" +
+         "samples." +
+         (recording.judged ? " The status of\n   sample n is at [n]. */\n" : " */\n") +
          lines("void " + name + "_compute_block(", block, ");\n");
 }
 

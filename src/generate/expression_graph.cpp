@@ -28,12 +28,75 @@ Term ExpressionGraph::node(const Node& node) {
                              static_cast<std::uint64_t>(node.index) << 32;
   const Key key = {{kind, node.a.bits(), node.b.bits(), node.c.bits()}};
   const auto [found, added] = index_of_.try_emplace(key, nodes_.size());
-  if (added) nodes_.push_back(node);
+  if (added) {
+    nodes_.push_back(node);
+    values_.push_back(evaluated(node));
+  }
   return Term::ofNode(found->second);
+}
+
+double ExpressionGraph::evaluated(const Node& node) const {
+  const double a = valueOf(node.a), b = valueOf(node.b), c = valueOf(node.c);
+  switch (node.operation) {
+    case Operation::kInput:
+      return 0;
+    case Operation::kAngle: {
+      const Angle& angle = angles_[static_cast<std::size_t>(node.index)];
+      const double at = valueOf(angle.angle);
+      return node.array == kCosine ? std::cos(at)
+             : node.array == kSine ? std::sin(at)
+                                   : valueOf(angle.rest);
+    }
+    case Operation::kNegate:
+      return -a;
+    case Operation::kAdd:
+      return a + b;
+    case Operation::kSubtract:
+      return a - b;
+    case Operation::kMultiply:
+      return a * b;
+    case Operation::kMulAdd:
+      return std::fma(a, b, c);
+    case Operation::kSubMul:
+      return std::fma(-a, b, c);
+    case Operation::kMulSub:
+    case Operation::kProductRest:
+      return std::fma(a, b, -c);
+    case Operation::kMinusMulSub:
+      return std::fma(-a, b, -c);
+    case Operation::kHeld:
+      return a < -1 ? -1.0 : a > 1 ? 1.0 : a;
+    case Operation::kDivide:
+      return a / b;
+    case Operation::kRoot:
+      return std::sqrt(a);
+    case Operation::kAwayFrom:
+      return a < 0 ? b : -b;
+    case Operation::kLarger:
+      return a > b ? a : b;
+    case Operation::kPositive:
+      return a > 0 ? b : c;
+    case Operation::kUnlessAbove:
+      return a > b ? 0 : 1;
+    case Operation::kUnlessAtMost:
+      return a <= b ? 0 : 1;
+  }
+  return 0;
 }
 
 Term ExpressionGraph::input(int array, int index) {
   return node({Operation::kInput, Term(0), Term(0), Term(0), array, index});
+}
+
+void ExpressionGraph::setValues(int array, const double* values) {
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    if (node.operation != Operation::kInput) {
+      values_[i] = evaluated(node);
+    } else if (node.array == array) {
+      values_[i] = values[node.index];
+    }
+  }
 }
 
 Term ExpressionGraph::part(AnglePart part, const Angle& angle) {
@@ -133,6 +196,59 @@ Term ExpressionGraph::productRest(const Term& a, const Term& b, const Term& c) {
 Term ExpressionGraph::held(const Term& a) {
   if (!a.isNode()) return Term(a.value() < -1 ? -1.0 : a.value() > 1 ? 1.0 : a.value());
   return node({Operation::kHeld, a, Term(0), Term(0)});
+}
+
+Term ExpressionGraph::quotient(const Term& a, const Term& b) {
+  if (constants(a, b)) return Term(a.value() / b.value());
+  if (a.is(0)) return a;
+  if (b.is(1)) return a;
+  if (b.is(-1)) return negated(a);
+  return node({Operation::kDivide, a, b, Term(0)});
+}
+
+Term ExpressionGraph::root(const Term& a) {
+  if (!a.isNode()) return Term(std::sqrt(a.value()));
+  return node({Operation::kRoot, a, Term(0), Term(0)});
+}
+
+Term ExpressionGraph::awayFrom(const Term& a, const Term& b) {
+  if (!a.isNode()) return a.value() < 0 ? b : negated(b);
+  return node({Operation::kAwayFrom, a, b, Term(0)});
+}
+
+Term ExpressionGraph::larger(const Term& a, const Term& b) {
+  if (constants(a, b)) return a.value() > b.value() ? a : b;
+  return a == b ? a : node({Operation::kLarger, a, b, Term(0)});
+}
+
+Term ExpressionGraph::positive(const Term& a, const Term& b, const Term& c) {
+  if (!a.isNode()) return a.value() > 0 ? b : c;
+  return b == c ? b : node({Operation::kPositive, a, b, c});
+}
+
+Term ExpressionGraph::unlessAbove(const Term& a, const Term& b) {
+  if (constants(a, b)) return Term(a.value() > b.value() ? 0 : 1);
+  return node({Operation::kUnlessAbove, a, b, Term(0)});
+}
+
+Term ExpressionGraph::unlessAtMost(const Term& a, const Term& b) {
+  if (constants(a, b)) return Term(a.value() <= b.value() ? 0 : 1);
+  return node({Operation::kUnlessAtMost, a, b, Term(0)});
+}
+
+void ExpressionGraph::requireAbove(const Term& a, const Term& b) {
+  failures_ = sum(failures_, unlessAbove(a, b));
+}
+
+void ExpressionGraph::requireAtMost(const Term& a, const Term& b) {
+  failures_ = sum(failures_, unlessAtMost(a, b));
+}
+
+bool ExpressionGraph::isAbove(const Term& a, const Term& b) {
+  const bool above = valueOf(a) > valueOf(b);
+  if (constants(a, b)) return above;
+  above ? requireAbove(a, b) : requireAtMost(a, b);
+  return above;
 }
 
 }  // namespace virtual_work_dynamics

@@ -52,7 +52,14 @@ enum class Operation : unsigned char {
   kMulSub,    ///< a b - c
   kMinusMulSub,  ///< -(a b) - c
   kProductRest,  ///< a b - c exactly, where c is a b rounded
-  kHeld          ///< a, or 1 or -1 where a is beyond
+  kHeld,         ///< a, or 1 or -1 where a is beyond
+  kDivide,       ///< a / b
+  kRoot,         ///< the square root of a
+  kAwayFrom,     ///< b, with the sign turned where a is not negative
+  kLarger,       ///< the larger of a and b; b where one of them is not a number
+  kPositive,     ///< b where a is positive, else c
+  kUnlessAbove,  ///< 0 where a > b, else 1: also where one of them is not a number
+  kUnlessAtMost  ///< 0 where a <= b, else 1
 };
 
 /// What a node of Operation::kAngle is of its angle.
@@ -81,6 +88,8 @@ struct GraphOutput {
 /// Straight-line arithmetic. Each node is there once, whatever it is needed for; what can be
 /// computed now is, rounded as it would be later. Products with 0 and 1 are left out: for finite
 /// values they change nothing except for the sign of a zero.
+/// Each node also has a value, that of one motion, by which what is recorded is chosen where it
+/// depends on numbers: the choice is then noted, to be checked for every other motion.
 class ExpressionGraph {
  public:
   Term input(int array, int index);
@@ -95,6 +104,27 @@ class ExpressionGraph {
   Term fused(const Term& a, const Term& b, const Term& c, bool minus_product, bool minus_c);
   Term productRest(const Term& a, const Term& b, const Term& c);
   Term held(const Term& a);
+  Term quotient(const Term& a, const Term& b);
+  Term root(const Term& a);
+  Term awayFrom(const Term& a, const Term& b);
+  Term larger(const Term& a, const Term& b);
+  Term positive(const Term& a, const Term& b, const Term& c);
+  /// Adds up to failures() where a > b does not hold, or a <= b.
+  void requireAbove(const Term& a, const Term& b);
+  void requireAtMost(const Term& a, const Term& b);
+  /// 1 where a > b does not hold, or a <= b, else 0.
+  Term unlessAbove(const Term& a, const Term& b);
+  Term unlessAtMost(const Term& a, const Term& b);
+  /// Chooses by the present values whether a > b, and requires it to be so, or not to be.
+  bool isAbove(const Term& a, const Term& b);
+  /// How many requirements a motion fails.
+  const Term& failures() const { return failures_; }
+  void setFailures(const Term& failures) { failures_ = failures; }
+  /// Gives an array of inputs other values, which are zero at first.
+  void setValues(int array, const double* values);
+  double valueOf(const Term& term) const {
+    return term.isNode() ? values_[term.node()] : term.value();
+  }
 
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::vector<Angle>& angles() const { return angles_; }
@@ -112,11 +142,14 @@ class ExpressionGraph {
   };
 
   Term node(const Node& node);
+  double evaluated(const Node& node) const;
   // The term without its minus, and whether it had one.
   Term stripped(const Term& a, bool& minus) const;
 
   std::vector<Node> nodes_;
+  std::vector<double> values_;  // of nodes
   std::vector<Angle> angles_;
+  Term failures_{0};
   std::unordered_map<Key, std::uint32_t, Hash> index_of_;
 };
 

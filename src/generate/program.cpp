@@ -150,10 +150,16 @@ int operandsOf(const Node& node) {
       return 0;
     case Operation::kNegate:
     case Operation::kHeld:
+    case Operation::kRoot:
       return 1;
     case Operation::kAdd:
     case Operation::kSubtract:
     case Operation::kMultiply:
+    case Operation::kDivide:
+    case Operation::kAwayFrom:
+    case Operation::kLarger:
+    case Operation::kUnlessAbove:
+    case Operation::kUnlessAtMost:
       return 2;
     default:
       return 3;

@@ -229,7 +229,7 @@ bool LoopForces::isDetermined(Eigen::Index unknown) {
 }
 
 bool LoopForces::isUnique(double null_square) {
-  return null_square <= kNoEffort * kNoEffort;
+  return null_square <= kLargestUnique;
 }
 
 // Whether efforts are the same in all solutions, as nothing in the null space moves them.

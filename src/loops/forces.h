@@ -102,6 +102,8 @@ class LoopForces {
   Eigen::Index firstUnknownOf(std::size_t local) const { return unknowns_.of_sets[local].first; }
   /// Whether an effort with this part in the null space is the same in all solutions.
   static bool isUnique(double null_square);
+  /// The largest for which it is: of an effort in a change, a unit vector, that is rounding.
+  static constexpr double kLargestUnique = 1e-10 * 1e-10;
   /// A solution among those of a pack, of which `width` neighbouring numbers belong together.
   struct PackedSolution {
     const double *x, *closures, *condition, *numbers;

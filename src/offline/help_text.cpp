@@ -126,7 +126,8 @@ Output
                         no result that is asked for needs it
   --generate FILE       only writes FILE, which ends in .c, .cc, .cpp or .cxx, and a header beside it:
                         C99 and C++ that computes this robot in this scene and needs no library; its
-                        functions are named after FILE. Not for scenes that close loops.
+                        functions are named after FILE. In scenes with loops it takes motions of all
+                        joints, and returns whether the position is regular (doc/generated_code.md).
   --help                this text
   --version             the version of the package
 

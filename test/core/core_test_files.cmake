@@ -68,6 +68,7 @@ set(core_test_files
   test/core/gears_test.cpp
   test/core/generated_code_test.cpp
   test/core/generated_compilers_test.cpp
+  test/core/generated_loops_test.cpp
   test/core/given_motions_test.cpp
   test/core/instruction_set_test.cpp
   test/core/inverse_dynamics_test.cpp

@@ -155,21 +155,6 @@ std::string refusal(const Mechanism& mechanism, const Scene& scene, const Reques
 
 TEST(GeneratedCode, IsRefusedInOneLineWhereItCannotBe) {
   const Mechanism pendulum = readUrdf(pendulumUrdf());
-  const std::string why = ": the forces take a factorization whose steps depend on the position";
-  Scene scene;
-  scene.closures.resize(1);
-  scene.closures[0].name = "loop";
-  EXPECT_EQ(refusal(pendulum, scene, {}),
-            "no code can be generated, as closure 'loop' closes a loop" + why);
-  scene = Scene();
-  scene.springs.resize(1);
-  scene.springs[0].name = "coil";
-  EXPECT_EQ(refusal(pendulum, scene, {}),
-            "no code can be generated, as spring 'coil' acts between two points" + why);
-  scene = Scene();
-  scene.actuated = std::vector<std::string>{"joint_1"};
-  EXPECT_EQ(refusal(pendulum, scene, {}),
-            "no code can be generated, as not all joints are actuated" + why);
   Request nothing;
   nothing.efforts = false;
   EXPECT_EQ(refusal(pendulum, Scene(), nothing),

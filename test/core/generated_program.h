@@ -46,9 +46,11 @@ inline bool isThere(const std::string& compiler) {
 class GeneratedProgram {
  public:
   /// @param inputs, outputs numbers of a sample of each array, in the function's order
+  /// @param judged whether the functions tell a status, which becomes the last of the outputs
   GeneratedProgram(const GeneratedCode& code, const std::string& name,
-                   const std::vector<int>& inputs, const std::vector<int>& outputs)
-      : name_(name), inputs_(inputs), outputs_(outputs) {
+                   const std::vector<int>& inputs, const std::vector<int>& outputs,
+                   bool judged = false)
+      : name_(name), inputs_(inputs), outputs_(outputs), judged_(judged) {
     std::string pattern = testing::TempDir() + "generated_XXXXXX";
     folder_ = mkdtemp(pattern.data()) == nullptr ? "" : pattern;
     write(name + ".h", code.header);
@@ -114,18 +116,22 @@ class GeneratedProgram {
   }
 
   std::string mainText() const {
-    int in = 0, out = 0;
+    int in = 0, out = judged_ ? 1 : 0;
     for (const int count : inputs_) in += count;
     for (const int count : outputs_) out += count;
     return "#include \"" + name_ +
            ".h\"\n#include <stdio.h>\n#include <stdlib.h>\nenum { IN = " + std::to_string(in) +
            ", OUT = " + std::to_string(out) + R"(, MOST = 100000 };
 static void one(const double *in, double *out) { )" +
-           name_ + "_compute(" + arguments(false) + R"(); }
+           (judged_ ? "out[OUT - 1] = " : "") + name_ + "_compute(" + arguments(false) + R"(); }
 static void block(size_t samples, size_t stride, const double *in, double *out) {
-  )" + name_ +
-           "_compute_block(samples, stride, " + arguments(true) + R"();
-}
+)" + (judged_ ? "  int *status = (int *)malloc(sizeof(int) * samples);\n  size_t i;\n" : "") +
+           "  " + name_ + "_compute_block(samples, stride, " + arguments(true) +
+           (judged_ ? ", status" : "") + ");\n" +
+           (judged_ ? "  for (i = 0; i < samples; ++i) out[(OUT - 1) * stride + i] = status[i];\n"
+                      "  free(status);\n"
+                    : "") +
+           R"(}
 int main(void) {
   double *rows = (double *)malloc(sizeof(double) * IN * MOST);
   size_t n = fread(rows, sizeof(double) * IN, MOST, stdin), stride = n + 3, i, c;
@@ -154,6 +160,7 @@ int main(void) {
 
   const std::string name_;
   const std::vector<int> inputs_, outputs_;
+  const bool judged_;
   std::string folder_;
 };
 

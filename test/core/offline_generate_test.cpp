@@ -79,13 +79,9 @@ TEST_F(OfflineGenerate, RefusesInOneLine) {
   EXPECT_EQ(errorOf("--axes inertial --generate crane.c"),
             "--axes inertial cannot be used with --generate");
   EXPECT_EQ(errorOf("--check --generate crane.c"), "--check cannot be used with --generate");
-  write(
-      "loop.yaml",
-      "closures:\n  - {name: brace, type: spherical, parent: {link: base}, child: {link: jib}}\n");
-  EXPECT_EQ(
-      errorOf("--scene loop.yaml --generate crane.c"),
-      "loop.yaml: no code can be generated, as closure 'brace' closes a loop: the forces take a "
-      "factorization whose steps depend on the position");
+  write("rolls.yaml", "wheels:\n  - {name: tyre, link: jib, axis: [0, 1, 0], radius: 0.5}\n");
+  EXPECT_EQ(errorOf("--scene rolls.yaml --generate crane.c"),
+            "rolls.yaml: no code can be generated, as closure 'tyre' touches a plane");
   EXPECT_EQ(errorOf("--no-efforts --reactions none --generate crane.c"),
             "no code can be generated, as neither efforts nor reactions are asked for");
   EXPECT_EQ(errorOf("--reactions elbo --generate crane.c"),

@@ -256,6 +256,17 @@ class Numbers(unittest.TestCase):
         # Turning about the vertical alone takes nothing but what pulls back the lag of the encoder.
         self.assertAlmostEqual(numbers(lines[0])[0], 200 * 0.01, delta=SIX_DIGITS)
 
+    def test_the_generated_linkage_takes_no_work_in_a_turn(self):
+        found = [numbers(line) for line in output("06_generated_loop")]
+        self.assertEqual(len(found), 24)
+        torques = [row[0] for row in found]
+        # Equal steps: the mean of a periodic function is exact up to its 24th harmonic.
+        self.assertAlmostEqual(sum(torques) / len(torques), 0, delta=SIX_DIGITS)
+        self.assertGreater(max(torques), 1)
+        self.assertLess(min(torques), -1)
+        for row in found:
+            self.assertGreater(row[1], 0.1)
+
 
 class Files(unittest.TestCase):
     def test_a_file_that_is_not_there_is_named(self):
