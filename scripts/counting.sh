@@ -27,11 +27,11 @@ built() {
 }
 
 # counted_by COMMAND...: runs a program under callgrind, its output into $work/output, and prints how
-# many instructions its function countedRun took.
+# many instructions its function countedRun took, or a clone of it that the compiler made.
 counted_by() {
   local instructions
   if ! valgrind --tool=callgrind --callgrind-out-file=/dev/null --collect-atstart=no \
-      --toggle-collect=countedRun "$@" 2>"$work/valgrind.log" >"$work/output" </dev/null; then
+      --toggle-collect='countedRun*' "$@" 2>"$work/valgrind.log" >"$work/output" </dev/null; then
     tail -n 20 "$work/valgrind.log" >&2
     return 1
   fi

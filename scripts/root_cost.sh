@@ -50,7 +50,8 @@ count() {
 links=(4 8 16 32)
 for i in "${links[@]}"; do
   for root in resting moving; do
-    echo "instructions,$i,$root,$(($(count "$i" "$root") / 64))"
+    instructions=$(count "$i" "$root")
+    echo "instructions,$i,$root,$((instructions / 64))"
   done
 done >"$work/table"
 sed -n '2,$s/^/ns,/p' "$work/times" >>"$work/table"

@@ -17,6 +17,15 @@ namespace {
 
 constexpr int kArrays = 10;  // five of a MotionBlock, five of a ResultBlock
 constexpr int kInputs = 5;
+// Samples in columns far apart: of each column a pack takes one line, which costs a miss of the
+// caches and, with many columns, of the page tables, too. So where arrays are larger than a core's
+// second-level cache and columns are long and many, they are copied through columns close together,
+// some lines of each at a time.
+constexpr std::size_t kLargeBytes = std::size_t(8) << 20;
+constexpr std::size_t kLongColumn = 2048;  // samples
+constexpr std::size_t kManyColumns = 48;
+constexpr std::size_t kMostLines = 32, kFewestLines = 16;
+constexpr std::size_t kLinesBytes = std::size_t(1) << 19;  // of more, the fewest
 
 /// The arrays of a block, and how many numbers of each belong to a sample.
 template <typename Real>
@@ -67,8 +76,15 @@ struct BlockInverseDynamics<Real>::Impl {
     const bool outputs[] = {request.efforts, !plan.child_axes.empty(), in_root_axes > 0,
                             request.poses, request.twists};
     std::copy(std::begin(outputs), std::end(outputs), requested);
-    std::size_t tile_size = width * width * sizeof(Real);  // behind the last, see toColumns()
-    for (const std::size_t count : columns) tile_size += count * width * sizeof(Real);
+    for (const std::size_t count : columns) numbers_in_sample += count;
+    const bool few = kMostLines * width * numbers_in_sample * sizeof(Real) > kLinesBytes;
+    const std::size_t lines = numbers_in_sample < kManyColumns ? 1
+                              : few                            ? kFewestLines
+                                                               : kMostLines;
+    samples_at_once = lines * width;
+    tile_stride = samples_at_once + width;     // no power of two
+    const std::size_t behind = width * width;  // the last, see toColumns()
+    const std::size_t tile_size = (numbers_in_sample * tile_stride + behind) * sizeof(Real);
     for (int i = 0; i < thread_count; ++i) {
       scratch.emplace_back(kernel.scratchSize(view));
       kernel.prepare(view, scratch.back().get());
@@ -123,13 +139,25 @@ struct BlockInverseDynamics<Real>::Impl {
     const std::size_t threads = tiles.size(), thread = static_cast<std::size_t>(index);
     const std::size_t begin = packs * thread / threads * width;
     const std::size_t end = std::min(arrays.samples, packs * (thread + 1) / threads * width);
-    for (std::size_t first = begin; first < end; first += width) {
-      if (arrays.layout == BlockLayout::kStructureOfArrays && first + width <= end) {
+    const bool columnwise = arrays.layout == BlockLayout::kStructureOfArrays;
+    std::size_t first = begin;
+    while (columnwise && first + width <= end && farApart(arrays.samples)) {
+      const std::size_t count = std::min(samples_at_once, (end - first) / width * width);
+      computeInNearColumns(arrays, first, count, thread);
+      first += count;
+    }
+    for (; first < end; first += width) {
+      if (columnwise && first + width <= end) {
         computeInPlace(arrays, first, thread);
       } else {
         computeInTile(arrays, first, std::min(width, end - first), thread);
       }
     }
+  }
+
+  bool farApart(std::size_t samples) const {
+    return numbers_in_sample >= kManyColumns && samples >= kLongColumn &&
+           samples * numbers_in_sample * sizeof(Real) > kLargeBytes;
   }
 
   // The applied wrenches of a pack; the last sample fills it up.
@@ -153,6 +181,37 @@ struct BlockInverseDynamics<Real>::Impl {
                 {at(arrays.outputs[0]), at(arrays.outputs[1]), at(arrays.outputs[2]),
                  at(arrays.outputs[3]), at(arrays.outputs[4]), arrays.samples},
                 scratch[thread].get());
+  }
+
+  // Copies some packs into columns close together, and the results back.
+  void computeInNearColumns(const BlockArrays<Real>& arrays, std::size_t first, std::size_t count,
+                            std::size_t thread) {
+    Real* near[kArrays];
+    near[0] = static_cast<Real*>(tiles[thread].get());
+    for (int i = 1; i < kArrays; ++i) near[i] = near[i - 1] + columns[i - 1] * tile_stride;
+    for (int i = 0; i < kInputs; ++i) {
+      for (std::size_t c = 0; c < columns[i]; ++c) {
+        std::copy_n(arrays.inputs[i] + c * arrays.samples + first, count,
+                    near[i] + c * tile_stride);
+      }
+    }
+    for (std::size_t j = 0; j < count; j += width) {
+      const AppliedValues<Real>& applied = appliedOf(arrays, first + j, width, thread);
+      const auto wanted = [&](int i) {
+        return arrays.outputs[i] ? near[kInputs + i] + j : nullptr;
+      };
+      kernel.pack(view,
+                  {near[0] + j, near[1] + j, near[2] + j, tile_stride, applied.data(),
+                   applied.stride(), near[3] + j, tile_stride, near[4] + j, tile_stride},
+                  {wanted(0), wanted(1), wanted(2), wanted(3), wanted(4), tile_stride},
+                  scratch[thread].get());
+    }
+    for (int i = kInputs; i < kArrays; ++i) {
+      Real* const to = arrays.outputs[i - kInputs];
+      for (std::size_t c = 0; to && c < columns[i]; ++c) {
+        std::copy_n(near[i] + c * tile_stride, count, to + c * arrays.samples + first);
+      }
+    }
   }
 
   // Copies a pack into columns of its width, and the results back.
@@ -212,6 +271,8 @@ struct BlockInverseDynamics<Real>::Impl {
   const Kernel<Real>& kernel;
   std::size_t width;
   std::size_t columns[kArrays];                 // numbers a sample of each array
+  std::size_t numbers_in_sample = 0;            // of all arrays
+  std::size_t samples_at_once, tile_stride;     // of computeInNearColumns()
   bool requested[kArrays - kInputs];            // whether each output is
   AppliedValues<Real> own;                      // values of the scene's applied wrenches
   AppliedValues<Real> given;                    // values of a Load's wrenches

@@ -3,6 +3,7 @@
 set(core_test_files
   test/core/assembly_test.cpp
   test/core/axis_direction_test.cpp
+  test/core/block_far_columns_test.cpp
   test/core/block_record_test.cpp
   test/core/block_test.cpp
   test/core/block_use_test.cpp

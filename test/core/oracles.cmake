@@ -35,6 +35,7 @@ vwd_add_objects(stability_scenes OBJECT
   benchmark/stability/linkage_sweeps.cpp
   benchmark/stability/loop_judge.cpp
   benchmark/stability/loop_judge_holds.cpp
+  benchmark/stability/loop_judge_loads.cpp
   benchmark/stability/loop_scenes.cpp
   benchmark/stability/mechanism_maker.cpp
   benchmark/stability/mixed_loops.cpp

@@ -192,7 +192,18 @@ VWD_INLINE PlainWrench<T> handedOn(const Body<R>& body, const KernelInputs<R>& i
   return result;
 }
 
+/// Reports a plain body's wrench, which is in its parent's axes, in root axes; what it hands on.
+template <typename T, typename R>
+VWD_INLINE PlainWrench<T> reportTurned(const Body<R>& body, const KernelOutputs<R>& out,
+                                       const Scratch<T, R>& scratch, const JointMotion<T>& joint,
+                                       const PlainWrench<T>& turned) {
+  if (out.root_axes) storeByParent(body, out, scratch, turned);
+  return aboutParent<true>(body, joint, turned);
+}
+
 /// Reports the wrench of a plain body, where kReport says so, and hands it on.
+/// Of one sample that is done where the axis is known, of packs, which spill registers there,
+/// behind it.
 template <PlainReport kReport, typename T, typename R>
 VWD_INLINE PlainWrench<T> handPlain(const PlanView<R>& plan, const Body<R>& body,
                                     const KernelInputs<R>& in, const KernelOutputs<R>& out,
@@ -206,12 +217,31 @@ VWD_INLINE PlainWrench<T> handPlain(const PlanView<R>& plan, const Body<R>& body
   }
   const JointMotion<T> joint = jointMotion<true, true>(body, in, scratch);
   if (kReport != PlainReport::kRootAxes) return handedOn<true>(body, in, joint, wrench);
-  PlainWrench<T> turned;
+  PlainWrench<T> turned, handed;
+  constexpr bool kOneSample = sizeof(T) == sizeof(R);
   forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
     turned = inParentAxes<true, axis.value>(body, in, joint, wrench);
+    if (kOneSample) handed = reportTurned(body, out, scratch, joint, turned);
   });
-  if (out.root_axes) storeByParent(body, out, scratch, turned);
-  return aboutParent<true>(body, joint, turned);
+  return kOneSample ? handed : reportTurned(body, out, scratch, joint, turned);
+}
+
+/// Turns the wrench of any other body into its parent's axes, reports it in root axes, and hands it
+/// on, if it is handed on.
+template <typename T, typename R>
+VWD_INLINE void handByParent(const PlanView<R>& plan, const Body<R>& body,
+                             const KernelInputs<R>& in, const KernelOutputs<R>& out,
+                             const Scratch<T, R>& scratch, const PlainWrench<T>& wrench,
+                             PlainWrench<T>& handed) {
+  const JointMotion<T> joint = jointMotion<true, false>(body, in, scratch);
+  PlainWrench<T> turned;
+  forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
+    turned = inParentAxes<false, axis.value>(body, in, joint, wrench);
+  });
+  storeByParent(body, out, scratch, turned);
+  if (!body.hands_on && !body.adds_to_parent) return;
+  handed = aboutParent<false>(body, joint, turned);
+  if (body.adds_to_parent) sumUp(plan, body, handed, scratch.wrenches);
 }
 
 /// Reports the wrench of any other body and hands it on, if it is handed on.
@@ -221,30 +251,17 @@ VWD_INLINE void handAny(const PlanView<R>& plan, int k, const KernelInputs<R>& i
                         const PlainWrench<T>& wrench, PlainWrench<T>& handed) {
   const Body<R>& body = plan.bodies[k];
   if (body.drives && out.effort) addEffort(body, wrench, out);
-  bool by_parent = false;
   if (body.reported) {
     if (body.child_axes >= 0 && out.child_axes) {
       storeChildAxes<false>(plan, body, in, out, scratch, wrench);
     }
     if (body.root_axes >= 0 && out.root_axes) {
-      by_parent = body.turned_by_parent;
-      if (!by_parent) storeRootAxes(plan, k, in, out, scratch, wrench);
+      if (body.turned_by_parent) return handByParent(plan, body, in, out, scratch, wrench, handed);
+      storeRootAxes(plan, k, in, out, scratch, wrench);
     }
   }
-  const bool hands = body.hands_on || body.adds_to_parent;
-  if (!hands && !by_parent) return;
-  const JointMotion<T> joint = jointMotion<true, false>(body, in, scratch);
-  if (VWD_SELDOM(by_parent)) {
-    PlainWrench<T> turned;
-    forAxis(body.axis, [&](auto axis) VWD_LAMBDA {
-      turned = inParentAxes<false, axis.value>(body, in, joint, wrench);
-    });
-    storeByParent(body, out, scratch, turned);
-    if (!hands) return;
-    handed = aboutParent<false>(body, joint, turned);
-  } else {
-    handed = handedOn<false>(body, in, joint, wrench);
-  }
+  if (!body.hands_on && !body.adds_to_parent) return;
+  handed = handedOn<false>(body, in, jointMotion<true, false>(body, in, scratch), wrench);
   if (body.adds_to_parent) sumUp(plan, body, handed, scratch.wrenches);
 }
 
