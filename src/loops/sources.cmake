@@ -26,6 +26,7 @@ vwd_core(
   link_kinematics.cpp
   loop_rows.cpp
   nearest_closing.cpp
+  pack_choice.cpp
   packed_rows.cpp
   point_springs.cpp
   rank.cpp
