@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "touching_bodies.h"
@@ -14,6 +15,8 @@ namespace {
 constexpr double kPrinted = 0.5e-8;
 // Closed forms of a few ten operations with numbers up to some hundred.
 constexpr double kClosedForm = 1e-12;
+// Of the sum of two products.
+constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
 
 const char* const kDisc = R"(
 rolling: [{name: edge, link: link_6, axis: [0, 1, 0], radius: 0.5, plane: {link: link_0}}]
