@@ -203,9 +203,9 @@ void ClosedLoopDynamics::Workspace::Impl::react() {
                           closures_.front().force.data(), load[load_.wrenches.size()].force.data());
   }
   for (const std::size_t c : kinematics.touching()) {  // loads act at points of the links
-    Wrench& wrench = load[load_.wrenches.size() + 2 * c];
-    const Eigen::Vector3d centre = kinematics.links().originOf(kinematics.closure(c).child());
-    wrench.torque += (kinematics.childOrigin(c) - centre).cross(wrench.force);
+    kernel_->referToChild(kinematics.closure(c).shape(), kinematics.links().numbers(),
+                          kinematics.frames(c).R_P.data(),
+                          load[load_.wrenches.size() + 2 * c].force.data());
   }
   if (!plan.reacts) return;
   addClosures(child_axes_, pushed_->childAxes(), results.child_axes);

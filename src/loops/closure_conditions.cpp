@@ -174,7 +174,9 @@ ClosureConditions::ClosureConditions(const Mechanism& mechanism, const Closure& 
              static_cast<int>(conditions().size()),
              {},
              closure.length.value_or(0),
-             -1} {
+             -1,
+             nullptr,
+             nullptr} {
   std::transform(traits_.demands.begin(), traits_.demands.end(), shape_.demands,
                  [](const ClosureDemand& demand) { return shapeOf(demand); });
   shape_.along = alongOf(shape_);

@@ -62,6 +62,12 @@ class ClosureConditions : public ConditionSet {
   /// the conditions do not detect.
   bool reversed(const FramePair& frames) const;
 
+ protected:
+  const LoopFunctions& kernel() const { return *kernel_; }
+  // What kernels need besides; it must live as long.
+  void setShape(const TouchShape& touch) { shape_.touch = &touch; }
+  void setShape(const TeethShape& teeth) { shape_.teeth = &teeth; }
+
  private:
   const ClosureTypeTraits& traits_;
   const LoopFunctions* kernel_;

@@ -87,7 +87,7 @@ class ConditionRows {
     return {values_.phi.data() + first_,
             values_.A.data() + first_,
             static_cast<std::size_t>(values_.A.rows()),
-            unitWrench(0).force.data(),
+            reinterpret_cast<double*>(values_.unit_wrenches.data() + first_),
             frames().R_P.data(),
             values_.turning.data() + first_};
   }

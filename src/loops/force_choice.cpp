@@ -15,10 +15,31 @@ void LoopForces::choose(const std::vector<Wrench>& tree_reactions) {
   }
 }
 
+// Makes the efforts of a solution least along the one change that is open.
+void LoopForces::chooseAlong() {
+  if (effortsAreUnique()) return;
+  const State& change = direction(0);
+  double along = 0, square = 0;
+  for (const LoopUnknowns::Effort& effort : unknowns_.efforts) {
+    const double part = change.x[effort.unknown];
+    along += part * solution_.x[effort.unknown];
+    square += part * part;
+  }
+  const double way = along / square;
+  for (Eigen::Index i = 0; i < unknowns(); ++i) {
+    if (change.x[i] != 0) solution_.x[i] -= way * change.x[i];
+  }
+  redundant_constraints_ = 0;
+}
+
 // Costs are those of the flanks that bear at the start; returns whether the choice turns one over.
 bool LoopForces::chooseOnFlanks(const std::vector<Wrench>& tree_reactions) {
   redundant_constraints_ = direction_count_;
   if (sound_ && cost_rows_ == 0 && efforts_follow_) return false;
+  if (sound_ && cost_rows_ == 0 && direction_count_ == 1) {
+    chooseAlong();
+    return false;
+  }
   startNorms();
   if (norms_.open() == 0) return false;
   const auto efforts = static_cast<Eigen::Index>(unknowns_.efforts.size());

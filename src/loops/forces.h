@@ -110,8 +110,9 @@ class LoopForces {
     const FrontState* states;
     const int* stairs;
     std::size_t width, sample;
+    bool chosen;  ///< whether efforts were chosen along the one change that was open
   };
-  /// Takes over a solution that leaves no choice.
+  /// Takes over a solution that leaves no other choice.
   /// @param whole the factorization, too, which direction() needs
   void takeSample(const PackedSolution& packed, bool whole);
 
@@ -126,6 +127,7 @@ class LoopForces {
   void bearLoad();
   void solveWhole(Eigen::Ref<Eigen::VectorXd> x) const;
   void choose(const std::vector<Wrench>& tree_reactions);
+  void chooseAlong();
   bool chooseOnFlanks(const std::vector<Wrench>& tree_reactions);
   bool effortsAreUnique();
   void startNorms();

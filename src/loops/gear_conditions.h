@@ -11,7 +11,8 @@ namespace virtual_work_dynamics {
 /// same in every position, and its integral (3.3) is a relation of coordinates whose constant is
 /// that of the assembly. The force at the pitch point is the multiplier along the tangent, with the
 /// shares along the axis and away from the other wheel that the teeth's angles demand; it loads the
-/// bearings and does no work.
+/// bearings and does no work. Teeth press the wheels apart with the magnitude of their force,
+/// whichever of their flanks bears: the unit wrench is that of the flank that bears above zero.
 class GearConditions : public ClosureConditions {
  public:
   /// @throws SceneError when the wheels do not stay at the distance of their radii with parallel
@@ -24,28 +25,15 @@ class GearConditions : public ClosureConditions {
   void setPosition(const LoopState& state, ConditionRows rows) const override;
   void setMotion(const LoopState&, ConditionRows) const override {}
 
-  /// The wrench of a multiplier, about the child frame's origin: teeth press the wheels apart with
-  /// the magnitude of their force, whichever of their flanks bears.
-  /// @param reversed whether it is that which a multiplier below zero presses on
-  ClosureWrench wrenchOf(double multiplier, bool reversed, const FramePair& frames) const;
-
  private:
-  // The pitch point and the directions there, root axes: tangent, axis, and away from the parent.
+  // See MeshNumber.
   struct Mesh {
-    Eigen::Vector3d point, along, axis, away;
+    Eigen::Vector3d lever, along, axis, away;
   };
-  Mesh meshOf(const FramePair& frames) const;
-  static FramePair framesOf(const LinkKinematics& links, const Frame& parent, const Frame& child);
   void check(const Mechanism& mechanism, const LinkKinematics& links);
 
-  struct Term {
-    int coordinate;
-    double factor;
-  };
-  const bool is_rack_;
-  const double parent_radius_, child_radius_;  // m; negative: teeth inside
-  const double radial_, axial_;                // shares of the tangential force
-  std::vector<Term> terms_;                    // of the row
+  std::vector<double> factors_;  // of the row, by coordinate
+  TeethShape teeth_;
 };
 
 }  // namespace virtual_work_dynamics

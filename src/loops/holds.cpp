@@ -12,6 +12,25 @@ namespace {
 // not close to singular.
 constexpr double kNoForce = 1e-10;
 
+// @param force(i) of the item's unknown i   @param determined(i) whether it is
+// @param rounding of forces
+template <typename Force, typename Determined>
+Hold judged(const LoopHolds::Item& item, double rounding, const Force& force,
+            const Determined& determined) {
+  if (!determined(item.acting)) return Hold::kNotDecidable;
+  const double acting = item.sign * force(item.acting);
+  if (acting < -rounding) return Hold::kWrongWay;
+  if (!item.friction) return Hold::kHolds;
+  double square = 0;
+  for (int i = item.along_begin; i < item.along_end; ++i) {
+    if (!determined(i)) return Hold::kNotDecidable;
+    const double along = force(i);
+    square += along * along;
+  }
+  const double most = *item.friction * acting;
+  return std::sqrt(square) <= most + rounding ? Hold::kHolds : Hold::kOutsideCone;
+}
+
 }  // namespace
 
 LoopHolds::LoopHolds(const Scene& scene, const LoopKinematics& kinematics,
@@ -44,19 +63,25 @@ Hold LoopHolds::judge(LoopForces& forces, const Item& item) {
   const Eigen::Index first = forces.firstUnknownOf(item.local);
   const double* const units = forces.unitsOf(item.local);
   const Eigen::VectorXd& x = forces.solution().x;
-  const double rounding = kNoForce * x.cwiseAbs().maxCoeff();
-  if (!forces.isDetermined(first + item.acting)) return Hold::kNotDecidable;
-  const double acting = item.sign * units[item.acting] * x[first + item.acting];
-  if (acting < -rounding) return Hold::kWrongWay;
-  if (!item.friction) return Hold::kHolds;
-  double square = 0;
-  for (int i = item.along_begin; i < item.along_end; ++i) {
-    if (!forces.isDetermined(first + i)) return Hold::kNotDecidable;
-    const double along = units[i] * x[first + i];
-    square += along * along;
-  }
-  const double most = *item.friction * acting;
-  return std::sqrt(square) <= most + rounding ? Hold::kHolds : Hold::kOutsideCone;
+  return judged(
+      item, kNoForce * x.cwiseAbs().maxCoeff(), [&](int i) { return units[i] * x[first + i]; },
+      [&](int i) { return forces.isDetermined(first + i); });
+}
+
+Hold LoopHolds::judge(const LoopForces& forces, const Item& item, const Packed& packed) {
+  if (item.acting < 0) return Hold::kHolds;  // it is lifted
+  const double* const units = forces.unitsOf(item.local);
+  const auto first = static_cast<std::size_t>(forces.firstUnknownOf(item.local));
+  const auto at = [&](const double* numbers, std::size_t i) {
+    return numbers[i * packed.width + packed.sample];
+  };
+  return judged(
+      item, kNoForce * packed.largest,
+      [&](int i) { return units[i] * at(packed.x, first + static_cast<std::size_t>(i)); },
+      [&](int i) {
+        const auto place = static_cast<std::size_t>(i - item.along_begin);
+        return !packed.null_squares || LoopForces::isUnique(at(packed.null_squares, place));
+      });
 }
 
 void LoopHolds::judge(std::vector<LoopForces>& forces, std::vector<Hold>& holds) const {

@@ -34,6 +34,18 @@ class LoopHolds {
   /// Judges the solutions of all groups. Does not allocate.
   void judge(std::vector<LoopForces>& forces, std::vector<Hold>& holds) const;
 
+  /// Forces of a group in a sample among those of a pack, of which `width` neighbouring numbers
+  /// belong together.
+  struct Packed {
+    const double* x;
+    /// Parts in the null space of the item's unknowns along the plane, then of the one that acts;
+    /// null where all are determined.
+    const double* null_squares;
+    double largest;  ///< of x, absolute
+    std::size_t width, sample;
+  };
+  static Hold judge(const LoopForces& forces, const Item& item, const Packed& packed);
+
  private:
   static Hold judge(LoopForces& forces, const Item& item);
 

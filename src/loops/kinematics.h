@@ -70,6 +70,16 @@ class LoopKinematics {
   /// before this call they demand nothing.
   void adoptConstants();
 
+  /// A condition that adopts its constant, and that constant.
+  struct Adopted {
+    Eigen::Index condition;
+    double constant;
+  };
+  std::size_t adopting() const { return adopting_.size(); }
+  Adopted adopted(std::size_t i) const {
+    return {adopting_[i], constants_[static_cast<Eigen::Index>(i)]};
+  }
+
   /// Computes what follows from positions and velocities alone.
   void setVelocity(const Eigen::VectorXd& qd);
   const Eigen::VectorXd& turning() const { return values_.turning; }  ///< Ad qd

@@ -22,8 +22,10 @@ struct LoopRows::Impl {
         samples(*workspace.impl_),
         motion(dynamics.coordinates(), dynamics.orientations()),
         alone(capacity, samples.results),
-        in_pack(capacity, false) {
-    if (!SamplePack::serves(plan)) return;
+        in_pack(capacity, false),
+        takes_whole(plan.reacts || plan.request.determinacy ||
+                    !plan.kinematics.touching().empty() || !plan.holds.items().empty()) {
+    if (!SamplePack::serves(plan) || choosesAmongSeveral()) return;
     pack.emplace(plan, samples.solvers);
     const Request& request = plan.request;
     if (request.determinacy || request.poses || request.twists) {
@@ -32,6 +34,20 @@ struct LoopRows::Impl {
     } else {
       packed.emplace(commonOfRows(), *pack, capacity);
     }
+  }
+
+  // Whether, in the assembly, several changes are open that efforts are chosen among, which packs
+  // do not do.
+  bool choosesAmongSeveral() {
+    samples.solvers.kinematics.setPosition(plan.assembly);
+    for (LoopForces& group : samples.solvers.forces) {
+      if (group.effortsFollow() || group.factorization().nullity() < 2) continue;
+      group.setPosition();
+      for (const LoopUnknowns::Effort& effort : group.efforts()) {
+        if (!group.isDetermined(effort.unknown)) return true;
+      }
+    }
+    return false;
   }
 
   PackedRows::Common commonOfRows() const {
@@ -77,8 +93,7 @@ struct LoopRows::Impl {
         continue;
       }
       tree->read(i, *tree_row);
-      pack->take(i, plan.reacts || plan.request.determinacy, samples.solvers,
-                 samples.results.loops);
+      pack->take(i, takes_whole, samples.solvers, samples.results.loops);
       samples.finish(loads ? loads[at + i] : plan.own_load, *tree_row);
       in_pack[at + i] = false;
       samples.exchange(alone[at + i]);
@@ -108,6 +123,7 @@ struct LoopRows::Impl {
   Motion motion;                     // of one row
   std::vector<Results> alone;        // by row: of those that are not in a pack
   std::vector<bool> in_pack;         // by row
+  const bool takes_whole;            // whether results need more of a pack than its forces
   std::optional<SamplePack> pack;    // where it serves
   std::optional<PackedRows> packed;  // where it reports everything
   std::optional<SampleBlock> tree;   // else, of a pack

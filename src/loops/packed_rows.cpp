@@ -116,6 +116,14 @@ const Results& PackedRows::read(std::size_t index) {
     loops.closure_conditions[c] = of_group;
   }
   next += record_.conditions * width_;
+  for (Hold& hold : loops.holds) {
+    hold = static_cast<Hold>(static_cast<int>(*next));
+    next += width_;
+  }
+  loops.determinacy.redundant_constraints = common_.usual.loops.determinacy.redundant_constraints;
+  for (std::size_t i = 0; i < record_.chosen; ++i, next += width_) {
+    loops.determinacy.redundant_constraints -= static_cast<int>(*next);
+  }
   take(record_.child_axes, numbersIn(shown_.child_axes));
   take(record_.root_axes, numbersIn(shown_.root_axes));
   return shown_;

@@ -1,6 +1,7 @@
 #include "loops/sample_pack.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace virtual_work_dynamics {
 
@@ -14,13 +15,15 @@ std::size_t blockNumbers(const MultifrontalQr& qr, std::size_t block) {
 
 // Calls take(count) for each array of a group, in the order of SamplePack::Group.
 template <typename Take>
-void visitArrays(const MultifrontalQr& qr, std::size_t efforts, Take take) {
+void visitArrays(const MultifrontalQr& qr, std::size_t null_squares, bool chooses, Take take) {
   for (std::size_t b = 0; b < qr.blocks(); ++b) take(blockNumbers(qr, b));
   take(qr.layout().numbers());
   take(static_cast<std::size_t>(qr.columns()));
   take(qr.layout().rows());
   take(1);
-  take(std::max<std::size_t>(efforts, 1));
+  take(std::max<std::size_t>(null_squares, 1));
+  take(chooses ? static_cast<std::size_t>(qr.rows()) : 0);
+  take(1);
 }
 
 }  // namespace
@@ -41,15 +44,16 @@ void LoopForces::takeSample(const PackedSolution& packed, bool whole) {
   sound_ = bears_ = true;
   turns_.clear();
   change_.shift.setZero();
-  direction_count_ = redundant_constraints_ = static_cast<Eigen::Index>(qr_.nullity());
+  direction_count_ = static_cast<Eigen::Index>(qr_.nullity());
+  redundant_constraints_ = packed.chosen ? 0 : direction_count_;
 }
 
 bool SamplePack::serves(const ClosedLoopDynamics::Impl& plan) {
   return plan.closures > 0 && plan.springs.size() == 0 && plan.actuated_closures.empty() &&
          !plan.weighed_pass && plan.loops.policy == RedundancyPolicy::kMinimumNorm &&
-         plan.kinematics.sets() == plan.closures && !plan.kinematics.drives() &&
-         plan.kinematics.touching().empty() && plan.kinematics.meshing().empty() &&
-         plan.mechanism.orientations() == 0 && !plan.request.can_hold && !plan.request.intervals;
+         plan.kinematics.sets() == plan.closures && plan.kinematics.conditions() > 0 &&
+         !plan.kinematics.drives() && plan.mechanism.orientations() == 0 &&
+         !plan.request.can_hold && !plan.request.intervals;
 }
 
 SamplePack::SamplePack(const ClosedLoopDynamics::Impl& plan, const LoopSolvers& solvers)
@@ -66,17 +70,20 @@ SamplePack::SamplePack(const ClosedLoopDynamics::Impl& plan, const LoopSolvers& 
               plan.request.residuals ? kResiduals * plan.closures : 0,
               plan.request.residuals ? kResiduals * plan.closures : 0,
               solvers.forces.size(),
+              plan.holds.items().size(),
+              solvers.forces.size(),
               kWrenchNumbers * plan.child_axes->size(),
               kWrenchNumbers * plan.root_axes->size()},
       memory_([&] {
         const LinksView view = solvers.kinematics.links().view();
         std::size_t count = 4 * coordinates_ + kLinkNumbers * links_ +
                             2 * static_cast<std::size_t>(view.angle_count + kMostAngleLanes) +
-                            conditions_ * (4 + coordinates_ + kWrenchNumbers) +
+                            conditions_ * (5 + coordinates_ + kWrenchNumbers) +
+                            plan.holds.items().size() +
                             plan.closures * (kFrameNumbers + kWrenchNumbers + 2 * kResiduals);
-        for (const LoopForces& forces : solvers.forces) {
-          visitArrays(forces.factorization(), forces.efforts().size(),
-                      [&](std::size_t size) { count += size; });
+        for (std::size_t g = 0; g < solvers.forces.size(); ++g) {
+          visitArrays(solvers.forces[g].factorization(), groupOf(g).unknowns.size(),
+                      choosesAlong(solvers.forces[g]), [&](std::size_t size) { count += size; });
         }
         return count * width_ * sizeof(double);
       }()),
@@ -100,11 +107,14 @@ SamplePack::SamplePack(const ClosedLoopDynamics::Impl& plan, const LoopSolvers& 
   frames_ = deal(kFrameNumbers * plan.closures);
   residuals_ = deal(2 * kResiduals * plan.closures);
   closures_ = deal(kWrenchNumbers * plan.closures);
-  for (const LoopForces& forces : solvers.forces) {
+  roundings_ = deal(conditions_);
+  holds_ = deal(plan.holds.items().size());
+  for (std::size_t g = 0; g < solvers.forces.size(); ++g) {
+    const LoopForces& forces = solvers.forces[g];
     const MultifrontalQr& qr = forces.factorization();
-    Group group;
+    Group group = groupOf(g);
     std::vector<double*> arrays;
-    visitArrays(qr, forces.efforts().size(),
+    visitArrays(qr, group.unknowns.size(), choosesAlong(forces),
                 [&](std::size_t size) { arrays.push_back(deal(size)); });
     const std::size_t blocks = qr.blocks();
     group.entries.assign(arrays.begin(), arrays.begin() + static_cast<std::ptrdiff_t>(blocks));
@@ -114,6 +124,9 @@ SamplePack::SamplePack(const ClosedLoopDynamics::Impl& plan, const LoopSolvers& 
     group.x = arrays[blocks + 2];
     group.condition = arrays[blocks + 3];
     group.null_square = arrays[blocks + 4];
+    group.null_vector = choosesAlong(forces) ? arrays[blocks + 5] : nullptr;
+    group.chosen = arrays[blocks + 6];
+    group.reached.resize(qr.layout().fronts().size());
     group.states.resize(qr.layout().fronts().size());
     group.stairs.resize(qr.layout().stairs());
     for (std::size_t b = 0; b < forces.effortBlocks(); ++b) {  // these never change
@@ -121,6 +134,30 @@ SamplePack::SamplePack(const ClosedLoopDynamics::Impl& plan, const LoopSolvers& 
     }
     groups_.push_back(std::move(group));
   }
+}
+
+// A group without its arrays.
+SamplePack::Group SamplePack::groupOf(std::size_t index) const {
+  const LoopForces& forces = solvers_.forces[index];
+  Group group{};
+  if (!forces.effortsFollow()) {
+    for (const LoopUnknowns::Effort& effort : forces.efforts()) {
+      group.unknowns.push_back(effort.unknown);
+    }
+  }
+  group.efforts = group.unknowns.size();
+  const bool open = forces.factorization().nullity() > 0;
+  const std::vector<LoopHolds::Item>& items = plan_.holds.items();
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (items[i].group != index || items[i].acting < 0) continue;
+    group.items.push_back(i);
+    const Eigen::Index first = forces.firstUnknownOf(items[i].local);
+    for (int j = items[i].along_begin; open && j < items[i].along_end; ++j) {
+      group.unknowns.push_back(first + j);
+    }
+    if (open) group.unknowns.push_back(first + items[i].acting);
+  }
+  return group;
 }
 
 void SamplePack::setMotion(const double* q, const double* qd, const double* qdd,
@@ -189,9 +226,27 @@ void SamplePack::findResiduals() {
                 accelerations_ + first);
     loops_.addMotion(rows, A_ + first, qd_, qdd_, rates_ + first, accelerations_ + first);
   }
+  subtractConstants();
   loops_.residuals(
       solvers_.residuals.view(),
       {{phi_, rates_, accelerations_}, qd_, qdd_, residuals_, residuals_ + record_.plain * width_});
+}
+
+// See LoopKinematics::setPosition().
+void SamplePack::subtractConstants() {
+  const LoopKinematics& kinematics = solvers_.kinematics;
+  for (const std::size_t c : kinematics.meshing()) {
+    const std::size_t first = static_cast<std::size_t>(kinematics.firstOf(c)) * width_;
+    loops_.sumTurns(*kinematics.closure(c).shape().teeth, q_, phi_ + first, roundings_ + first);
+  }
+  for (std::size_t i = 0; i < kinematics.adopting(); ++i) {
+    const LoopKinematics::Adopted adopted = kinematics.adopted(i);
+    const std::size_t first = static_cast<std::size_t>(adopted.condition) * width_;
+    for (std::size_t j = first; j < first + width_; ++j) {
+      phi_[j] -= adopted.constant;
+      if (std::abs(phi_[j]) <= roundings_[j]) phi_[j] = 0;
+    }
+  }
 }
 
 void SamplePack::solve(const LoopForces& forces, Group& group) {
@@ -219,32 +274,29 @@ void SamplePack::solve(const LoopForces& forces, Group& group) {
     for (std::size_t j = 0; j < width_; ++j) group.load[row * width_ + j] = effort[j] / unit;
   }
   fronts_.leastNorm(view, memory, group.load, group.x);
-  const std::size_t efforts = forces.effortsFollow() ? 0 : forces.efforts().size();
-  for (std::size_t i = 0; i < efforts; ++i) {
+  for (std::size_t i = 0; i < group.unknowns.size(); ++i) {
     const FrontLayout::RowPlace& place =
-        qr.layout().placeOf(static_cast<std::size_t>(forces.efforts()[i].unknown));
+        qr.layout().placeOf(static_cast<std::size_t>(group.unknowns[i]));
     fronts_.nullSquare(view, memory, place.front, place.row, group.null_square + i * width_);
   }
   judge(forces, group);
-  for (std::size_t c = 0; c < forces.group().closures.size(); ++c) {
-    const std::size_t closure = forces.group().closures[c];
-    const std::size_t first = static_cast<std::size_t>(kinematics.firstOf(closure)) * width_;
-    loops_.sumWrenches(kinematics.closure(closure).shape(), forces.unitsOf(c),
-                       group.x + static_cast<std::size_t>(forces.firstUnknownOf(c)) * width_,
-                       wrenches_ + kWrenchNumbers * first,
-                       closures_ + kWrenchNumbers * closure * width_);
-  }
+  if (group.null_vector) chooseEfforts(forces, memory, group);
+  judgeHolds(forces, group);
+  sumWrenches(forces, group);
 }
 
-// Leaves out samples whose rank is in doubt, or in which the null space changes efforts.
-void SamplePack::judge(const LoopForces& forces, const Group& group) {
-  const std::size_t efforts = forces.effortsFollow() ? 0 : forces.efforts().size();
-  for (std::size_t j = 0; j < width_; ++j) {
-    bool sure = group.condition[j] <= forces.sureCondition();
-    for (std::size_t i = 0; i < efforts; ++i) {
-      sure = sure && LoopForces::isUnique(group.null_square[i * width_ + j]);
-    }
-    if (!sure) computed_[j] = false;
+void SamplePack::sumWrenches(const LoopForces& forces, const Group& group) {
+  const LoopKinematics& kinematics = solvers_.kinematics;
+  for (std::size_t c = 0; c < forces.group().closures.size(); ++c) {
+    const std::size_t closure = forces.group().closures[c];
+    const ClosureShape& shape = kinematics.closure(closure).shape();
+    const std::size_t first = static_cast<std::size_t>(kinematics.firstOf(closure)) * width_;
+    const double* const x = group.x + static_cast<std::size_t>(forces.firstUnknownOf(c)) * width_;
+    double* const sum = closures_ + kWrenchNumbers * closure * width_;
+    loops_.sumWrenches(shape, forces.unitsOf(c), x, wrenches_ + kWrenchNumbers * first, sum);
+    if (!shape.teeth) continue;
+    loops_.takeFlank(shape, forces.unitsOf(c), x, x, frames_ + kFrameNumbers * closure * width_,
+                     sum);
   }
 }
 
@@ -273,10 +325,18 @@ void SamplePack::report(const TreeNumbers& tree, double* records) const {
     return here;
   };
   reportEfforts(tree, deal(record_.efforts));
-  loops_.closureLoads(static_cast<int>(plan_.closures), frames_, closures_, deal(record_.loads));
+  double* const loads = deal(record_.loads);
+  loops_.closureLoads(static_cast<int>(plan_.closures), frames_, closures_, loads);
+  for (const std::size_t c : solvers_.kinematics.touching()) {  // they act at points of the links
+    loops_.referToChild(solvers_.kinematics.closure(c).shape(), link_numbers_,
+                        frames_ + kFrameNumbers * c * width_,
+                        loads + 2 * kWrenchNumbers * c * width_);
+  }
   const std::size_t residuals = record_.plain + record_.relative;
   std::copy_n(residuals_, residuals * width_, deal(residuals));
   for (const Group& group : groups_) std::copy_n(group.condition, width_, deal(1));
+  std::copy_n(holds_, record_.holds * width_, deal(record_.holds));
+  for (const Group& group : groups_) std::copy_n(group.chosen, width_, deal(1));
   loops_.reactions(plan_.child_axes->view(), {link_numbers_, frames_, closures_, tree.child_axes,
                                               tree.stride, deal(record_.child_axes)});
   loops_.reactions(plan_.root_axes->view(), {link_numbers_, frames_, closures_, tree.root_axes,
@@ -289,9 +349,10 @@ void SamplePack::take(std::size_t sample, bool whole, LoopSolvers& solvers,
   if (plan_.request.residuals) takeResiduals(sample, results);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
-    solvers.forces[g].takeSample({group.x, closures_, group.condition, group.numbers,
-                                  group.states.data(), group.stairs.data(), width_, sample},
-                                 whole);
+    solvers.forces[g].takeSample(
+        {group.x, closures_, group.condition, group.numbers, group.states.data(),
+         group.stairs.data(), width_, sample, group.chosen[sample] > 0},
+        whole);
   }
 }
 

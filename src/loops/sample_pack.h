@@ -19,12 +19,13 @@ struct TreeNumbers {
 
 /// Closed loops of several samples side by side, each number in a vector of samples. What it finds
 /// is reported as records of numbers, or handed to the solvers of one sample, which go on from
-/// there. A sample whose rank is not full beyond doubt, or whose null space changes efforts, is
-/// left to them. Allocates in its constructor only.
+/// there. A sample whose rank is not full beyond doubt, or whose null space changes efforts and has
+/// more than one dimension, is left to them. Allocates in its constructor only.
 class SamplePack {
  public:
-  /// Whether samples of a plan can be computed so: its closures are all that it demands, none of
-  /// them is actuated, springs change no wrench, and no policy weighs reactions.
+  /// Whether samples of a plan can be computed so: its closures, wheels, contacts and teeth are all
+  /// that it demands, none of them is actuated, springs change no wrench, and no policy weighs
+  /// reactions.
   static bool serves(const ClosedLoopDynamics::Impl& plan);
 
   /// @param plan that it serves; must outlive it
@@ -51,9 +52,12 @@ class SamplePack {
     std::size_t plain;       ///< three of each ClosureResidual, where they are asked for
     std::size_t relative;    ///< as many
     std::size_t conditions;  ///< by group
+    std::size_t holds;       ///< by name, the number of a Hold
+    std::size_t chosen;      ///< by group, how many dimensions of its null space set efforts
     std::size_t child_axes, root_axes;
     std::size_t numbers() const {
-      return efforts + loads + plain + relative + conditions + child_axes + root_axes;
+      return efforts + loads + plain + relative + conditions + holds + chosen + child_axes +
+             root_axes;
     }
   };
   const Record& record() const { return record_; }
@@ -70,13 +74,28 @@ class SamplePack {
     double *numbers, *load, *x, *condition, *null_square;
     std::vector<FrontState> states;
     std::vector<int> stairs;
+    std::vector<std::size_t> items;  // of LoopHolds
+    // Unknowns whose parts in the null space are found: efforts that must not change, then those of
+    // items, where there is a null space.
+    std::vector<Eigen::Index> unknowns;
+    std::size_t efforts;
+    double *null_vector, *chosen;  // null_vector: null where none is needed
+    std::vector<bool> reached;     // by front
   };
+  Group groupOf(std::size_t index) const;
   ClosureNumbers numbersOf(std::size_t closure) const;
   void place();
   void findResiduals();
   void takeResiduals(std::size_t sample, LoopResults& results) const;
   void solve(const LoopForces& forces, Group& group);
+  void subtractConstants();
+  void sumWrenches(const LoopForces& forces, const Group& group);
+  static bool choosesAlong(const LoopForces& forces);
+  void findNullVector(const MultifrontalQr& qr, const FrontsMemory& memory, Group& group);
+  void chooseEfforts(const LoopForces& forces, const FrontsMemory& memory, Group& group);
+  bool isUnique(const Group& group, std::size_t sample) const;
   void judge(const LoopForces& forces, const Group& group);
+  void judgeHolds(const LoopForces& forces, const Group& group);
   void reportEfforts(const TreeNumbers& tree, double* to) const;
   double* numbers(std::size_t place) const {
     return static_cast<double*>(memory_.get()) + place * width_;
@@ -90,7 +109,7 @@ class SamplePack {
   Record record_;
   AlignedMemory memory_;
   double *q_, *qd_, *qdd_, *efforts_, *angles_, *link_numbers_, *phi_, *A_, *wrenches_, *frames_;
-  double *turning_, *rates_, *accelerations_, *residuals_, *closures_;
+  double *turning_, *rates_, *accelerations_, *residuals_, *closures_, *roundings_, *holds_;
   std::vector<Group> groups_;
   std::vector<bool> computed_;
 };

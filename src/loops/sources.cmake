@@ -27,6 +27,7 @@ vwd_core(
   loop_fit.cpp
   loop_rows.cpp
   nearest_closing.cpp
+  pack_choice.cpp
   packed_rows.cpp
   point_springs.cpp
   rank.cpp

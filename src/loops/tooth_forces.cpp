@@ -1,5 +1,4 @@
 #include "loops/forces.h"
-#include "loops/gear_conditions.h"
 
 namespace virtual_work_dynamics {
 
@@ -9,9 +8,9 @@ void LoopForces::setTeeth(State& state) const {
     const std::size_t c = group_.closures[local];
     if (!kinematics_.closure(c).traits().meshes()) continue;
     const Eigen::Index tooth = unknowns_.of_sets[local].first;
-    state.closures[local] = static_cast<const GearConditions&>(kinematics_.closure(c))
-                                .wrenchOf(entries_[local].units[0] * state.x[tooth],
-                                          solution_.x[tooth] < 0, kinematics_.frames(c));
+    kernel_->takeFlank(kinematics_.closure(c).shape(), entries_[local].units.data(),
+                       &state.x[tooth], &solution_.x[tooth], kinematics_.frames(c).R_P.data(),
+                       state.closures[local].force.data());
   }
 }
 

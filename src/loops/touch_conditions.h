@@ -20,27 +20,21 @@ class TouchConditions : public ClosureConditions {
   TouchConditions(const Mechanism& mechanism, const Closure& closure, const Frame& parent,
                   const Frame& child, std::vector<PathStep> path, std::vector<int> coordinates);
 
-  void setPosition(const LoopState& state, ConditionRows rows) const override;
-  void setMotion(const LoopState& state, ConditionRows rows) const override;
   LinkKinematics::Displacement displacedBy(const LinkKinematics& links, const FramePair& frames,
                                            const PathStep& step, double length) const override;
   const char* fault(const LinkKinematics& links, double least) const override;
 
  private:
-  /// The axes of the contact by columns, its point from C's origin, and how both change.
+  /// See ContactNumber.
   struct Contact {
-    Eigen::Matrix3d R, Rd = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d lever = Eigen::Vector3d::Zero(), leverd = lever;
+    Eigen::Matrix3d R, Rd;
+    Eigen::Vector3d lever, leverd;
   };
   /// @param w how C turns as P sees it, rad/s
-  Contact contactOf(const LinkKinematics& links, const Eigen::Matrix3d& R_P,
-                    const Eigen::Vector3d& w) const;
-  Contact wheelOn(const Eigen::Vector3d& normal, const Eigen::Vector3d& axle,
-                  const Eigen::Vector3d& w) const;
+  Contact contactOf(const LinkKinematics& links, const Eigen::Vector3d& w) const;
 
-  std::vector<Eigen::Vector3d> directions_;  // of the conditions, in axes of the contact
-  double radius_, tube_radius_;
-  bool has_axle_, has_normal_;
+  TouchShape touch_;
+  bool has_normal_;
 };
 
 }  // namespace virtual_work_dynamics

@@ -86,6 +86,7 @@ set(core_test_files
   test/core/loop_residuals_test.cpp
   test/core/mixed_invariance_test.cpp
   test/core/mixed_loops_accuracy_test.cpp
+  test/core/packed_touches_test.cpp
   test/core/mobile_base_test.cpp
   test/core/model_view_test.cpp
   test/core/moment_points_test.cpp

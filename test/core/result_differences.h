@@ -75,6 +75,7 @@ inline std::string differences(const Results& a, const Results& b) {
   compare("relative_residuals", loops.relative_residuals, others.relative_residuals);
   compare("actuated_positions", loops.actuated_positions, others.actuated_positions);
   compare("actuated_velocities", loops.actuated_velocities, others.actuated_velocities);
+  compareFlags("holds", loops.holds, others.holds);
   compare("tree_wrenches", loops.tree_wrenches, others.tree_wrenches);
   return names;
 }

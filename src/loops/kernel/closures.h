@@ -1,28 +1,13 @@
 #pragma once
 
 #include "loops/kernel/conditions.h"
-#include "loops/kernel/links.h"
+#include "loops/kernel/frames.h"
 #include "loops/kernel/reactions.h"
+#include "loops/kernel/teeth.h"
+#include "loops/kernel/touches.h"
 
 namespace virtual_work_dynamics {
 namespace {  // see loop_kernel.h
-
-using DemandKind = DemandShape::Kind;
-
-template <typename T>
-VWD_INLINE void placeFrame(const FrameShape& frame, const T* links, T* R, T* o) {
-  if (frame.link == 0) {
-    for (int i = 0; i < 9; i += 3) putVector(R + i, constantVector<T>(frame.R_LF + i));
-    putVector(o, constantVector<T>(frame.p_LoFo_L));
-    return;
-  }
-  const T* const link = links + frame.link * kLinkNumbers;
-  for (int i = 0; i < 9; i += 3) {
-    putVector(R + i, frame.parallel ? vectorAt(link + kLinkR + i)
-                                    : turnedBy(link + kLinkR, frame.R_LF + i));
-  }
-  putVector(o, vectorAt(link + kLinkO) + turnedBy(link + kLinkR, frame.p_LoFo_L));
-}
 
 template <typename T>
 VWD_INLINE void placeAlong(const DemandShape& demand, const Vec3<T>& r, const T* frames, T& phi,
@@ -116,36 +101,13 @@ struct UsualDemands {
   }
 };
 
-/// A row of A is the generalized force of the wrench that a multiplier of one exerts: (3.3),
-/// dPhi/dq.
-template <typename T>
-VWD_INLINE void placeColumns(const ClosureShape& shape, const T* links, const T* frames,
-                             const T* wrenches, T* A, std::size_t A_stride) {
-  const Vec3<T> Co = vectorAt(frames + kFrameCo);
-  for (int k = 0; k < shape.step_count; ++k) {
-    const StepShape& step = shape.steps[k];
-    const T* const link = links + step.link * kLinkNumbers;
-    const Vec3<T> along = scaled(step.factor, vectorAt(link + kLinkZ));
-    const Vec3<T> moved = step.slides ? along : cross(along, Co - vectorAt(link + kLinkO));
-    T* const column = A + static_cast<std::size_t>(step.coordinate) * A_stride;
-    for (int i = 0; i < shape.demand_count; ++i) {
-      const T* const wrench = wrenches + i * kWrenchNumbers;
-      T entry;
-      if (shape.demands[i].kind != DemandKind::kNormal) {
-        entry = dot(vectorAt(wrench), moved);
-      } else {
-        entry = step.slides ? T(0.0) : dot(vectorAt(wrench + 3), along);
-      }
-      column[i] = step.starts ? entry : column[i] + entry;
-    }
-  }
-}
-
 template <typename T>
 void placeClosure(const ClosureShape& shape, const double* link_numbers, const ClosureNumbers& to) {
   const T* const links = reinterpret_cast<const T*>(link_numbers);
   T* const frames = reinterpret_cast<T*>(to.frames);
   T* const wrenches = reinterpret_cast<T*>(to.wrenches);
+  if (shape.touch) return placeTouch(shape, links, to);
+  if (shape.teeth) return placeTeeth(shape, links, to);
   placeFrame(shape.parent, links, frames + kFrameP, frames + kFramePo);
   placeFrame(shape.child, links, frames + kFrameC, frames + kFrameCo);
   using Pin = UsualDemands<3, 2>;
@@ -156,49 +118,19 @@ void placeClosure(const ClosureShape& shape, const double* link_numbers, const C
   placeColumns(shape, links, frames, wrenches, reinterpret_cast<T*>(to.A), to.A_stride);
 }
 
-/// How a point of a link moves.
-template <typename T>
-struct PointMotion {
-  Vec3<T> v, w, a, alpha;
-};
-
-template <typename T>
-VWD_INLINE PointMotion<T> motionAt(const T* link, const Vec3<T>& point) {
-  PointMotion<T> at;
-  at.w = vectorAt(link + kLinkW);
-  at.alpha = vectorAt(link + kLinkAlpha);
-  const Vec3<T> r = point - vectorAt(link + kLinkO), turned = cross(at.w, r);
-  at.v = vectorAt(link + kLinkV) + turned;
-  at.a = addCross(addCross(vectorAt(link + kLinkA), at.alpha, r), at.w, turned);
-  return at;
-}
-
-/// The motion of C that an observer on P sees, who moves with the parent's link; w and alpha are in
-/// axes at rest.
-template <typename T>
-VWD_INLINE PointMotion<T> seenFromParent(const ClosureShape& shape, const T* links,
-                                         const T* frames) {
-  const Vec3<T> Po = vectorAt(frames + kFramePo), Co = vectorAt(frames + kFrameCo);
-  PointMotion<T> C{zeroVector<T>(), zeroVector<T>(), zeroVector<T>(), zeroVector<T>()};
-  if (shape.child.link > 0) C = motionAt(links + shape.child.link * kLinkNumbers, Co);
-  if (shape.parent.link == 0) return C;
-  const PointMotion<T> P = motionAt(links + shape.parent.link * kLinkNumbers, Po);
-  const Vec3<T> r = Co - Po, carried = cross(P.w, r);
-  PointMotion<T> seen;
-  seen.v = C.v - P.v - carried;
-  seen.a = C.a - P.a - cross(P.alpha, r) - cross(P.w, addScaled(carried, T(2.0), seen.v));
-  seen.w = C.w - P.w;
-  seen.alpha = C.alpha - P.alpha - cross(P.w, C.w);
-  return seen;
-}
-
 template <typename T>
 void moveClosure(const ClosureShape& shape, const double* link_numbers, const ClosureNumbers& to) {
   const T* const links = reinterpret_cast<const T*>(link_numbers);
   const T* const frames = reinterpret_cast<const T*>(to.frames);
   const T* const wrenches = reinterpret_cast<const T*>(to.wrenches);
   T* const turning = reinterpret_cast<T*>(to.turning);
-  const PointMotion<T> seen = seenFromParent(shape, links, frames);
+  if (shape.touch) return moveTouch(shape, links, to);
+  if (shape.teeth) {
+    turning[0] = T(0.0);  // its row is the same in every position
+    return;
+  }
+  const PointMotion<T> seen =
+      seenFromParent(shape, links, vectorAt(frames + kFramePo), vectorAt(frames + kFrameCo));
   for (int i = 0; i < shape.demand_count; ++i) {
     const DemandShape& demand = shape.demands[i];
     const Vec3<T> force = vectorAt(wrenches + i * kWrenchNumbers);
@@ -221,10 +153,11 @@ void moveClosure(const ClosureShape& shape, const double* link_numbers, const Cl
 
 template <int kWidth, typename T>
 constexpr LoopFunctions loopFunctions() {
-  return {placeLinks<kWidth, T>, moveLinks<T>,        placeClosure<T>,  moveClosure<T>,
-          addColumns<T>,         addMotion<T>,        scaleColumns<T>,  findResiduals<T>,
-          sumWrenches<T>,        findClosureLoads<T>, findReactions<T>, leaveOut,
-          reportWrench};
+  return {placeLinks<kWidth, T>, moveLinks<T>,     placeClosure<T>, moveClosure<T>,
+          sumTurns<T>,           addColumns<T>,    addMotion<T>,    scaleColumns<T>,
+          findResiduals<T>,      sumWrenches<T>,   takeFlank<T>,    referToChild<T>,
+          findClosureLoads<T>,   findReactions<T>, leaveOut,        reportWrench,
+          findContact,           findMesh};
 }
 
 /// @param kWidth samples of a pack, and angles of one sample side by side

@@ -167,6 +167,7 @@ void sumWrenches(const ClosureShape& shape, const double* units, const double* x
     const T multiplier = units[i] * x[i];
     const T* const unit = wrenches + i * kWrenchNumbers + part;
     for (int j = 0; j < 3; ++j) sum[part + j] = mulAdd(multiplier, unit[j], sum[part + j]);
+    for (int j = 3; shape.teeth && j < kWrenchNumbers; ++j) sum[j] = multiplier * unit[j];
   }
 }
 

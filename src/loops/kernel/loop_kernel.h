@@ -88,6 +88,39 @@ struct FrameShape {
   double R_LF[9], p_LoFo_L[3];
 };
 
+/// What touches a plane, see TouchConditions.
+struct TouchShape {
+  enum class Axes { kOfPlane, kOfWheel, kOfBlade };
+  Axes axes;  ///< whose the x of the contact is
+  double radius, tube_radius;
+  // Of the conditions, in axes of the contact, and whether they restrict positions.
+  double directions[3][3];
+  bool has_position[3];
+};
+
+/// How the axes of a contact lie, by columns, where it lies from the child's origin, and how both
+/// change.
+enum ContactNumber {
+  kContactR = 0,
+  kContactRd = 9,
+  kContactLever = 18,
+  kContactLeverd = 21,
+  kContactNumbers = 24
+};
+
+/// Teeth that mesh, see GearConditions.
+struct TeethShape {
+  bool is_rack;
+  double parent_radius, child_radius;
+  double radial, axial;    ///< shares of the tangential force
+  const int* coordinates;  ///< of the row's terms
+  const double* factors;
+  int terms;
+};
+
+/// Where teeth mesh: the pitch point from the child's origin, and the directions there.
+enum MeshNumber { kMeshLever = 0, kMeshAlong = 3, kMeshAxis = 6, kMeshAway = 9, kMeshNumbers = 12 };
+
 struct ClosureShape {
   FrameShape parent, child;
   const StepShape* steps;
@@ -95,6 +128,8 @@ struct ClosureShape {
   DemandShape demands[6];
   double length;
   int along;  ///< how many demands, the first, are kAlong where all others are kNormal; else -1
+  const TouchShape* touch;  ///< null where nothing touches; else its demands are kAlong
+  const TeethShape* teeth;  ///< null where no teeth mesh; else its demand is kAlong
 };
 
 /// The numbers of one closure's conditions.
@@ -194,10 +229,12 @@ struct LoopFunctions {
   void (*placeLinks)(const LinksView&, const double* q, double* angles, double* links);
   /// Sets v, w, a and alpha for qdd = 0.
   void (*moveLinks)(const LinksView&, const double* qd, double* links);
-  /// Sets phi, A, the wrenches' parts that differ from zero, and the frames.
+  /// Sets phi but for teeth, A, the wrenches' parts that differ from zero, and the frames.
   void (*placeClosure)(const ClosureShape&, const double* links, const ClosureNumbers&);
   /// Sets turning.
   void (*moveClosure)(const ClosureShape&, const double* links, const ClosureNumbers&);
+  /// Sets phi of teeth, and its roundings.
+  void (*sumTurns)(const TeethShape&, const double* q, double* phi, double* rounding);
   // In what follows A points to the first row of a set.
   /// Adds A u to sums.
   void (*addColumns)(const RowsShape&, const double* A, const double* u, double* sums);
@@ -212,6 +249,13 @@ struct LoopFunctions {
   /// Sums the wrenches of a closure's multipliers x, in units of their own, to six numbers.
   void (*sumWrenches)(const ClosureShape&, const double* units, const double* x,
                       const double* wrenches, double* sum);
+  /// Puts the wrench that teeth exert with the flank that bears below zero in place of the sum.
+  /// @param bearing below zero where it is this flank
+  void (*takeFlank)(const ClosureShape&, const double* units, const double* x,
+                    const double* bearing, const double* frames, double* sum);
+  /// Refers the wrench of what touches to the origin of the frame on the child's link.
+  void (*referToChild)(const ClosureShape&, const double* links, const double* frames,
+                       double* wrench);
   /// Sets two wrenches of each closure: on its child about the child frame's origin, and on its
   /// parent about the parent frame's.
   void (*closureLoads)(int closures, const double* frames, const double* wrenches, double* loads);
@@ -221,6 +265,10 @@ struct LoopFunctions {
   void (*leaveOut)(const ReactionShape&, const double* links, const double* frames, double* wrench);
   void (*report)(const ReactionShape&, bool child_axes, const double* links, const double* frames,
                  double* wrench);
+  // Of one sample, too: see ContactNumber and MeshNumber.
+  /// @param w how the child's frame turns as the parent sees it
+  void (*findContact)(const ClosureShape&, const double* links, const double* w, double* contact);
+  void (*findMesh)(const ClosureShape&, const double* frames, double* mesh);
 };
 
 struct LoopKernel {
