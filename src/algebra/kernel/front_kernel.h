@@ -41,7 +41,7 @@ struct FrontShape {
   int width;      ///< number of its columns
   int depth;      ///< most reflections
   int columns;    ///< in FrontsView::columns: its columns' places in the matrix
-  int stairs;     ///< in the stairs of a factorization: the column of each reflection
+  int stairs;     ///< in the stairs of a factorization: the first column of each step's row
   int blocks_begin, blocks_end;      ///< of FrontsView::blocks
   int children_begin, children_end;  ///< of FrontsView::children
   int parent;                        ///< itself where it has none
@@ -70,7 +70,8 @@ struct FrontsView {
 /// What a factorization finds out about a front; in a pack, for all matrices alike.
 struct FrontState {
   int rows;       ///< of its blocks and of its children's remaining rows
-  int steps;      ///< reflections
+  int steps;      ///< its first rows, which are those of R or are handed on
+  int reflected;  ///< how many steps reflect, the first ones
   int in_parent;  ///< where its remaining rows begin in the next front
 };
 

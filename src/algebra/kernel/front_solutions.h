@@ -23,10 +23,10 @@ struct FrontSolutions : Fronts<T, C, kSums> {
     subtract(front.factors[step] * dot(v, front.z, from, rows), v, front.z, from, rows);
   }
   VWD_INLINE static void applyQ(const Front& front) {
-    for (int step = front.reflected(); step-- > 0;) reflectVector(front, step);
+    for (int step = front.state.reflected; step-- > 0;) reflectVector(front, step);
   }
   VWD_INLINE static void applyQTransposed(const Front& front) {
-    for (int step = 0; step < front.reflected(); ++step) reflectVector(front, step);
+    for (int step = 0; step < front.state.reflected; ++step) reflectVector(front, step);
   }
 
   static void reflectBack(const FrontsView& view, const FrontsMemory& memory, int f) {

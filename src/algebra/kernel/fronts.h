@@ -60,8 +60,6 @@ struct Fronts {
     VWD_INLINE int remaining() const { return state.steps - shape.pivots; }
     /// Whether a step has one row only, which is one of R as it is.
     VWD_INLINE bool isAlone(int step) const { return step + 1 == state.rows; }
-    /// Steps that reflect.
-    VWD_INLINE int reflected() const { return state.steps - (state.steps == state.rows); }
   };
 
   /// The first row of the chunk that has a row.
@@ -134,7 +132,7 @@ struct Fronts {
       }
     }
     front.state.rows = row;
-    front.state.steps = 0;
+    front.state.steps = front.state.reflected = 0;
   }
 
   /// Copies what a column has from row `step` on into the reflection of that step.
@@ -169,6 +167,7 @@ struct Fronts {
     front.stairs[step] = column;
     ++front.state.steps;
     if (front.isAlone(step)) return;
+    ++front.state.reflected;
     T* const head = front.column(column) + step;
     T* const v = front.reflection(step);
     const int from = chunkWith(step);
@@ -201,10 +200,15 @@ struct Fronts {
   }
 
   /// Reflects the rows below the pivots into as few rows as their entries allow; the other rows
-  /// then have no entries.
+  /// then have no entries. Where they are no more than the columns, reflections could only find
+  /// that they depend on each other, which later fronts do as well: they are handed on as they are.
   VWD_INLINE static Factorized compress(const Front& front, int rows) {
     const FrontShape& shape = front.shape;
     if (shape.width == shape.pivots) return Factorized::kWhole;
+    if (front.state.rows <= shape.width) {
+      while (front.state.steps < front.state.rows) front.stairs[front.state.steps++] = shape.pivots;
+      return Factorized::kWhole;
+    }
     T longest = T(0.0);
     for (int j = shape.pivots; j < shape.width; ++j) {
       longest = largerOf(dot(front.column(j), front.column(j), 0, rows), longest);

@@ -64,6 +64,7 @@ struct SmallFront {
     C columns[kWidth];
     for (int j = 0; j < kWidth; ++j) columns[j] = load<C>(front.column(j));
     front.state.steps = kWidth;
+    front.state.reflected = kWidth - (front.isAlone(kWidth - 1) ? 1 : 0);
     return eliminate<0>(front, columns) ? Factorized::kWhole : Factorized::kDependent;
   }
 
