@@ -14,8 +14,13 @@ constexpr double kAbsent = 1e-9;
 // what redundant conditions disagree by.
 constexpr double kRank = 1e-7;
 constexpr int kMostSteps = 10;
-// Step, in standard deviations, that ends the search for positions.
-constexpr double kLastStep = 1e-7;
+// Step, in standard deviations, or rad or over the length, that ends the search for positions.
+constexpr double kLastStep = 1e-7, kRounding = 1e-14;
+// Deviations of positions below which nothing is known of the noise, rad or over the length: a
+// joint has not moved yet, or is simulated. Moves are judged by these then, of velocities
+// relative to the largest.
+constexpr double kUnknown = 1e-9;
+constexpr double kUnknownPosition = 1e-3, kUnknownVelocity = 1e-2;
 
 }  // namespace
 
@@ -34,17 +39,16 @@ LoopFit::Group::Group(const LoopGroup& loops, const LoopKinematics& kinematics)
   found.setZero(width);
 }
 
-LoopFit::LoopFit(const Mechanism& mechanism, const LoopKinematics& kinematics, double length,
-                 double most)
+LoopFit::LoopFit(const Mechanism& mechanism, const LoopKinematics& kinematics, double length)
     : kinematics_(kinematics),
       row_scales_(kinematics.conditions()),
-      column_scales_(static_cast<Eigen::Index>(mechanism.coordinates().size())),
-      most_(most) {
+      column_scales_(static_cast<Eigen::Index>(mechanism.coordinates().size())) {
   for (const LoopGroup& group : loopGroups(mechanism, kinematics_)) {
     groups_.emplace_back(group, kinematics_);
   }
   for (Eigen::Index i = 0; i < row_scales_.size(); ++i) {
     row_scales_[i] = 1 / scaleOf(kinematics_.condition(i).unit, length);
+    rates_alone_ = rates_alone_ || !kinematics_.condition(i).has_position;
   }
   for (Eigen::Index i = 0; i < column_scales_.size(); ++i) {
     column_scales_[i] = scaleOf(mechanism.unitOf(static_cast<int>(i)), length);
@@ -53,25 +57,57 @@ LoopFit::LoopFit(const Mechanism& mechanism, const LoopKinematics& kinematics, d
   residuals_ = row_scales_;
 }
 
-bool LoopFit::fit(Motion& motion, const MotionCovariance& covariance, bool rates) {
+bool LoopFit::fit(Motion& motion, const MotionCovariance* covariance, const Eigen::VectorXd& noise,
+                  bool rates, double nearly) {
   farthest_ = Farthest();
-  setDeviations(covariance, 0);
-  const bool closes = fitPositions(motion.q);
+  for (int level = 0; level < 2; ++level) {
+    squares_[level] = 0;
+    counted_[level] = 0;
+  }
+  setKnown(covariance);
+  setDeviations(covariance, noise, 0);
   kinematics_.setPosition(motion.q);
-  if (!closes || !rates) return closes;
-  setDeviations(covariance, 1);
+  const bool closed = isNearlyClosed(nearly) && fitPositions(motion.q);
+  kinematics_.setPosition(motion.q);
+  if (closed && covariance) judge(0, 1);
+  if (!rates) return closed;
+  setDeviations(covariance, noise, 1);
   kinematics_.setMotion(motion);
-  if (!fitRates(motion.qd, kinematics_.rates())) return false;
-  setDeviations(covariance, 2);
+  const double size = largest(motion.qd);
+  fitRates(motion.qd, kinematics_.rates());
+  if (covariance) judge(1, size);
+  setDeviations(covariance, noise, 2);
   kinematics_.setMotion(motion);
-  return fitRates(motion.qdd, kinematics_.accelerations());
+  fitRates(motion.qdd, kinematics_.accelerations());
+  return closed;
 }
 
-void LoopFit::setDeviations(const MotionCovariance& covariance, int level) {
-  level_ = level;
-  for (std::size_t i = 0; i < covariance.coordinates.size(); ++i) {
-    const double variance = covariance.coordinates[i](level, level);
-    deviations_[static_cast<Eigen::Index>(i)] = std::sqrt(std::max(variance, 0.0));
+double LoopFit::rms(int level) const {
+  const Eigen::Index count = counted_[level];
+  return count == 0 ? 0 : std::sqrt(squares_[level] / static_cast<double>(count));
+}
+
+void LoopFit::setKnown(const MotionCovariance* covariance) {
+  for (Group& group : groups_) {
+    group.known = covariance != nullptr;
+    for (const int i : group.coordinates) {
+      if (!group.known) break;
+      const double variance = covariance->coordinates[static_cast<std::size_t>(i)](0, 0);
+      const double least = kUnknown * column_scales_[i];
+      group.known = variance == 0 || variance > least * least;
+    }
+  }
+}
+
+void LoopFit::setDeviations(const MotionCovariance* covariance, const Eigen::VectorXd& noise,
+                            int level) {
+  deviations_ = column_scales_;
+  for (Eigen::Index i = 0; covariance && i < deviations_.size(); ++i) {
+    const double variance = covariance->coordinates[static_cast<std::size_t>(i)](level, level);
+    deviations_[i] = std::sqrt(std::max(variance, 0.0));
+    if (level == 0 && variance > 0 && noise.size() > 0) {
+      deviations_[i] = std::max(deviations_[i], noise[i]);
+    }
   }
 }
 
@@ -82,7 +118,7 @@ double LoopFit::entry(Eigen::Index condition, int coordinate) const {
 }
 
 // Sets `found`, in standard deviations, to the least that meets the conditions of a group. Returns
-// false where they cannot be compared.
+// false where that is no number.
 bool LoopFit::solve(Group& group, const Eigen::VectorXd& residuals, bool positions) {
   for (std::size_t row = 0; row < group.conditions.size(); ++row) {
     const auto r = static_cast<Eigen::Index>(row);
@@ -108,66 +144,80 @@ bool LoopFit::solve(Group& group, const Eigen::VectorXd& residuals, bool positio
   return group.found.allFinite();
 }
 
-bool LoopFit::isLikely(const Group& group) {
-  bool likely = true;
-  for (std::size_t k = 0; k < group.coordinates.size(); ++k) {
-    const double deviations = std::abs(group.found[static_cast<Eigen::Index>(k)]);
-    likely = likely && deviations <= most_;
-    if (!(deviations > farthest_.deviations)) continue;
-    farthest_ = {deviations, group.coordinates[k], level_};
-  }
-  return likely;
+bool LoopFit::isNearlyClosed(double nearly) const {
+  return (row_scales_.array() * kinematics_.phi().array()).abs().maxCoeff() <= nearly;
 }
 
 // Each step is the least move from the measured position, not from where the step before ended, to
 // where the conditions are met that are linear about the latter.
 bool LoopFit::fitPositions(Eigen::VectorXd& q) {
   moved_.setZero();
-  kinematics_.setPosition(q);
-  bool likely = false;
   for (int steps = 0; steps < kMostSteps; ++steps) {
     residuals_.noalias() = kinematics_.jacobian() * moved_;
     residuals_ = kinematics_.phi() - residuals_;
-    likely = true;
-    double longest = 0;
-    farthest_ = Farthest();
-    step_ = moved_;
+    bool arrived = true;
     for (Group& group : groups_) {
       if (!solve(group, residuals_, true)) return false;
-      likely = isLikely(group) && likely;
       for (std::size_t k = 0; k < group.coordinates.size(); ++k) {
         const int coordinate = group.coordinates[k];
+        if (deviations_[coordinate] == 0) continue;
         const double move = deviations_[coordinate] * group.found[static_cast<Eigen::Index>(k)];
-        if (deviations_[coordinate] > 0) {
-          longest =
-              std::max(longest, std::abs(move - moved_[coordinate]) / deviations_[coordinate]);
-        }
-        step_[coordinate] = move;
+        const double last =
+            std::max(kLastStep * deviations_[coordinate], kRounding * column_scales_[coordinate]);
+        arrived = arrived && std::abs(move - moved_[coordinate]) <= last;
+        moved_[coordinate] = move;
       }
     }
-    if (!likely) return false;
-    moved_.swap(step_);
     step_ = q + moved_;
     kinematics_.setPosition(step_);
-    if (longest <= kLastStep) break;
+    if (!arrived) continue;
+    q = step_;
+    return true;
   }
-  q += moved_;
-  return true;
+  return false;
 }
 
-bool LoopFit::fitRates(Eigen::VectorXd& rates, const Eigen::VectorXd& residuals) {
-  bool likely = true;
+void LoopFit::fitRates(Eigen::VectorXd& rates, const Eigen::VectorXd& residuals) {
   for (Group& group : groups_) {
-    likely = solve(group, residuals, false) && isLikely(group) && likely;
-  }
-  if (!likely) return false;
-  for (const Group& group : groups_) {
+    if (!solve(group, residuals, false)) {
+      group.found.setZero();
+      continue;
+    }
     for (std::size_t k = 0; k < group.coordinates.size(); ++k) {
       const int coordinate = group.coordinates[k];
       rates[coordinate] += deviations_[coordinate] * group.found[static_cast<Eigen::Index>(k)];
     }
   }
-  return true;
+}
+
+double LoopFit::largest(const Eigen::VectorXd& rates) const {
+  double most = 0;
+  for (const Group& group : groups_) {
+    for (const int i : group.coordinates) {
+      most = std::max(most, std::abs(rates[i]) / column_scales_[i]);
+    }
+  }
+  return most;
+}
+
+// Takes note of the moves of a level. @param size 1, or the largest velocity
+void LoopFit::judge(int level, double size) {
+  for (const Group& group : groups_) {
+    const double least =
+        group.known ? 0 : size * (level == 0 ? kUnknownPosition : kUnknownVelocity);
+    for (std::size_t k = 0; k < group.coordinates.size(); ++k) {
+      const int i = group.coordinates[k];
+      const double move = deviations_[i] * group.found[static_cast<Eigen::Index>(k)];
+      if (move == 0) continue;
+      const double deviations =
+          std::abs(move) / std::max(deviations_[i], least * column_scales_[i]);
+      squares_[level] += deviations * deviations;
+      if (!(deviations > farthest_.deviations)) continue;
+      farthest_ = {deviations, i, level, std::abs(move),
+                   std::abs(move) / column_scales_[i] / (size > 0 ? size : 1)};
+    }
+    counted_[level] += group.rows.rank();
+  }
 }
 
 }  // namespace virtual_work_dynamics

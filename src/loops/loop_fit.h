@@ -21,18 +21,27 @@ class LoopFit {
  public:
   /// @param kinematics conditions that are at the assembly; copied
   /// @param length makes lengths comparable with angles, m
-  /// @param most deviations that a coordinate may be moved by
-  LoopFit(const Mechanism& mechanism, const LoopKinematics& kinematics, double length, double most);
+  LoopFit(const Mechanism& mechanism, const LoopKinematics& kinematics, double length);
 
-  /// Positions, then velocities and accelerations if `rates`. Returns false at the first level at
-  /// which a coordinate would have to be moved further; it and those after it stay.
-  bool fit(Motion& motion, const MotionCovariance& covariance, bool rates);
-  /// What was, or would have been, moved the most by the latest fit().
+  /// Whether there are conditions on rates alone.
+  bool hasRatesAlone() const { return rates_alone_; }
+
+  /// Fits a motion, see MotionFit::fit(). Returns false where the positions leave the conditions
+  /// open by more than `nearly`, rad or over the length, or cannot be closed; they then stay.
+  bool fit(Motion& motion, const MotionCovariance* covariance, const Eigen::VectorXd& noise,
+           bool rates, double nearly);
+
+  /// The move of a position or velocity that is the largest in deviations.
   struct Farthest {
     double deviations = 0;
     int coordinate = -1, level = 0;
+    double amount = 0;    ///< rad or m, per s
+    double relative = 0;  ///< rad or over the length, of a velocity relative to the largest
   };
   const Farthest& farthest() const { return farthest_; }
+  /// Root of the mean square of the moves of a level, 0 or 1, in deviations, for each condition
+  /// that counts.
+  double rms(int level) const;
 
  private:
   struct Group {
@@ -42,23 +51,29 @@ class LoopFit {
     RankFactorization rows;
     Eigen::MatrixXd G;  // conditions x coordinates, by standard deviations; rows of length 1
     Eigen::VectorXd right, found;
+    bool known = true;  // whether the noise of all its coordinates is known
   };
+  void setKnown(const MotionCovariance* covariance);
+  void setDeviations(const MotionCovariance* covariance, const Eigen::VectorXd& noise, int level);
   double entry(Eigen::Index condition, int coordinate) const;
   bool solve(Group& group, const Eigen::VectorXd& residuals, bool positions);
+  bool isNearlyClosed(double nearly) const;
   bool fitPositions(Eigen::VectorXd& q);
-  bool fitRates(Eigen::VectorXd& rates, const Eigen::VectorXd& residuals);
-  void setDeviations(const MotionCovariance& covariance, int level);
-  bool isLikely(const Group& group);
+  void fitRates(Eigen::VectorXd& rates, const Eigen::VectorXd& residuals);
+  double largest(const Eigen::VectorXd& rates) const;
+  void judge(int level, double size);
 
   LoopKinematics kinematics_;
   std::vector<Group> groups_;
-  Eigen::VectorXd row_scales_;     // by condition: 1, or one over the length
-  Eigen::VectorXd column_scales_;  // by coordinate: 1, or the length
-  Eigen::VectorXd deviations_;     // by coordinate, of the level at hand
-  int level_ = 0;
+  bool rates_alone_ = false;
+  Eigen::VectorXd row_scales_;                // by condition: 1, or one over the length
+  Eigen::VectorXd column_scales_;             // by coordinate: 1, or the length
+  Eigen::VectorXd deviations_;                // by coordinate, of the level at hand
   Eigen::VectorXd step_, moved_, residuals_;  // by coordinate, by coordinate, by condition
-  double most_;
   Farthest farthest_;
+  // By level: sums of squares of moves in deviations, and the conditions that these were for.
+  double squares_[2] = {0, 0};
+  Eigen::Index counted_[2] = {0, 0};
 };
 
 }  // namespace virtual_work_dynamics

@@ -80,6 +80,11 @@ struct Level {
   double ClosureResidual::*residual;
 };
 
+// Rows from which the noise of a recording can be told.
+constexpr std::size_t kFewestKnown = 16;
+// Less than any that is known.
+constexpr double kUnknownVariance = 1e-24;
+
 constexpr Level kLevels[] = {{"positions", "m or rad", &ClosureResidual::position},
                              {"velocities", "m/s or rad/s", &ClosureResidual::velocity},
                              {"accelerations", "m/s^2 or rad/s^2", &ClosureResidual::acceleration}};
@@ -100,7 +105,7 @@ CompletedMotion::CompletedMotion(RecordedMotion recorded, const Mechanism& mecha
   positions_follow_ = !GivenJoints::givesAll(recorded.given);
   const bool estimates = !file_.table.hasAccelerations();
   if (!positions_follow_ && estimates && recorded.drives.empty() && !scene.static_motion) {
-    fit_.emplace(mechanism, dynamics);
+    fit_.emplace(mechanism, dynamics, tolerance);
     if (!fit_->any()) fit_.reset();
   }
   if (!fit_ && (dynamics.closuresDetermine() || positions_follow_) && !scene.static_motion) {
@@ -112,6 +117,7 @@ CompletedMotion::CompletedMotion(RecordedMotion recorded, const Mechanism& mecha
   if (fit_) completion.covariances = true;
   completion.other_columns = recorded.drivenColumns() > 0;
   completeDerivatives(mechanism, scene, completion, file_);
+  if (fit_) setNoise(mechanism);
   completeRoots(mechanism, scene, completion, file_);
   driven_ = takenFrom(file_.table, recorded.drivenColumns());
   const DrivenRows& drives = recorded.drives;
@@ -162,17 +168,28 @@ void CompletedMotion::complete(std::size_t row, const Dynamics& dynamics,
   if (accelerations_follow_) table.accelerations.row(index) = row_.qdd;
 }
 
+void CompletedMotion::setNoise(const Mechanism& mechanism) {
+  noise_.setZero(row_.q.size());
+  for (std::size_t i = 0; i < file_.noises.size(); ++i) {
+    const int coordinate = mechanism.coordinateIndex(file_.table.joints[i]);
+    noise_[coordinate] = file_.noises[i];
+    measured_.push_back(static_cast<std::size_t>(coordinate));
+  }
+}
+
 void CompletedMotion::fit(std::size_t row) {
   MotionTable& table = file_.table;
   takeRow(table, row, row_);
   const std::size_t count = table.joints.size();
   const auto first = table.covariances.begin() + static_cast<std::ptrdiff_t>(row * count);
   covariance_.coordinates.assign(first, first + static_cast<std::ptrdiff_t>(count));
-  ++(fit_->fit(row_, covariance_) ? fitted_.rows : fitted_.unexplained);
-  if (fit_->farthest().deviations > fitted_.farthest.deviations) {
-    fitted_.farthest = fit_->farthest();
-    fitted_.farthest_row = row;
+  // The noise of a joint that does not move is not known, but it is not exact.
+  for (const std::size_t i : measured_) {
+    Eigen::Matrix3d& own = covariance_.coordinates[i];
+    if (own.isZero(0)) own = kUnknownVariance * Eigen::Matrix3d::Identity();
   }
+  const bool known = table.times.size() >= kFewestKnown;
+  fitted_.add(fit_->fit(row_, known ? &covariance_ : nullptr, noise_));
   const auto index = static_cast<Eigen::Index>(row);
   table.positions.row(index) = row_.q;
   table.velocities.row(index) = row_.qd;
@@ -180,26 +197,9 @@ void CompletedMotion::fit(std::size_t row) {
 }
 
 std::string CompletedMotion::fitNote(const Mechanism& mechanism) const {
-  if (fitted_.farthest.coordinate < 0) return "";
-  static const char* const kOne[] = {"position", "velocity", "acceleration"};
-  const auto coordinate = static_cast<std::size_t>(fitted_.farthest.coordinate);
-  std::ostringstream text;
-  text.precision(3);
-  const bool explained = fitted_.unexplained == 0;
-  text << (explained ? "note: " : "warning: ") << printable(file_.path) << ": ";
-  if (explained) {
-    text << fitted_.rows << (fitted_.rows == 1 ? " row" : " rows")
-         << " fitted to the closed loops: ";
-  } else {
-    text << fitted_.unexplained << (fitted_.unexplained == 1 ? " row violates" : " rows violate")
-         << " a closed loop by more than noise explains: ";
-  }
-  text << "the " << kOne[fitted_.farthest.level] << " of "
-       << inQuotes(mechanism.coordinateNames()[coordinate]) << " the most, by "
-       << fitted_.farthest.deviations << " of its standard deviations, in "
-       << file_.place(fitted_.farthest_row);
-  if (!explained) text << "; wheels slip, or dimensions or zeros of encoders are wrong";
-  return text.str() + "\n";
+  if (fitted_.fitted == 0) return "";
+  return (fitted_.doubtful() ? "warning: " : "note: ") + printable(file_.path) + ": " +
+         fitted_.text(mechanism, "row", "rows") + "\n";
 }
 
 void CompletedMotion::check(std::size_t row, const Results& computed) const {
@@ -207,12 +207,13 @@ void CompletedMotion::check(std::size_t row, const Results& computed) const {
     for (const Level& level : kLevels) {
       const double relative = computed.loops.relative_residuals[i].*level.residual;
       if (relative <= tolerance_) continue;
-      // What noise does not explain is told by fitNote(); it would be wrong to take positions so.
+      // Rates that are estimated may miss near singular positions.
       if (fit_ && level.residual != &ClosureResidual::position) continue;
       std::ostringstream text;
       text << file_.at(row) << ": the " << level.name << " violate " << closures_[i] << " by "
            << computed.loops.residuals[i].*level.residual << " " << level.unit << ", " << relative
            << " relative; the tolerance is " << tolerance_;
+      if (fit_) text << "; it is too much to be fitted: zeros of encoders or dimensions are wrong";
       throw FileError(text.str());
     }
   }

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "dynamics/fit_summary.h"
 #include "offline/motion_file.h"
 #include "offline/recorded_motion.h"
 #include "virtual_work_dynamics/dynamics.h"
@@ -49,6 +51,7 @@ class CompletedMotion {
   std::string fitNote(const Mechanism& mechanism) const;
 
  private:
+  void setNoise(const Mechanism& mechanism);
   void fit(std::size_t row);
 
   std::vector<std::string> closures_;  // and couplings, as messages name them
@@ -60,11 +63,10 @@ class CompletedMotion {
   Motion row_, driven_row_;
   PassiveJoints passive_;
   std::optional<MotionFit> fit_;
-  MotionCovariance covariance_;  // of a row that is fitted
-  struct Fitted {
-    std::size_t rows = 0, unexplained = 0, farthest_row = 0;
-    MotionFit::Farthest farthest;
-  } fitted_;
+  MotionCovariance covariance_;        // of a row that is fitted
+  std::vector<std::size_t> measured_;  // coordinates that the file has
+  Eigen::VectorXd noise_;              // of single positions, by coordinate
+  FitSummary fitted_;
 };
 
 }  // namespace virtual_work_dynamics

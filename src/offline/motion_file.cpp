@@ -289,6 +289,9 @@ void completeDerivatives(const Mechanism& mechanism, const Scene& scene,
             << "\n";
   describeEstimate(mechanism, motion, table.joints, report);
   motion.one_sided = std::move(report.one_sided_rows);
+  for (const StreamQuality& quality : report.qualities) {
+    motion.noises.push_back(quality.position_noise);
+  }
 }
 
 }  // namespace virtual_work_dynamics

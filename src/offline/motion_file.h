@@ -23,6 +23,8 @@ struct MotionFile {
   std::vector<std::size_t> lines;       ///< by row
   std::vector<std::int64_t> stamps_ns;  ///< by row, as recorded; empty: the file has none
 
+  /// By column: standard deviation of positions, rad or m; empty: not estimated.
+  std::vector<double> noises;
   std::vector<bool> one_sided;  ///< by row: estimated near an end or a gap; empty: not estimated
 
   /// Names the place of a row: "line n".

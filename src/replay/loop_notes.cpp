@@ -59,20 +59,10 @@ std::string worstViolation(const LoopRecord::Report& report, const Dynamics& dyn
          " the most, by " + digits(worst) + " relative";
 }
 
-// How far samples were moved to meet the loops, or why not.
-std::string fitText(const LoopRecord::Report& report, const Names& coordinates) {
-  constexpr const char* kOne[LoopRecord::kLevels] = {"position", "velocity", "acceleration"};
-  const MotionFit::Farthest& farthest = report.farthest;
-  if (farthest.coordinate < 0) return "";
-  return std::string("the ") + kOne[farthest.level] + " of " +
-         inQuotes(coordinates[static_cast<std::size_t>(farthest.coordinate)]) + " the most, by " +
-         digits(farthest.deviations) + " of its standard deviations";
-}
-
 }  // namespace
 
 std::string loopNotes(const LoopRecord::Report& report, const Dynamics& dynamics,
-                      const Names& coordinates, const Names& reactions, const LoopLimits& limits,
+                      const Mechanism& mechanism, const Names& reactions, const LoopLimits& limits,
                       const std::string& where) {
   std::string text;
   const auto add = [&](const char* kind, const std::string& line) {
@@ -88,14 +78,9 @@ std::string loopNotes(const LoopRecord::Report& report, const Dynamics& dynamics
                                              kFindings[hold] + " in " + samples(count));
     }
   }
-  if (report.unexplained > 0) {
-    add("warning: ",
-        samples(report.unexplained) + (report.unexplained == 1 ? " violates" : " violate") +
-            " a closed loop by more than noise explains: " + fitText(report, coordinates) +
-            "; wheels slip, or dimensions or zeros of encoders are wrong");
-  } else if (report.fitted > 0) {
-    add("note: ",
-        samples(report.fitted) + " fitted to the closed loops: " + fitText(report, coordinates));
+  if (report.fit.fitted > 0) {
+    add(report.fit.doubtful() ? "warning: " : "note: ",
+        report.fit.text(mechanism, "sample", "samples"));
   }
   if (report.violations > 0) {
     add("warning: ", samples(report.violations) +

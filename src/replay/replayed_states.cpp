@@ -376,8 +376,8 @@ std::string ReplayedStates::report(const std::string& where) {
   for (const auto& [topic, happenings] : happenings_) {
     text += happenings.report(where + ": " + topic);
   }
-  return text + loopNotes(loops_.take(), task_.everything, task_.mechanism.coordinateNames(),
-                          task_.reactions, loop_limits_, where);
+  return text + loopNotes(loops_.take(), task_.everything, task_.mechanism, task_.reactions,
+                          loop_limits_, where);
 }
 
 std::string ReplayedStates::messages() const {

@@ -20,7 +20,8 @@ JointStateComputation::JointStateComputation(const Mechanism& mechanism,
       samples_(samples),
       counters_(counters),
       user_(user),
-      covariance_(samples.makeCovariance()) {}
+      covariance_(samples.makeCovariance()),
+      noise_(Eigen::VectorXd::Zero(samples.motion().q.size())) {}
 
 bool JointStateComputation::take(const sensor_msgs::JointState& message) {
   JointSample sample;
@@ -107,10 +108,9 @@ void JointStateComputation::evaluate() {
     counters_.skipped.add();
     return;
   }
+  const bool fits = covariances_ && completer_.fits();
   const bool known = covariances_ && estimator_.knowsNoise();
-  const bool fits = known && completer_.fits();
-  MotionCovariance* covariance =
-      fits || (known && plan.wantsCovariance()) ? &covariance_ : nullptr;
+  MotionCovariance* covariance = known && (fits || plan.wantsCovariance()) ? &covariance_ : nullptr;
   const std::int64_t stamp_ns =
       estimator_.evaluate(samples_.motion(), completer_.measures() ? covariance : nullptr);
   completer_.drives().begin(stamp_ns);
@@ -128,13 +128,20 @@ void JointStateComputation::evaluate() {
   }
   // A joint that is held may be anywhere, and must not take the others with it.
   const bool fit = fits && !estimator_.anyHeld();
-  const Outcome outcome = samples_.compute(plan, stamp_ns, covariance, fit);
+  if (fit) setNoise();
+  const Outcome outcome = samples_.compute(plan, stamp_ns, covariance, fit ? &noise_ : nullptr);
   if (outcome != Outcome::kDone) {
     user_.dropSample(outcome, plan, stamp_ns);
     return;
   }
   if (const auto open = completer_.openStates()) user_.warn(*open);
   user_.publish(plan);
+}
+
+void JointStateComputation::setNoise() {
+  for (Eigen::Index i = 0; i < noise_.size(); ++i) {
+    noise_[i] = estimator_.quality(static_cast<int>(i)).position_noise;
+  }
 }
 
 }  // namespace virtual_work_dynamics

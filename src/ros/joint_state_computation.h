@@ -81,6 +81,7 @@ class JointStateComputation {
 
   bool push(const JointSample& sample, Drop drop);
   void evaluate();
+  void setNoise();
 
   const bool covariances_;
   JointStateConversion conversion_;
@@ -93,6 +94,7 @@ class JointStateComputation {
   Counters& counters_;
   JointStateUser& user_;
   MotionCovariance covariance_;
+  Eigen::VectorXd noise_;  // of single positions
   EffortMeasurements* efforts_ = nullptr;
 };
 

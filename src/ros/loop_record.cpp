@@ -36,13 +36,22 @@ LoopRecord::LoopRecord(const Dynamics& dynamics, std::size_t reactions, const Lo
       efforts_(dynamics.effortNames().size()),
       reactions_(reactions) {}
 
-void LoopRecord::recordFit(const MotionFit::Farthest& farthest, bool explained) {
-  (explained ? fitted_ : unexplained_).add();
+void LoopRecord::recordFit(const MotionFit::Outcome& outcome) {
+  const auto relaxed = std::memory_order_relaxed;
+  fitted_.fetch_add(1, relaxed);
+  fit_wheels_.store(outcome.wheels, relaxed);
+  if (!outcome.explained) unexplained_.fetch_add(1, relaxed);
+  const auto add = [&](std::atomic<double>& sum, double rms) {
+    sum.store(sum.load(relaxed) + rms * rms, relaxed);
+  };
+  add(fit_position_squares_, outcome.position_rms);
+  add(fit_velocity_squares_, outcome.velocity_rms);
   // A report that is taken between these lines may have the coordinate of another sample.
-  if (!(farthest.deviations > fit_deviations_.load(std::memory_order_relaxed))) return;
-  fit_deviations_.store(farthest.deviations, std::memory_order_relaxed);
-  fit_coordinate_.store(farthest.coordinate, std::memory_order_relaxed);
-  fit_level_.store(farthest.level, std::memory_order_relaxed);
+  if (!(outcome.farthest.deviations > fit_deviations_.load(relaxed))) return;
+  fit_deviations_.store(outcome.farthest.deviations, relaxed);
+  fit_amount_.store(outcome.farthest.amount, relaxed);
+  fit_coordinate_.store(outcome.farthest.coordinate, relaxed);
+  fit_level_.store(outcome.farthest.level, relaxed);
 }
 
 void LoopRecord::record(const Results& results, const ActivePlan& plan) {
@@ -134,11 +143,17 @@ LoopRecord::Report LoopRecord::take() {
   report.determinacy.gap = gap_;
   report.determinacy.condition = condition_;
   report.passive_given = passive_given_;
-  report.fitted = fitted_.value();
-  report.unexplained = unexplained_.value();
-  report.farthest = {fit_deviations_.exchange(0, std::memory_order_relaxed),
-                     fit_coordinate_.load(std::memory_order_relaxed),
-                     fit_level_.load(std::memory_order_relaxed)};
+  const auto relaxed = std::memory_order_relaxed;
+  report.fit.fitted = fitted_.exchange(0, relaxed);
+  report.fit.unexplained = unexplained_.exchange(0, relaxed);
+  report.fit.position_squares = fit_position_squares_.exchange(0, relaxed);
+  report.fit.velocity_squares = fit_velocity_squares_.exchange(0, relaxed);
+  report.fit.farthest.deviations = fit_deviations_.exchange(0, relaxed);
+  report.fit.farthest.amount = fit_amount_.load(relaxed);
+  report.fit.farthest.level = fit_level_.load(relaxed);
+  report.fit.farthest.coordinate =
+      report.fit.farthest.deviations > 0 ? fit_coordinate_.load(relaxed) : -1;
+  report.fit.wheels = fit_wheels_.load(relaxed);
   return report;
 }
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/fit_summary.h"
 #include "ros/active_plan.h"
 #include "ros/counters.h"
 #include "ros/loop_limits.h"
-#include "virtual_work_dynamics/motion_fit.h"
 
 namespace virtual_work_dynamics {
 
@@ -28,9 +28,8 @@ class LoopRecord {
   /// @param reactions number of reactions that the scene asks for
   LoopRecord(const Dynamics& dynamics, std::size_t reactions, const LoopLimits& limits);
 
-  /// Records how far a motion was fitted to the loops, and whether noise explains that. Does not
-  /// allocate.
-  void recordFit(const MotionFit::Farthest& farthest, bool explained);
+  /// Records what became of a motion that was fitted to the loops. Does not allocate.
+  void recordFit(const MotionFit::Outcome& outcome);
   /// Records a sample. Does not allocate.
   void record(const Results& results, const ActivePlan& plan);
   /// Whether the positions of passive joints come with the joint states.
@@ -48,10 +47,8 @@ class LoopRecord {
     std::uint64_t close_to_singular = 0;          ///< samples, ever, without singular ones
     /// By Dynamics::oneSided(): how many samples were found to be so, by Hold.
     std::vector<std::array<std::uint64_t, kHolds>> holds;
-    Determinacy determinacy;        ///< of the latest sample
-    std::uint64_t fitted = 0;       ///< samples, ever, whose noise was taken out by the loops
-    std::uint64_t unexplained = 0;  ///< samples, ever, that stayed as noise does not explain them
-    MotionFit::Farthest farthest;   ///< of samples of either kind
+    Determinacy determinacy;  ///< of the latest sample
+    FitSummary fit;           ///< of samples since the last report
     bool passive_given = false;
   };
   /// What was recorded since the call before. Allocates.
@@ -75,9 +72,11 @@ class LoopRecord {
   std::atomic<int> rank_{0}, redundant_constraints_{0}, redundancy_{0}, free_motions_{0};
   std::atomic<double> gap_{0}, condition_{0};
   std::atomic<bool> passive_given_{false};
-  std::atomic<double> fit_deviations_{0};
+  std::atomic<std::uint64_t> fitted_{0}, unexplained_{0};
+  std::atomic<double> fit_position_squares_{0}, fit_velocity_squares_{0};
+  std::atomic<double> fit_deviations_{0}, fit_amount_{0};
   std::atomic<int> fit_coordinate_{-1}, fit_level_{0};
-  Counter fitted_, unexplained_;
+  std::atomic<bool> fit_wheels_{false};
   Counter samples_, singular_, undirected_, violations_, close_to_singular_;
   std::uint64_t reported_ = 0;  // samples; only the taking thread uses it
 };

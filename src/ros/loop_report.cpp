@@ -82,13 +82,13 @@ Names loopLines(const Mechanism& mechanism, const Scene& scene, const Dynamics& 
               "; components of reactions: " + found.status[2].message};
 }
 
-LoopReport::LoopReport(const Dynamics& dynamics, Names coordinates, Names reactions,
+LoopReport::LoopReport(const Mechanism& mechanism, const Dynamics& dynamics, Names reactions,
                        LoopRecord& record, const LoopLimits& limits)
-    : closures_(dynamics.closureNames()),
+    : mechanism_(mechanism),
+      closures_(dynamics.closureNames()),
       labels_(labelsOf(dynamics)),
       one_sided_(dynamics.oneSided()),
       efforts_(dynamics.effortNames()),
-      coordinates_(std::move(coordinates)),
       reactions_(std::move(reactions)),
       closed_(dynamics.closed()),
       record_(record),
@@ -103,7 +103,7 @@ void LoopReport::add(DiagnosticStatusWrapper& status) {
   status.add("samples in singular positions", report.singular);
   status.add("samples close to singular positions", report.close_to_singular);
   if (latest_.news) addResiduals(status, latest_);
-  if (report.fitted + report.unexplained > 0) addFit(status, report);
+  addFit(status, report.fit);
   if (report.violations > violations_) addViolations(status, report);
   if (report.news) addConditions(status, report.conditions);
   if (report.news) addHolds(status, report);
@@ -119,7 +119,6 @@ void LoopReport::add(DiagnosticStatusWrapper& status) {
                    "out: ");
   }
   violations_ = report.violations;
-  unexplained_ = report.unexplained;
   singular_ = report.singular;
   undirected_ = report.undirected;
 }
@@ -186,22 +185,17 @@ void LoopReport::addViolations(DiagnosticStatusWrapper& status,
   }
 }
 
-// Says how far motions were moved to meet the loops, and which no noise explains.
-void LoopReport::addFit(DiagnosticStatusWrapper& status, const LoopRecord::Report& report) const {
-  status.add("samples fitted to the loops", report.fitted);
-  status.add("samples that noise does not fit to the loops", report.unexplained);
-  const MotionFit::Farthest& farthest = report.farthest;
-  if (!report.news || farthest.coordinate < 0) return;
-  const std::string what = std::string(kLevels[farthest.level].name) + " of " +
-                           inQuotes(coordinates_[static_cast<std::size_t>(farthest.coordinate)]);
-  status.add("fit, largest (standard deviations)", shortNumber(farthest.deviations) + ", " + what);
-  if (report.unexplained == unexplained_) return;
-  status.mergeSummary(
-      DiagnosticStatus::WARN,
-      count(report.unexplained - unexplained_, "sample", "samples") +
-          " violate the loops by more than noise explains: the " + what + " by " +
-          shortNumber(farthest.deviations) +
-          " standard deviations; wheels slip, or dimensions or zeros of encoders are wrong");
+// Says how far motions were moved to meet the loops, and what no noise explains.
+void LoopReport::addFit(DiagnosticStatusWrapper& status, const FitSummary& fit) {
+  fitted_ += fit.fitted;
+  unexplained_ += fit.unexplained;
+  if (fitted_ == 0) return;
+  status.add("samples fitted to the loops", fitted_);
+  status.add("samples whose fit noise does not explain", unexplained_);
+  if (fit.fitted == 0) return;
+  const std::string text = fit.text(mechanism_, "sample", "samples");
+  status.add("fit", text);
+  if (fit.doubtful()) status.mergeSummary(DiagnosticStatus::WARN, text);
 }
 
 void LoopReport::addConditions(DiagnosticStatusWrapper& status,

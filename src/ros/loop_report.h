@@ -21,10 +21,10 @@ std::vector<std::string> loopLines(const Mechanism& mechanism, const Scene& scen
 /// positions were singular. Serves one thread.
 class LoopReport {
  public:
+  /// @param mechanism must outlive this
   /// @param dynamics of the mechanism and the scene; for an open chain there is nothing to report
-  /// @param coordinates names of the generalized coordinates
   /// @param reactions those that the scene asks for
-  LoopReport(const Dynamics& dynamics, std::vector<std::string> coordinates,
+  LoopReport(const Mechanism& mechanism, const Dynamics& dynamics,
              std::vector<std::string> reactions, LoopRecord& record, const LoopLimits& limits);
 
   /// Adds what was recorded since the call before, and to the summary what is wrong with it.
@@ -36,8 +36,7 @@ class LoopReport {
                     const LoopRecord::Report& report) const;
   void addViolations(diagnostic_updater::DiagnosticStatusWrapper& status,
                      const LoopRecord::Report& report) const;
-  void addFit(diagnostic_updater::DiagnosticStatusWrapper& status,
-              const LoopRecord::Report& report) const;
+  void addFit(diagnostic_updater::DiagnosticStatusWrapper& status, const FitSummary& fit);
   void addConditions(diagnostic_updater::DiagnosticStatusWrapper& status,
                      const std::vector<double>& conditions) const;
   void addHolds(diagnostic_updater::DiagnosticStatusWrapper& status,
@@ -45,12 +44,14 @@ class LoopReport {
   void addLeftOut(diagnostic_updater::DiagnosticStatusWrapper& status,
                   const LoopRecord::Report& report, const std::string& why) const;
 
-  std::vector<std::string> closures_, labels_, one_sided_, efforts_, coordinates_, reactions_;
+  const Mechanism& mechanism_;
+  std::vector<std::string> closures_, labels_, one_sided_, efforts_, reactions_;
   bool closed_;
   LoopRecord& record_;
   LoopLimits limits_;
   LoopRecord::Report latest_;  // the last one with news
-  std::uint64_t singular_ = 0, undirected_ = 0, violations_ = 0, unexplained_ = 0;
+  std::uint64_t singular_ = 0, undirected_ = 0, violations_ = 0;
+  std::uint64_t fitted_ = 0, unexplained_ = 0;  // ever
 };
 
 }  // namespace virtual_work_dynamics

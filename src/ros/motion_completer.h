@@ -64,11 +64,10 @@ class MotionCompleter {
   /// Whether motions of joint states are fitted to the closures: those that give all joints.
   bool fits() const { return all_given_ && !drives_.any() && fit_.any(); }
   /// Fits a motion of joint states, see MotionFit::fit(). Needs fits().
-  /// @returns whether noise explains by how much it violated the closures; see farthest()
-  bool fit(Motion& motion, const MotionCovariance& covariance) {
-    return fit_.fit(motion, covariance, !static_motion_);
+  const MotionFit::Outcome& fit(Motion& motion, const MotionCovariance* covariance,
+                                const Eigen::VectorXd& noise) {
+    return fit_.fit(motion, covariance, noise, !static_motion_);
   }
-  const MotionFit::Farthest& farthest() const { return fit_.farthest(); }
   /// Takes note of the results of a motion of joint states. Where all joints are given and leave
   /// the loops open, later completions do not start there, but where loops were closed last. Does
   /// not allocate.

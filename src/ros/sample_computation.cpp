@@ -37,15 +37,13 @@ MotionCovariance SampleComputation::makeCovariance() const {
 }
 
 SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan, std::int64_t stamp_ns,
-                                                      MotionCovariance* covariance, bool fit) {
+                                                      MotionCovariance* covariance,
+                                                      const Eigen::VectorXd* noise) {
   if (static_motion_) motion_.qd.setZero();
   records_.counters.samples.add();
   if (!setRoot(stamp_ns, motion_.root, covariance)) return Outcome::kNoRoot;
   const auto start = Clock::now();
-  if (fit) {
-    const bool explained = completer_.fit(motion_, *covariance);
-    records_.loops.recordFit(completer_.farthest(), explained);
-  }
+  if (noise) records_.loops.recordFit(completer_.fit(motion_, covariance, *noise));
   if (!completer_.complete(motion_, stamp_ns, plan.dynamics, plan.workspace)) {
     return whyIncomplete();
   }

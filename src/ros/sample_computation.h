@@ -51,9 +51,11 @@ class SampleComputation {
   /// Computes the sample of joint states whose motion is motion() and writes messages of samples.
   /// @param covariance of all coordinates of motion(); it gets those of the root and of live
   ///   wrenches, and must have come from makeCovariance(). Null: not known
-  /// @param fit whether the motion is fitted to the closures; needs the covariance
+  /// @param noise of single positions, where the motion is to be fitted to the closures; null: it
+  /// is
+  ///   not
   Outcome compute(ActivePlan& plan, std::int64_t stamp_ns, MotionCovariance* covariance = nullptr,
-                  bool fit = false);
+                  const Eigen::VectorXd* noise = nullptr);
   /// A covariance with all entries that samples need.
   MotionCovariance makeCovariance() const;
   /// Gives the points of a trajectory, which are complete, the motion of the root, as it is known

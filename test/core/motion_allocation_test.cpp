@@ -131,10 +131,11 @@ TEST(MotionFit, FitDoesNotAllocate) {
   MotionCovariance covariance;
   covariance.coordinates.assign(static_cast<std::size_t>(motion.q.size()),
                                 1e-4 * Eigen::Matrix3d::Identity());
+  const Eigen::VectorXd noise = Eigen::VectorXd::Constant(motion.q.size(), 1e-3);
   const AllocationGuard guard;
-  EXPECT_TRUE(fit.fit(motion, covariance));
+  EXPECT_TRUE(fit.fit(motion, &covariance, noise).explained);
   EXPECT_EQ(guard.allocations(), 0u);
-  EXPECT_GT(fit.farthest().deviations, 0);
+  EXPECT_GT(fit.outcome().farthest.deviations, 0);
 }
 
 TEST(Spline, EvaluateDoesNotAllocate) {

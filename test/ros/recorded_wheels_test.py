@@ -138,7 +138,7 @@ class RecordedWheels(unittest.TestCase):
         exact_times, exact = self.truth()
         for seed in (1, 2, 3):
             text, times, found = self.computed(self.record(SPLIT, seed))
-            self.assertIn('fitted to the closed loops', text)
+            self.assertIn('fitted to closures and couplings: ', text)
             middle = (times > 1) & (times < LENGTH - 0.5)
             self.assertGreater(np.count_nonzero(middle), 1000)
             for joint, most in (('left_wheel', 0.04), ('right_wheel', 0.04), ('pan', 0.05), ('shoulder', 0.01),
@@ -150,8 +150,16 @@ class RecordedWheels(unittest.TestCase):
 
     def test_wheel_that_slips_is_told(self):
         text, _, _ = self.computed(self.record(SPLIT, 4, slip=2.0))
-        self.assertRegex(text, r'warning: .*violate a closed loop by more than noise explains: the velocity of .* '
-                               r'wheels slip, or dimensions or zeros of encoders are wrong')
+        self.assertRegex(text, r'warning: .*violate closures or couplings by more than noise explains: the velocity of '
+                               r'.* m/s|rad/s, .* of its standard deviations; wheels slip, or zeros of encoders')
+
+    def test_wrong_radius_is_told(self):
+        """Wheels that are three hundredths larger than the description has them: each sample fits its noise, all do not."""
+        self.course.q['left_wheel'] = self.course.q['left_wheel'] / 1.03
+        self.course.q['right_wheel'] = self.course.q['right_wheel'] / 1.03
+        groups = ((JOINTS, 200, 0, 1e-5),)
+        text, _, _ = self.computed(self.record(groups, 6))
+        self.assertRegex(text, r'warning: .*wheels slip, or zeros of encoders, dimensions or delays are wrong')
 
     def test_file_of_positions(self):
         """The offline tool estimates and fits, too: its rows had been refused."""
@@ -164,7 +172,7 @@ class RecordedWheels(unittest.TestCase):
                    header='time,' + ','.join('position.' + joint for joint in JOINTS), comments='')
         code, text = self.tool('--motion', self.path('noisy.csv'), '--output', self.path('noisy_out.csv'))
         self.assertEqual(code, 0, text)
-        self.assertRegex(text, r'note: .*1600 rows fitted to the closed loops')
+        self.assertRegex(text, r'note: .*1600 rows fitted to closures and couplings: the ')
         exact_times, exact = self.truth()
         found_times, found = self.efforts(self.path('noisy_out.csv'))
         middle = (found_times > 0.3) & (found_times < LENGTH - 0.3)
