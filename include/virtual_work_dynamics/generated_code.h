@@ -37,7 +37,7 @@ struct GeneratedCode {
   std::size_t fused = 0;                           ///< pairs of them that are fused
   std::size_t sines_and_cosines = 0;
   std::size_t divisions_and_roots = 0;  ///< in scenes with loops
-  std::size_t functions = 0;  ///< among which the operations are divided
+  std::size_t functions = 0;            ///< among which the operations are divided
 };
 
 /// Generates the code of a mechanism, a scene and a request.

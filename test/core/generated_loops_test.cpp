@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "generate/expression_graph.h"
 #include "loop_examples.h"
 #include "random_loops.h"
 #include "virtual_work_dynamics/error.h"
@@ -256,6 +257,25 @@ TEST(GeneratedLoops, AreStrictFreestandingC) {
   }
 }
 
+// What is chosen by the numbers of one motion must be so in the others.
+TEST(GeneratedLoops, RequireWhatIsChosenByNumbers) {
+  const double first[] = {2, 1}, other[] = {1, 2};
+  const double none[] = {std::numeric_limits<double>::quiet_NaN(), 1};
+  for (const bool above : {true, false}) {
+    ExpressionGraph graph;
+    const Term a = graph.input(0, 0), b = graph.input(0, 1);
+    const auto failuresAt = [&](const double* numbers) {
+      graph.setValues(0, numbers);
+      return graph.valueOf(graph.failures());
+    };
+    graph.setValues(0, above ? first : other);
+    EXPECT_EQ(graph.isAbove(a, b), above);
+    EXPECT_EQ(failuresAt(first), above ? 0 : 1);
+    EXPECT_EQ(failuresAt(other), above ? 1 : 0);
+    EXPECT_EQ(failuresAt(none), 1);
+  }
+}
+
 // Names of closures and couplings that are no identifiers, or would be the same.
 TEST(GeneratedLoops, MakeIdentifiersOfAnyNames) {
   LoopExample example("slider_crank");
@@ -319,6 +339,10 @@ TEST(GeneratedLoops, SayWhatIsNotDetermined) {
             std::string::npos)
       << code.header.substr(0, 2000);
   const LoopExample planar("slider_crank");
+  request.child_axes = {"wrist_pin"};
+  EXPECT_NE(generateCode(planar.mechanism, planar.scene, request)
+                .header.find("least norm: fz tx ty of wrist_pin in child axes."),
+            std::string::npos);
   const GeneratedCode efforts = generateCode(planar.mechanism, planar.scene, Request());
   EXPECT_EQ(efforts.header.find("Not determined"), std::string::npos);
 }
