@@ -337,11 +337,10 @@ bool MotionEstimator::anyHeld() const {
 }
 
 bool MotionEstimator::knowsNoise() const {
-  return std::all_of(impl_->coordinates.begin(), impl_->coordinates.end(),
-                     [](const Impl::Coordinate& coordinate) {
-                       return !coordinate.needed || !coordinate.seen ||
-                              coordinate.track.knowsNoise();
-                     });
+  return std::all_of(
+      impl_->coordinates.begin(), impl_->coordinates.end(), [](const Impl::Coordinate& coordinate) {
+        return !coordinate.needed || !coordinate.seen || coordinate.track.knowsNoise();
+      });
 }
 
 double MotionEstimator::age(int coordinate) const {
