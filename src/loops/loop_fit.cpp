@@ -13,13 +13,13 @@ constexpr double kAbsent = 1e-9;
 // Part of a row, by standard deviations, that is left beside rows before it: less is rounding, or
 // what redundant conditions disagree by.
 constexpr double kRank = 1e-7;
-constexpr int kMostSteps = 10;
+constexpr int kMostFits = 10;
 // Step, in standard deviations, or rad or over the length, that ends the search for positions.
-constexpr double kLastStep = 1e-7, kRounding = 1e-14;
+constexpr double kLastStep = 1e-7, kFitRounding = 1e-14;
 // Deviations of positions below which nothing is known of the noise, rad or over the length: a
 // joint has not moved yet, or is simulated. Moves are judged by these then, of velocities
 // relative to the largest.
-constexpr double kUnknown = 1e-9;
+constexpr double kUnknownNoise = 1e-9;
 constexpr double kUnknownPosition = 1e-3, kUnknownVelocity = 1e-2;
 
 }  // namespace
@@ -93,7 +93,7 @@ void LoopFit::setKnown(const MotionCovariance* covariance) {
     for (const int i : group.coordinates) {
       if (!group.known) break;
       const double variance = covariance->coordinates[static_cast<std::size_t>(i)](0, 0);
-      const double least = kUnknown * column_scales_[i];
+      const double least = kUnknownNoise * column_scales_[i];
       group.known = variance == 0 || variance > least * least;
     }
   }
@@ -152,7 +152,7 @@ bool LoopFit::isNearlyClosed(double nearly) const {
 // where the conditions are met that are linear about the latter.
 bool LoopFit::fitPositions(Eigen::VectorXd& q) {
   moved_.setZero();
-  for (int steps = 0; steps < kMostSteps; ++steps) {
+  for (int steps = 0; steps < kMostFits; ++steps) {
     residuals_.noalias() = kinematics_.jacobian() * moved_;
     residuals_ = kinematics_.phi() - residuals_;
     bool arrived = true;
@@ -162,8 +162,8 @@ bool LoopFit::fitPositions(Eigen::VectorXd& q) {
         const int coordinate = group.coordinates[k];
         if (deviations_[coordinate] == 0) continue;
         const double move = deviations_[coordinate] * group.found[static_cast<Eigen::Index>(k)];
-        const double last =
-            std::max(kLastStep * deviations_[coordinate], kRounding * column_scales_[coordinate]);
+        const double last = std::max(kLastStep * deviations_[coordinate],
+                                     kFitRounding * column_scales_[coordinate]);
         arrived = arrived && std::abs(move - moved_[coordinate]) <= last;
         moved_[coordinate] = move;
       }
