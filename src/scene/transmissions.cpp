@@ -216,7 +216,8 @@ class TransmissionScene {
   Scene changedScene() const {
     Scene scene = scene_;
     scene.transmissions = TransmissionSelection::kNone;
-    scene.transmission_names = movedJoints();
+    scene.transmission_names.clear();
+    scene.actuators_of = actuators_of_;
     scene.couplings.insert(scene.couplings.end(), couplings_.begin(), couplings_.end());
     if (scene.reactions == ReactionSelection::kAll) {
       scene.reaction_names = requestedReactions(mechanism_, scene_);
@@ -229,12 +230,6 @@ class TransmissionScene {
     if (!scene.given && hasPositions(scene)) scene.given = givenFor(moved);
     scene.actuated = replaced(withDriven(moved), actuators_of_);
     return scene;
-  }
-
-  NameList movedJoints() const {
-    NameList joints;
-    for (const auto& [joint, actuators] : actuators_of_) joints.push_back(joint);
-    return joints;
   }
 
   bool isDriven(const std::string& name) const {
