@@ -7,6 +7,7 @@ vwd_core(
   dynamics.cpp
   effort_doubts.cpp
   effort_groups.cpp
+  following_motors.cpp
   given_joints.cpp
   independent_coordinates.cpp
   live_wrenches.cpp

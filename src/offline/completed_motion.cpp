@@ -110,7 +110,7 @@ CompletedMotion::CompletedMotion(RecordedMotion recorded, const Mechanism& mecha
   driven_ = takenFrom(file_.table, recorded.drivenColumns());
   const DrivenRows& drives = recorded.drives;
   drives.insertClosures(static_cast<Eigen::Index>(recorded.closureColumns()), driven_);
-  if (positions_follow_ || !recorded.resting.empty() || !drives.empty() ||
+  if (positions_follow_ || !recorded.resting.empty() || !drives.empty() || recorded.motors.any() ||
       dynamics.orientations() > 0) {
     widen(mechanism, file_.table);
   }
@@ -118,6 +118,12 @@ CompletedMotion::CompletedMotion(RecordedMotion recorded, const Mechanism& mecha
   completeFreeTurns(mechanism, scene, completion, file_);
   for (const auto& [name, position] : recorded.resting) {
     file_.table.positions.col(mechanism.coordinateIndex(name)).setConstant(position);
+  }
+  if (recorded.motors.any()) {
+    recorded.motors.set(file_.table);
+    std::cerr << "note: " << printable(file_.path) << ": of " << joined(recorded.motors.names())
+              << ", computed from the joints that they move: positions, velocities, "
+                 "accelerations\n";
   }
   Names follow;
   if (positions_follow_) follow.push_back("positions");

@@ -119,6 +119,7 @@ set(core_test_files
   test/core/offline_loops_errors_test.cpp
   test/core/offline_loops_test.cpp
   test/core/offline_loops_threads_test.cpp
+  test/core/offline_motors_test.cpp
   test/core/offline_names_test.cpp
   test/core/offline_npz_test.cpp
   test/core/offline_plan_test.cpp
