@@ -148,6 +148,7 @@ set(core_test_files
   test/core/property_rerooting_test.cpp
   test/core/property_superposition_test.cpp
   test/core/rank_factorization_test.cpp
+  test/core/rank_memory_test.cpp
   test/core/recorded_positions_test.cpp
   test/core/recording_test.cpp
   test/core/reference_recursion_test.cpp
