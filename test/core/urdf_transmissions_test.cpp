@@ -19,6 +19,7 @@ namespace {
 
 // A factorization of a tree with ratios of some tens against closed forms.
 constexpr double kTransmitted = 1e-12;
+using Names = std::vector<std::string>;
 
 // The reductions that the descriptions below have.
 constexpr double kSimple = 250, kA1 = 20, kA2 = -25, kJ1 = 1.5, kJ2 = 0.8;
@@ -74,8 +75,6 @@ std::vector<bool> givenJoints(const Mechanism& mechanism) {
   }
   return given;
 }
-
-using Names = std::vector<std::string>;
 
 void expectNear(double found, double expected) {
   ASSERT_TRUE(std::isfinite(found));
