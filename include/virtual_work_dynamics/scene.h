@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -308,8 +309,9 @@ struct Scene {
   /// Transmissions of the description whose actuators become joints; withTransmissions() makes the
   /// mechanism that has them, and the scene that goes with it.
   TransmissionSelection transmissions = TransmissionSelection::kNone;
-  /// Of kNamed; of a scene that withTransmissions() has made the joints that actuators now move.
-  std::vector<std::string> transmission_names;
+  std::vector<std::string> transmission_names;  ///< of kNamed
+  /// Of a scene that withTransmissions() has made: by joint, the actuators that move it.
+  std::map<std::string, std::vector<std::string>> actuators_of;
 
   std::vector<Closure> closures;  ///< empty: an open chain
   std::vector<PointSpring> springs;

@@ -21,8 +21,9 @@ struct SceneOfMechanism {
 /// - FourBarLinkageTransmission: a1 j1 x1 and a2 (x1 + j2 x2).
 /// In `actuated` such joints stand for the actuators that move them, and `drives` of joints are
 /// delivered by them; motions give joints unless `given` says otherwise, and where wheels, blades
-/// or rates leave positions open everything; ReactionSelection::kAll is without the actuators. A
-/// doubt says which transmissions have been read.
+/// or rates leave positions open, or loops move freely, everything: the programs let actuators
+/// follow from the joints there. ReactionSelection::kAll is without the actuators. A doubt says
+/// which transmissions have been read.
 /// @param mechanism as withJointTypes() makes it
 /// @throws SceneError naming the transmission that does not exist, is of another type, lacks a
 ///   number or role, or whose joints or actuators cannot be what it says.

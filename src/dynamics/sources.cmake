@@ -8,6 +8,7 @@ vwd_core(
   effort_doubts.cpp
   effort_groups.cpp
   fit_summary.cpp
+  following_motors.cpp
   given_joints.cpp
   independent_coordinates.cpp
   live_wrenches.cpp

@@ -34,14 +34,16 @@ void LoopRank::decide(const MultifrontalQr& of, const std::vector<bool>& present
     const Eigen::MatrixXd& entries = of.entriesOf(b);
     const Eigen::Index first = of.firstOf(b);
     for (Eigen::Index i = 0; i < entries.rows(); ++i) {
-      double& size = used_[first + i];
-      size = sizes_[first + i];
-      if (size == 0) size = entries.row(i).norm();
-      if (size == 0) size = 1;
       for (Eigen::Index k = 0; k < entries.cols(); ++k) {
         const int place = places_[static_cast<std::size_t>(of.columnsOf(b)[std::size_t(k)])];
-        if (place >= 0) M(first + i, place) = entries(i, k) / size;
+        if (place >= 0) M(first + i, place) = entries(i, k);
       }
+      // Entries of columns that are not present are not set.
+      double& size = used_[first + i];
+      size = sizes_[first + i];
+      if (size == 0) size = M.row(first + i).norm();
+      if (size == 0) size = 1;
+      M.row(first + i) /= size;
     }
   }
   factorization_.factorize(M, 0, tolerance_);

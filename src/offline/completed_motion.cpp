@@ -122,7 +122,7 @@ CompletedMotion::CompletedMotion(RecordedMotion recorded, const Mechanism& mecha
   driven_ = takenFrom(file_.table, recorded.drivenColumns());
   const DrivenRows& drives = recorded.drives;
   drives.insertClosures(static_cast<Eigen::Index>(recorded.closureColumns()), driven_);
-  if (positions_follow_ || !recorded.resting.empty() || !drives.empty() ||
+  if (positions_follow_ || !recorded.resting.empty() || !drives.empty() || recorded.motors.any() ||
       dynamics.orientations() > 0) {
     widen(mechanism, file_.table);
   }
@@ -130,6 +130,13 @@ CompletedMotion::CompletedMotion(RecordedMotion recorded, const Mechanism& mecha
   completeFreeTurns(mechanism, scene, completion, file_);
   for (const auto& [name, position] : recorded.resting) {
     file_.table.positions.col(mechanism.coordinateIndex(name)).setConstant(position);
+  }
+  if (recorded.motors.any()) {
+    recorded.motors.set(file_.table);
+    motors_ = recorded.motors;
+    std::cerr << "note: " << printable(file_.path) << ": of " << joined(recorded.motors.names())
+              << ", computed from the joints that they move: positions, velocities, "
+                 "accelerations\n";
   }
   Names follow;
   if (positions_follow_) follow.push_back("positions");
@@ -188,8 +195,10 @@ void CompletedMotion::fit(std::size_t row) {
     Eigen::Matrix3d& own = covariance_.coordinates[i];
     if (own.isZero(0)) own = kUnknownVariance * Eigen::Matrix3d::Identity();
   }
+  motors_.loosen(covariance_);
   const bool known = table.times.size() >= kFewestKnown;
   fitted_.add(fit_->fit(row_, known ? &covariance_ : nullptr, noise_));
+  motors_.set(row_);
   const auto index = static_cast<Eigen::Index>(row);
   table.positions.row(index) = row_.q;
   table.velocities.row(index) = row_.qd;

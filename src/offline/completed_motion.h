@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "dynamics/fit_summary.h"
+#include "dynamics/following_motors.h"
 #include "offline/motion_file.h"
 #include "offline/recorded_motion.h"
 #include "virtual_work_dynamics/dynamics.h"
@@ -66,6 +67,7 @@ class CompletedMotion {
   MotionCovariance covariance_;        // of a row that is fitted
   std::vector<std::size_t> measured_;  // coordinates that the file has
   Eigen::VectorXd noise_;              // of single positions, by coordinate
+  FollowingMotors motors_;
   FitSummary fitted_;
 };
 

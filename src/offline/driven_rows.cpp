@@ -61,7 +61,7 @@ void noteDifference(const std::string& name, Unit unit, const Eigen::VectorXd& f
 }  // namespace
 
 DrivenRows::DrivenRows(const Mechanism& mechanism, const Scene& scene, const Given& given,
-                       bool degrees, MotionFile& file) {
+                       bool degrees, std::int64_t start_ns, MotionFile& file) {
   if (scene.drives.empty()) return;
   Drives drives(mechanism, scene);
   std::vector<Unit> units;
@@ -76,7 +76,7 @@ DrivenRows::DrivenRows(const Mechanism& mechanism, const Scene& scene, const Giv
     columns_.joints.push_back(scene.closures[c].name);
     units.push_back(*traitsOf(scene.closures[c].type).free_axis);
   }
-  compute(drives, given, file);
+  compute(drives, given, start_ns, file);
   for (std::size_t i = 0; i < units.size(); ++i) {
     const std::string& name = columns_.joints[i];
     const Names& joints = file.table.joints;
@@ -91,7 +91,8 @@ DrivenRows::DrivenRows(const Mechanism& mechanism, const Scene& scene, const Giv
 }
 
 // Sets the columns in all rows.
-void DrivenRows::compute(Drives& drives, const Given& given, const MotionFile& file) {
+void DrivenRows::compute(Drives& drives, const Given& given, std::int64_t start_ns,
+                         const MotionFile& file) {
   std::vector<Eigen::Index> places;  // of closures, in the driven numbers
   for (const std::size_t c : drives.closures()) {
     places.push_back(std::find(given.closures.begin(), given.closures.end(), c) -
@@ -106,8 +107,11 @@ void DrivenRows::compute(Drives& drives, const Given& given, const MotionFile& f
   Motion motion(static_cast<Eigen::Index>(drives.coordinates().size()));
   Motion driven(static_cast<Eigen::Index>(given.drivenNumbers()));
   for (std::size_t row = 0; row < times.size(); ++row) {
-    if (const auto none = drives.evaluate(times[row], given, motion, driven)) {
-      throw FileError(file.at(row) + ": " + drives.whyNone(*none, times[row]));
+    const bool by_stamp = start_ns != 0 && !file.stamps_ns.empty();
+    const double time =
+        by_stamp ? static_cast<double>(file.stamps_ns[row] - start_ns) / 1e9 : times[row];
+    if (const auto none = drives.evaluate(time, given, motion, driven)) {
+      throw FileError(file.at(row) + ": " + drives.whyNone(*none, time));
     }
     const auto set = [&](Eigen::MatrixXd& columns, const Eigen::VectorXd& coordinates,
                          const Eigen::VectorXd& numbers) {

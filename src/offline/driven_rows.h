@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@
 
 namespace virtual_work_dynamics {
 
-/// The motion of what a scene drives, in the rows of a file whose times are those of the drives.
+/// The motion of what a scene drives, in the rows of a file whose times are those of the drives, or
+/// whose stamps tell them.
 class DrivenRows {
  public:
   DrivenRows() = default;
@@ -21,9 +23,10 @@ class DrivenRows {
   /// standard error say by how much they differ.
   /// @param degrees whether they have angles in degrees
   /// @param given what the motion gives, with what is driven
+  /// @param start_ns see RecordingOptions::drive_start_ns
   /// @throws FileError naming the row whose time the drives have no motion for.
   DrivenRows(const Mechanism& mechanism, const Scene& scene, const Given& given, bool degrees,
-             MotionFile& file);
+             std::int64_t start_ns, MotionFile& file);
 
   bool empty() const { return columns_.positions.size() == 0; }
   /// Number of closures that are driven.
@@ -38,7 +41,7 @@ class DrivenRows {
   void insertClosures(Eigen::Index place, MotionTable& table) const;
 
  private:
-  void compute(Drives& drives, const Given& given, const MotionFile& file);
+  void compute(Drives& drives, const Given& given, std::int64_t start_ns, const MotionFile& file);
 
   std::vector<Eigen::Index> coordinates_;
   std::size_t closures_ = 0;

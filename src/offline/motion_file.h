@@ -39,6 +39,9 @@ struct MotionFile {
 struct RecordingOptions {
   CompletionSettings completion;
   std::vector<std::pair<std::string, double>> rest;  ///< joints and their positions, rad or m
+  /// Stamp at which the time of drives is zero, of files that have stamps; 0: that of the first
+  /// row.
+  std::int64_t drive_start_ns = 0;
 };
 
 /// Reads a motion of all coordinates, and notes on standard error which joints of it are ignored.

@@ -1,6 +1,8 @@
 #include "offline/offline.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -133,17 +135,41 @@ void printMotion(const MotionFile& motion) {
               numberText(*extremes.second) + " s"});
 }
 
+// Starts the loops. Of a motion that gives too much or too little without them, the actuators of
+// transmissions follow from the joints where it gives all of these.
+Scene startedByRecord(const Mechanism& mechanism, const Scene& scene, RecordedMotion& recorded) {
+  try {
+    return startedBy(mechanism, scene, recorded.start(mechanism));
+  } catch (const GivenError&) {
+    if (!recorded.letMotorsFollow(mechanism, scene)) throw;
+  }
+  return startedBy(mechanism, scene, recorded.start(mechanism));
+}
+
+// The node's parameter ~drive_start, where a dump has it.
+std::int64_t driveStartNs(const Arguments& arguments, const Scene& scene) {
+  constexpr double kLatest = 9e9;  // s, whose nanoseconds are a stamp
+  const YAML::Node& parameters = arguments.inputs->parameters;
+  if (scene.drives.empty() || !parameters.IsMap()) return 0;
+  const YAML::Node start = parameters["drive_start"];
+  const double stamp = start ? start.as<double>(-1) : 0;
+  if (stamp >= 0 && stamp <= kLatest) return std::llround(stamp * 1e9);
+  throw UsageError(arguments.rosparam + ": drive_start: is not a stamp in s");
+}
+
 // Reads the motion and starts the scene's loops by it.
 RecordedMotion readStart(const Arguments& arguments, const Mechanism& mechanism, Scene& scene) {
   MotionSource source = arguments.motion;
   source.efforts = arguments.residuals;
+  RecordingOptions options = arguments.recording;
+  options.drive_start_ns = driveStartNs(arguments, scene);
   RecordedMotion recorded = naming(scenePrefix(arguments), [&] {
-    return readRecordedMotion(source, mechanism, scene, arguments.recording);
+    return readRecordedMotion(source, mechanism, scene, options);
   });
   checkRoots(scene, recorded.file);
   if (!needsClosedLoops(scene)) return recorded;
   try {
-    scene = startedBy(mechanism, scene, recorded.start(mechanism));
+    scene = startedByRecord(mechanism, scene, recorded);
   } catch (const GivenError& error) {
     throw FileError(arguments.motion.name() + ": " + error.problem());
   } catch (const AssemblyError& error) {
@@ -279,22 +305,10 @@ void refuseForTables(const Arguments& arguments, const Scene& scene) {
   }
 }
 
-// Of recorded joint states the time of drives begins with the first row.
-void refuseDriveStart(const Arguments& arguments, const Scene& scene) {
-  const YAML::Node& parameters = arguments.inputs->parameters;
-  if (scene.drives.empty() || !parameters.IsMap()) return;
-  const YAML::Node start = parameters["drive_start"];
-  if (!start || start.as<double>(1) == 0) return;
-  throw UsageError(arguments.rosparam +
-                   ": drive_start: a table counts the time of drives from its first row; bags of "
-                   "results (--output BAG) count it from that stamp");
-}
-
 void compute(const Arguments& arguments, const Mechanism& mechanism, Scene scene) {
   refuseForTables(arguments, scene);
   const Request written = requestOf(mechanism, scene, arguments);
   RecordedMotion recorded = readStart(arguments, mechanism, scene);
-  if (!recorded.file.stamps_ns.empty()) refuseDriveStart(arguments, scene);
   if (arguments.deviations && recorded.given.drivenNumbers() > recorded.drivenColumns()) {
     throw UsageError(
         "--deviations: an axis of a closure has a drive, and they are those of joints");

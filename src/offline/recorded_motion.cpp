@@ -7,6 +7,7 @@
 
 #include "base/nearest_name.h"
 #include "base/printable.h"
+#include "dynamics/given_joints.h"
 #include "offline/arguments.h"
 #include "offline/free_turn_rows.h"
 #include "scene/closure_types.h"
@@ -243,6 +244,18 @@ void straighten(const Mechanism& mechanism, const Scene& scene, RecordedMotion& 
 
 }  // namespace
 
+bool RecordedMotion::letMotorsFollow(const Mechanism& mechanism, const Scene& scene) {
+  const FollowingMotors found(mechanism, scene, given.coordinates);
+  Given all = given;
+  for (std::size_t i = 0; i < all.coordinates.size(); ++i) {
+    if (found.coordinates()[i]) all.coordinates[i] = true;
+  }
+  if (!found.any() || !GivenJoints::givesAll(all) || all.drivenNumbers() > 0) return false;
+  motors = found;
+  given = all;
+  return true;
+}
+
 MotionStart RecordedMotion::start(const Mechanism& mechanism) const {
   const auto coordinates = static_cast<Eigen::Index>(mechanism.coordinates().size());
   const auto columns = static_cast<Eigen::Index>(drivenColumns());
@@ -267,6 +280,7 @@ MotionStart RecordedMotion::start(const Mechanism& mechanism) const {
     }
   }
   drives.placeFirst(start.motion.q);
+  motors.placeIn(start.motion.q);
   if (columns > 0) {
     const Eigen::VectorXd in_file = table.positions.row(0).tail(columns);
     start.driven.q.head(closures) = in_file.head(closures);
@@ -292,7 +306,8 @@ RecordedMotion readRecordedMotion(const MotionSource& source, const Mechanism& m
   for (const auto& joint : options.rest) {
     if (given.count(joint.first) == 0) motion.resting.push_back(joint);
   }
-  motion.drives = DrivenRows(mechanism, scene, motion.given, source.degrees, motion.file);
+  motion.drives = DrivenRows(mechanism, scene, motion.given, source.degrees, options.drive_start_ns,
+                             motion.file);
   if (source.degrees) makeRadians(mechanism, scene, motion);
   checkFreeTurns(mechanism, motion.given, motion.file);
   straighten(mechanism, scene, motion);

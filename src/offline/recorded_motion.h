@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "dynamics/following_motors.h"
 #include "dynamics/motion_start.h"
 #include "offline/driven_rows.h"
 #include "offline/motion_file.h"
@@ -22,7 +23,11 @@ struct RecordedMotion {
   std::vector<std::pair<std::string, double>> resting;  ///< joints that the file does not have
 
   DrivenRows drives;
+  FollowingMotors motors;  ///< those that letMotorsFollow() found, then given
 
+  /// Has actuators of transmissions that the file does not give follow from the joints. Returns
+  /// false, and changes nothing, where the motion does not give all joints besides them.
+  bool letMotorsFollow(const Mechanism& mechanism, const Scene& scene);
   /// Number of columns that are not coordinates.
   std::size_t drivenColumns() const { return given.drivenNumbers() - drives.closures(); }
   /// Number of these that are axes of closures.

@@ -69,7 +69,7 @@ ResidualRows::ResidualRows(const Mechanism& mechanism, const Dynamics& dynamics,
   if (joints_.empty() && std::all_of(unused.begin(), unused.end(), known)) {
     throw FileError(where + ": no measured effort is one of an actuator: they are of " +
                     namesInQuotes(unused) + ", and " +
-                    (scene.transmission_names.empty() ? "" : "as transmissions are read, ") +
+                    (scene.actuators_of.empty() ? "" : "as transmissions are read, ") +
                     "those of " + namesInQuotes(lacking) + " are needed (effort.<name>)");
   }
   if (joints_.empty()) {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <limits>
 #include <memory>
 #include <utility>
 
@@ -54,7 +53,8 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       played_(parameters.trajectory_rate),
       streams_(task_.mechanism.coordinates().size()),
       gap_throttles_(task_.mechanism.coordinates().size(), Throttle(kGapPeriod)),
-      joint_watch_(task_.mechanism.coordinateNames(), task_.waitedFor(completer_.needed())),
+      joint_watch_(task_.mechanism.coordinateNames(), task_.waitedFor(completer_.needed()),
+                   completer_.following()),
       scene_inputs_(task_.mechanism, task_.scene, parameters.frame_prefix, parameters.root,
                     counters_),
       place_(Motion(task_.everything.coordinates(), task_.everything.orientations())),
@@ -279,21 +279,19 @@ std::string InverseDynamicsNode::openLoop(Outcome outcome, ActivePlan& plan) con
 
 void InverseDynamicsNode::dropResult(const ros::Subscriber& source, Outcome outcome,
                                      const std::string& open_loop, const std::string& where) {
-  const std::string topic = source.getTopic();
+  const std::string topic = source.getTopic(), at = ", at " + where;
   if (outcome == Outcome::kOpenLoop) {
-    drop(topic, DropReason::kOpenLoop, open_loop + ", at " + where);
+    drop(topic, DropReason::kOpenLoop, open_loop + at);
   } else if (outcome == Outcome::kNoDrive) {
-    drop(topic, DropReason::kNoDrive, open_loop + ", at " + where);
+    drop(topic, DropReason::kNoDrive, open_loop + at);
   } else if (outcome == Outcome::kNoWrench) {
-    drop(topic, DropReason::kNoWrench,
-         wrench_inputs_.problem(samples_.unknownWrench()) + ", at " + where);
+    drop(topic, DropReason::kNoWrench, wrench_inputs_.problem(samples_.unknownWrench()) + at);
   } else if (outcome == Outcome::kNoTurn) {
     drop(topic, DropReason::kNoTurn,
          free_joint_subscriber_.getTopic() + " does not tell the orientation of " +
-             inQuotes(task_.mechanism.freeJoint(joint_states_.unknownTurn()).name) + " at " +
-             where);
+             inQuotes(task_.mechanism.freeJoint(joint_states_.unknownTurn()).name) + at);
   } else if (outcome == Outcome::kNoRoot) {
-    drop(topic, DropReason::kNoRoot, root_inputs_.problem() + ", at " + where);
+    drop(topic, DropReason::kNoRoot, root_inputs_.problem() + at);
   } else {
     drop(topic, DropReason::kOverflow, "not finite at " + where);
   }

@@ -8,12 +8,19 @@ namespace virtual_work_dynamics {
 
 constexpr std::chrono::seconds JointWatch::kPatience;
 
-JointWatch::JointWatch(std::vector<std::string> joints, std::vector<bool> needed)
+JointWatch::JointWatch(std::vector<std::string> joints, std::vector<bool> needed,
+                       std::vector<bool> following)
     : joints_(std::move(joints)),
       needed_(std::move(needed)),
+      following_(std::move(following)),
       start_(Clock::now()),
       seen_(joints_.size()) {
   for (auto& seen : seen_) seen.store(kNever, std::memory_order_relaxed);
+}
+
+bool JointWatch::isNeeded(std::size_t i) const {
+  if (!all_needed_) return needed_[i];
+  return !following_[i] || seen_[i].load(std::memory_order_relaxed) != kNever;
 }
 
 void JointWatch::saw(const int* coordinates, int count) {

@@ -18,7 +18,9 @@ class JointWatch {
   static constexpr std::chrono::seconds kPatience{5};
 
   /// @param needed which of the joints are waited for.
-  JointWatch(std::vector<std::string> joints, std::vector<bool> needed);
+  /// @param following which are not waited for where all others are, unless they were seen.
+  JointWatch(std::vector<std::string> joints, std::vector<bool> needed,
+             std::vector<bool> following);
 
   /// Takes note of `count` coordinates that a joint state shows; called by the receiving thread.
   void saw(const int* coordinates, int count);
@@ -38,10 +40,10 @@ class JointWatch {
   static constexpr std::int64_t kNever = -1;
 
   std::vector<std::string> notNeeded(bool seen) const;
-  bool isNeeded(std::size_t i) const { return needed_[i] || all_needed_; }
+  bool isNeeded(std::size_t i) const;
 
   std::vector<std::string> joints_;
-  const std::vector<bool> needed_;
+  const std::vector<bool> needed_, following_;
   std::atomic<bool> all_needed_{false};
   const Clock::time_point start_;
   std::atomic<std::int64_t> now_{0};  // s since start

@@ -17,6 +17,24 @@ std::vector<bool> either(std::vector<bool> one, const std::vector<bool>& other) 
   return one;
 }
 
+std::vector<bool> without(std::vector<bool> one, const std::vector<bool>& other) {
+  for (std::size_t i = 0; i < one.size(); ++i) one[i] = one[i] && !other[i];
+  return one;
+}
+
+// Of all actuators that could follow, if joints are given.
+FollowingMotors motorsOf(const Mechanism& mechanism, const Scene& scene,
+                         const std::vector<bool>& driven) {
+  std::vector<bool> given(driven.size(), true);
+  for (const auto& [joint, actuators] : scene.actuators_of) {
+    for (const std::string& name : actuators) {
+      const auto place = static_cast<std::size_t>(mechanism.coordinateIndex(name));
+      given[place] = driven[place];
+    }
+  }
+  return FollowingMotors(mechanism, scene, given);
+}
+
 std::vector<bool> namedBy(const TrajectoryMotion& trajectory, std::size_t coordinates) {
   std::vector<bool> named(coordinates, false);
   for (const int i : trajectory.coordinates) named[static_cast<std::size_t>(i)] = true;
@@ -40,6 +58,7 @@ MotionCompleter::MotionCompleter(const Mechanism& mechanism, const Scene& scene,
       rule_(mechanism, dynamics),
       drives_(mechanism, scene, usual_, drive_start),
       fit_(mechanism, dynamics, tolerance),
+      motors_(motorsOf(mechanism, scene, drives_.coordinates())),
       joint_states_(mechanism, dynamics),
       trajectories_(mechanism, dynamics),
       samples_(mechanism, dynamics),
@@ -48,7 +67,12 @@ MotionCompleter::MotionCompleter(const Mechanism& mechanism, const Scene& scene,
       needed_(usual_.coordinates),
       seen_(needed_.size(), false),
       motion_(dynamics.coordinates(), dynamics.orientations()) {
-  if (all_given_) needed_.assign(needed_.size(), true);
+  const std::vector<bool> joints_and_motors = either(needed_, motors_.coordinates());
+  // What the closures complete is nothing that follows beside them.
+  if (!all_given_ && std::count(joints_and_motors.begin(), joints_and_motors.end(), false) == 0) {
+    motors_ = noMotors();
+  }
+  if (all_given_) needed_ = without(std::vector<bool>(needed_.size(), true), motors_.coordinates());
   for (std::size_t i = 0; i < needed_.size(); ++i) {
     if (drives_.coordinates()[i]) needed_[i] = false;
   }
@@ -61,13 +85,29 @@ bool MotionCompleter::saw(const int* coordinates, int count) {
     for (int i = 0; i < count; ++i) needed_[static_cast<std::size_t>(coordinates[i])] = true;
     return true;
   }
-  if (all_given_ || drives_.any()) return false;
+  if (all_given_) return motors_.any() && sawMotors(coordinates, count);
+  if (drives_.any()) return false;
   for (int i = 0; i < count; ++i) seen_[static_cast<std::size_t>(coordinates[i])] = true;
   for (std::size_t i = 0; i < seen_.size(); ++i) {
-    if (!seen_[i] && !needed_[i]) return false;
+    if (!seen_[i] && !needed_[i] && !motors_.coordinates()[i]) return false;
   }
   all_given_ = true;
-  needed_.assign(needed_.size(), true);
+  needed_ = without(std::vector<bool>(needed_.size(), true), motors_.coordinates());
+  return true;
+}
+
+FollowingMotors MotionCompleter::noMotors() const {
+  return FollowingMotors(mechanism_, scene_, std::vector<bool>(needed_.size(), true));
+}
+
+// Actuators follow no longer once joint states have shown all that do.
+bool MotionCompleter::sawMotors(const int* coordinates, int count) {
+  for (int i = 0; i < count; ++i) seen_[static_cast<std::size_t>(coordinates[i])] = true;
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    if (motors_.coordinates()[i] && !seen_[i]) return false;
+  }
+  needed_ = either(needed_, motors_.coordinates());
+  motors_ = noMotors();
   return true;
 }
 
@@ -86,11 +126,25 @@ bool MotionCompleter::complete(Motion& motion, std::int64_t stamp_ns, const Dyna
     motion.qd.setZero();
     motion.qdd.setZero();
   }
-  if (all_given_) return true;
+  if (all_given_) {
+    motors_.set(motion);
+    return true;
+  }
   if (!started_) startBy(motion);
   evaluated_ = true;
   latest_ = &joint_states_;
   return joint_states_.complete(motion, drives_.numbers(), dynamics, workspace);
+}
+
+const MotionFit::Outcome& MotionCompleter::fit(Motion& motion, MotionCovariance* covariance,
+                                               const Eigen::VectorXd& noise) {
+  motors_.set(motion);
+  if (covariance) motors_.loosen(*covariance);
+  return fit_.fit(motion, covariance, noise, !static_motion_);
+}
+
+void MotionCompleter::complete(MotionCovariance& covariance) const {
+  if (all_given_) motors_.set(covariance);
 }
 
 void MotionCompleter::startBy(const Motion& motion) {
@@ -142,10 +196,28 @@ Given MotionCompleter::with(std::vector<bool> coordinates) const {
 MotionCompleter::Choice MotionCompleter::choose(const std::vector<bool>& named) const {
   const Given given = with(either(GivenJoints::resting(dynamics_), named));
   std::optional<std::string> problem = rule_.problem(given);
-  if (!problem) return {given, problem};
+  if (!problem) {
+    const bool all = GivenJoints::givesAll(given) && !GivenJoints::givesAll(with(named));
+    if (const auto joints = all ? chooseJoints(named) : std::nullopt) return *joints;
+    return {given, problem, {}};
+  }
   const Given alone = with(named);
-  if (!rule_.problem(alone)) return {alone, std::nullopt};
-  return {given, problem};
+  if (!rule_.problem(alone)) return {alone, std::nullopt, {}};
+  if (const auto joints = chooseJoints(named)) return *joints;
+  return {given, problem, {}};
+}
+
+// All joints, named or at rest, from which actuators follow that are not named.
+std::optional<MotionCompleter::Choice> MotionCompleter::chooseJoints(
+    const std::vector<bool>& named) const {
+  const FollowingMotors all = motorsOf(mechanism_, scene_, drives_.coordinates());
+  if (!all.any()) return std::nullopt;
+  const std::vector<bool> joints =
+      either(without(GivenJoints::resting(dynamics_), all.coordinates()), named);
+  const FollowingMotors motors(mechanism_, scene_, with(joints).coordinates);
+  const Given given = with(either(joints, motors.coordinates()));
+  if (!motors.any() || rule_.problem(given)) return std::nullopt;
+  return Choice{given, std::nullopt, motors};
 }
 
 const MotionCompleter::Choice& MotionCompleter::chosenBy(const TrajectoryMotion& trajectory) {
@@ -194,6 +266,7 @@ void MotionCompleter::complete(TrajectoryMotion& trajectory, const Dynamics& dyn
   drive(trajectory);
   if (!closed_) return;
   const Given& given = chosenBy(trajectory).given;
+  choice_.motors.set(trajectory.table);
   if (!GivenJoints::givesAll(given) || given.drivenNumbers() > 0) {
     setGiven(given, trajectories_);
     follow(trajectory, dynamics, workspace);
@@ -240,7 +313,9 @@ void MotionCompleter::startSamples(const TrajectoryMotion& trajectory) {
 bool MotionCompleter::completeSample(Motion& motion, std::int64_t stamp_ns,
                                      const Dynamics& dynamics, Dynamics::Workspace& workspace) {
   if (!drives_.set(stamp_ns, motion)) return false;
-  if (!closed_ || !samples_follow_) return true;
+  if (!closed_) return true;
+  choice_.motors.set(motion);
+  if (!samples_follow_) return true;
   if (static_motion_) {
     motion.qd.setZero();
     motion.qdd.setZero();

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/following_motors.h"
 #include "dynamics/given_joints.h"
 #include "ros/live_drives.h"
 #include "ros/rejection.h"
@@ -24,6 +25,9 @@ namespace virtual_work_dynamics {
 /// Joint states give what the scene says, and count as giving all joints once each of them has been
 /// seen; until then other joints are ignored. Joint states and trajectories are followed
 /// independently.
+///
+/// Actuators of transmissions follow from the joints that they move where all joints are given but
+/// they are not: of joint states until all actuators have been seen, too.
 ///
 /// What the scene drives is part of no message, and of none is it used. The time of the drives
 /// begins with the first joint state, or the first point of a trajectory that comes before.
@@ -50,6 +54,8 @@ class MotionCompleter {
   /// Whether any motion is that of joint states: drives are exact, and so is what follows from
   /// them.
   bool measures() const;
+  /// The actuators that follow from the joints once joint states give all of these.
+  const std::vector<bool>& following() const { return motors_.coordinates(); }
   /// Takes note of the coordinates of a joint state. Returns whether needed() has changed.
   bool saw(const int* coordinates, int count);
   /// The drives that set what is driven.
@@ -63,11 +69,13 @@ class MotionCompleter {
                 Dynamics::Workspace& workspace);
   /// Whether motions of joint states are fitted to the closures: those that give all joints.
   bool fits() const { return all_given_ && !drives_.any() && fit_.any(); }
-  /// Fits a motion of joint states, see MotionFit::fit(). Needs fits().
-  const MotionFit::Outcome& fit(Motion& motion, const MotionCovariance* covariance,
-                                const Eigen::VectorXd& noise) {
-    return fit_.fit(motion, covariance, noise, !static_motion_);
-  }
+  /// Fits a motion of joint states, see MotionFit::fit(). Needs fits(). Does not allocate.
+  /// @param covariance loses that of what follows from joints
+  const MotionFit::Outcome& fit(Motion& motion, MotionCovariance* covariance,
+                                const Eigen::VectorXd& noise);
+  /// Sets the covariances of what follows from joints in a motion of joint states that is complete.
+  /// Does not allocate.
+  void complete(MotionCovariance& covariance) const;
   /// Takes note of the results of a motion of joint states. Where all joints are given and leave
   /// the loops open, later completions do not start there, but where loops were closed last. Does
   /// not allocate.
@@ -105,12 +113,16 @@ class MotionCompleter {
   struct Choice {
     Given given;
     std::optional<std::string> problem;
+    FollowingMotors motors;  // which the trajectory lacks
   };
   void startBy(const Motion& motion);
   Given with(std::vector<bool> coordinates) const;
   void drive(TrajectoryMotion& trajectory);
   std::optional<std::size_t> turnIn(const std::vector<bool>& given) const;
   Choice choose(const std::vector<bool>& named) const;
+  std::optional<Choice> chooseJoints(const std::vector<bool>& named) const;
+  FollowingMotors noMotors() const;
+  bool sawMotors(const int* coordinates, int count);
   const Choice& chosenBy(const TrajectoryMotion& trajectory);
   void setGiven(const Given& given, PassiveJoints& joints) const;
   void follow(TrajectoryMotion& trajectory, const Dynamics& dynamics,
@@ -128,6 +140,7 @@ class MotionCompleter {
   const GivenJoints rule_;
   LiveDrives drives_;
   MotionFit fit_;
+  FollowingMotors motors_;  // where joint states give all joints
   PassiveJoints joint_states_, trajectories_, samples_;
   const PassiveJoints* latest_ = &joint_states_;  // completed something last
   std::vector<bool> named_;                       // by the trajectory of choice_

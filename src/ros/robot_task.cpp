@@ -227,6 +227,12 @@ std::vector<bool> RobotTask::following() const {
   follow.flip();
   const std::vector<bool> driven = Drives(mechanism, scene).coordinates();
   for (std::size_t i = 0; i < follow.size(); ++i) follow[i] = follow[i] || driven[i];
+  if (!GivenJoints::givesAll(everything.given())) return follow;
+  for (const auto& [joint, actuators] : scene.actuators_of) {
+    for (const std::string& name : actuators) {
+      follow[static_cast<std::size_t>(mechanism.coordinateIndex(name))] = true;
+    }
+  }
   return follow;
 }
 

@@ -47,6 +47,7 @@ SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan, std::int
   if (!completer_.complete(motion_, stamp_ns, plan.dynamics, plan.workspace)) {
     return whyIncomplete();
   }
+  if (covariance) completer_.complete(*covariance);
   placeRoot(motion_);
   const Outcome outcome = computeOne(plan, stamp_ns, start, covariance, true);
   if (outcome == Outcome::kDone) completer_.took(motion_, plan.workspace.results());

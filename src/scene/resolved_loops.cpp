@@ -156,8 +156,7 @@ class Resolver {
   // Whether transmissions that have been read move it: their actuators then deliver its effort.
   bool isMovedByActuators(int coordinate) const {
     const std::string& name = mechanism_.coordinateNames()[static_cast<std::size_t>(coordinate)];
-    const std::vector<std::string>& moved = scene_.transmission_names;
-    return std::find(moved.begin(), moved.end(), name) != moved.end();
+    return scene_.actuators_of.count(name) > 0;
   }
 
   // Cylinders and what is driven are actuators whether they are named or not.

@@ -216,7 +216,8 @@ class TransmissionScene {
   Scene changedScene() const {
     Scene scene = scene_;
     scene.transmissions = TransmissionSelection::kNone;
-    scene.transmission_names = movedJoints();
+    scene.transmission_names.clear();
+    scene.actuators_of = actuators_of_;
     scene.couplings.insert(scene.couplings.end(), couplings_.begin(), couplings_.end());
     if (scene.reactions == ReactionSelection::kAll) {
       scene.reaction_names = requestedReactions(mechanism_, scene_);
@@ -225,16 +226,12 @@ class TransmissionScene {
     // What free motions demand of a scene is not met by what is added here.
     if (!scene.actuated && scene.free_motion) return scene;
     const NameList moved = scene.actuated.value_or(mechanism_.coordinateNames());
-    // Where positions do not follow from each other motions give everything, as without motors.
-    if (!scene.given && hasPositions(scene)) scene.given = givenFor(moved);
+    // Where positions do not follow from each other, and where loops move freely, motions give all
+    // joints, as without motors.
+    const bool freely = scene_.free_motion && !isOpenChain();
+    if (!scene.given && hasPositions(scene) && !freely) scene.given = givenFor(moved);
     scene.actuated = replaced(withDriven(moved), actuators_of_);
     return scene;
-  }
-
-  NameList movedJoints() const {
-    NameList joints;
-    for (const auto& [joint, actuators] : actuators_of_) joints.push_back(joint);
-    return joints;
   }
 
   bool isDriven(const std::string& name) const {
@@ -251,11 +248,13 @@ class TransmissionScene {
     return moved;
   }
 
+  bool isOpenChain() const { return scene_.closures.empty() && scene_.couplings.empty(); }
+
   // What motions give in place of what is actuated: of an open chain that moves freely all joints,
   // and nothing that drives say already.
   NameList givenFor(const NameList& moved) const {
-    const bool all = scene_.free_motion && scene_.closures.empty() && scene_.couplings.empty();
-    NameList given = replaced(all ? mechanism_.coordinateNames() : moved, joints_of_);
+    NameList given =
+        replaced(scene_.free_motion ? mechanism_.coordinateNames() : moved, joints_of_);
     given.erase(std::remove_if(given.begin(), given.end(),
                                [&](const std::string& name) { return isDriven(name); }),
                 given.end());

@@ -123,6 +123,7 @@ set(core_test_files
   test/core/offline_loops_errors_test.cpp
   test/core/offline_loops_test.cpp
   test/core/offline_loops_threads_test.cpp
+  test/core/offline_motors_test.cpp
   test/core/offline_names_test.cpp
   test/core/offline_npz_test.cpp
   test/core/offline_plan_test.cpp
@@ -151,6 +152,7 @@ set(core_test_files
   test/core/property_rerooting_test.cpp
   test/core/property_superposition_test.cpp
   test/core/rank_factorization_test.cpp
+  test/core/rank_memory_test.cpp
   test/core/recorded_positions_test.cpp
   test/core/recording_test.cpp
   test/core/reference_recursion_test.cpp

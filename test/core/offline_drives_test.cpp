@@ -39,6 +39,8 @@ constexpr char kCart[] = R"(<robot name="cart">
     <axis xyz="0 1 0"/></joint>
 </robot>)";
 
+constexpr char kTilted[] = "0.7853981633974483";
+
 class OfflineDrives : public OfflineLoops {
  protected:
   std::string results(const std::string& arguments) {
@@ -66,6 +68,18 @@ class OfflineDrives : public OfflineLoops {
     write("lift.yaml", kLiftScene + rest);
   }
 
+  // A ram with a drive, and one whose length motions give.
+  void writeDrivenAndGivenLift() {
+    writeLift(kTilted, "drives: [{name: ram, law: polynomial, coefficients: [1, 0.5, 0.25]}]\n");
+    write("given.yaml", kLiftScene);
+  }
+
+  // With a slide that moves as the columns of cartMotion() do.
+  void writeCart() {
+    write("cart.urdf", kCart);
+    write("cart.yaml", "drives: [{name: slide, law: polynomial, coefficients: [1, 0.5, 0.25]}]\n");
+  }
+
   static double at(const NumberTable& table, std::size_t row, const std::string& name) {
     const int column = table.column(name);
     EXPECT_GE(column, 0) << name;
@@ -74,8 +88,6 @@ class OfflineDrives : public OfflineLoops {
 
   std::string notes_;
 };
-
-constexpr char kTilted[] = "0.7853981633974483";
 
 // A row of the reference: forces of the actuator on the plate and of the plate on the guide, and
 // the moment of the latter about the marker, N and N m, six digits.
@@ -146,8 +158,7 @@ std::string lengths(const std::string& header, bool closed_form) {
 }
 
 TEST_F(OfflineDrives, TheLengthOfARamMayStandInTheMotionInstead) {
-  writeLift(kTilted, "drives: [{name: ram, law: polynomial, coefficients: [1, 0.5, 0.25]}]\n");
-  write("given.yaml", kLiftScene);
+  writeDrivenAndGivenLift();
   write("t.csv", lengths("time", false));
   write("l.csv", lengths("time,position.ram,velocity.ram,acceleration.ram", true));
   const std::string more = " --positions --certificates --method ";
@@ -174,8 +185,7 @@ TEST_F(OfflineDrives, TheLengthOfARamMayStandInTheMotionInstead) {
 
 // Joint states that a driver made, with a transducer's length and the pins' encoders, which jitter.
 TEST_F(OfflineDrives, JointStatesHaveTheLengthsOfRamsOrTheirDrivesDo) {
-  writeLift(kTilted, "drives: [{name: ram, law: polynomial, coefficients: [1, 0.5, 0.25]}]\n");
-  write("given.yaml", kLiftScene);
+  writeDrivenAndGivenLift();
   std::string both = "__time,/joint_states/ram/position,/joint_states/guide/position\n";
   std::string length = "__time,/joint_states/ram/position\n";
   for (int i = 0; i < 200; ++i) {
@@ -224,8 +234,7 @@ std::string cartMotion(bool slide, bool rates, double off = 0) {
 }
 
 TEST_F(OfflineDrives, AnOpenChainWithADrivenJoint) {
-  write("cart.urdf", kCart);
-  write("cart.yaml", "drives: [{name: slide, law: polynomial, coefficients: [1, 0.5, 0.25]}]\n");
+  writeCart();
   write("all.csv", cartMotion(true, true));
   write("hinge.csv", cartMotion(false, true));
   write("differs.csv", cartMotion(true, true, 0.25));
@@ -247,8 +256,7 @@ TEST_F(OfflineDrives, AnOpenChainWithADrivenJoint) {
 }
 
 TEST_F(OfflineDrives, EstimatesAreThoseOfTheOtherJoints) {
-  write("cart.urdf", kCart);
-  write("cart.yaml", "drives: [{name: slide, law: polynomial, coefficients: [1, 0.5, 0.25]}]\n");
+  writeCart();
   write("hinge.csv", cartMotion(false, false));
   write("both.csv", cartMotion(true, false));
   const std::string scene = "--urdf cart.urdf --scene cart.yaml --positions --motion ";

@@ -87,24 +87,6 @@ TEST_F(OfflineTransmissions, MeasuredEffortsAreThoseOfTheMotors) {
   EXPECT_TRUE(says(refused.err, "'spindle'")) << refused.err;
 }
 
-// All joints, but not the motors.
-TEST_F(OfflineTransmissions, MotorsThatAMotionOfAllJointsLacksAreNamed) {
-  write("r.urdf", transmittingRobot(transmissionText(
-                      "lead", "SimpleTransmission",
-                      endText("joint", "slide", "") + endText("actuator", "spindle", "250"))));
-  write("s.yaml",
-        "urdf_transmissions: all\ncouplings: [{name: belt, terms: [{name: pitch, factor: 1}, "
-        "{name: roll, factor: 2}]}]\nactuated: [slide, shoulder, elbow, pitch]\n");
-  write("m.csv",
-        "time,position.slide,position.shoulder,position.elbow,position.pitch,position.roll\n"
-        "0,0,0,0,0,0\n0.1,0,0,0,0,0\n0.2,0,0,0,0,0\n");
-  const Run refused = run("--urdf r.urdf --scene s.yaml --motion m.csv");
-  EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_TRUE(
-      says(refused.err, "leave one out, or give all joints, with 'spindle', and nothing else"))
-      << refused.err;
-}
-
 TEST_F(OfflineTransmissions, WhatIsWrongIsNamedWithTheScene) {
   write("r.urdf", transmittingRobot(""));
   write("s.yaml", "urdf_transmissions: all\n");

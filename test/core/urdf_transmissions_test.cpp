@@ -19,6 +19,7 @@ namespace {
 
 // A factorization of a tree with ratios of some tens against closed forms.
 constexpr double kTransmitted = 1e-12;
+using Names = std::vector<std::string>;
 
 // The reductions that the descriptions below have.
 constexpr double kSimple = 250, kA1 = 20, kA2 = -25, kJ1 = 1.5, kJ2 = 0.8;
@@ -216,7 +217,6 @@ reactions: [slide, shoulder, elbow, pitch, roll]
 }
 
 TEST_F(TransmissionsOfUrdf, NamesGoFromJointsToActuators) {
-  using Names = std::vector<std::string>;
   const auto with = [&](const std::string& scene) {
     return withTransmissions(described, sceneOf(scene)).scene;
   };
@@ -224,10 +224,12 @@ TEST_F(TransmissionsOfUrdf, NamesGoFromJointsToActuators) {
   EXPECT_EQ(robot.scene.given, Names({"slide", "shoulder", "elbow", "pitch", "roll"}));
   EXPECT_EQ(robot.scene.actuated, Names({"spindle", "lower", "a_remote", "left", "right"}));
   EXPECT_EQ(robot.scene.reaction_names, *robot.scene.given);
+  EXPECT_EQ(robot.scene.actuators_of.at("roll"), Names({"left", "right"}));
   const Scene wrist = with("urdf_transmissions: [wrist]");
   EXPECT_EQ(wrist.actuated, Names({"slide", "shoulder", "elbow", "left", "right"}));
   EXPECT_EQ(wrist.given, Names({"slide", "shoulder", "elbow", "pitch", "roll"}));
   EXPECT_EQ(wrist.couplings.size(), 2u);
+  EXPECT_EQ(wrist.transmission_names, Names());
   // Motors that a scene names already, and what it says of motions, stay.
   const Scene named =
       with("{urdf_transmissions: [wrist], actuated: [right, pitch, elbow], given: [left, right]}");
@@ -241,7 +243,6 @@ TEST_F(TransmissionsOfUrdf, NamesGoFromJointsToActuators) {
 
 // Drives say how joints or motors move, and motions give the rest.
 TEST_F(TransmissionsOfUrdf, WhatDrivesMoveIsNotGiven) {
-  using Names = std::vector<std::string>;
   const auto given = [&](const std::string& driven, const std::string& more = "") {
     const Scene scene = sceneOf("{urdf_transmissions: all" + more + ", drives: [{name: " + driven +
                                 ", law: polynomial, coefficients: [0, 1]}]}");
@@ -284,7 +285,6 @@ TEST_F(TransmissionsOfUrdf, MotorsDeliverWhatDrivesOfJointsTake) {
 
 // Joints that nothing holds are given, too; where positions do not follow everything is.
 TEST_F(TransmissionsOfUrdf, MotionsGiveAllThatDoesNotFollow) {
-  using Names = std::vector<std::string>;
   const SceneOfMechanism loose = withTransmissions(
       described, sceneOf("{urdf_transmissions: [lead], actuated: [slide, elbow], free_motion: "
                          "true}"));

@@ -1,12 +1,20 @@
 #!/usr/bin/python3
 """Couplings in the node: a motor that moves an arm and a rack by gears, in closed form."""
 import math
+import os
+import shutil
+import subprocess
+import tempfile
 
+import rosbag
 import rospy
 from diagnostic_msgs.msg import DiagnosticStatus
+from trajectory_msgs.msg import JointTrajectory
+import yaml
 
 from closed_loops import CLOSED_FORM, STEP, LoopTest, by_name
-from node_under_test import EPOCH, Polynomials, joint_state, run
+from node_under_test import (EPOCH, Polynomials, executable, joint_state, ros_time, run,
+                             trajectory_point)
 
 # The estimator's rounding on a cubic, in accelerations of links of some kg.
 ESTIMATED = 1e-8
@@ -31,7 +39,13 @@ SCENE = {'actuated': ['motor'], 'couplings': [
     {'name': 'pinion', 'terms': [{'name': 'rack', 'factor': 1}, {'name': 'motor', 'factor': -0.002}]}]}
 # Results are in depth-first order, children by joint name.
 NAMES = ['arm', 'motor', 'rack', 'reducer', 'pinion']
-MOTOR = Polynomials(motor=(3.0, 20.0, 15.0, -8.0))
+TURN, RACK = (3.0, 20.0, 15.0, -8.0), (0.1, 0.3, -0.2, 0.4)
+MOTOR = Polynomials(motor=TURN)
+# A belt that may slip, and a motor for the arm, the drum.
+LIFTED = DRIVE.replace('</robot>', LIFT + '</robot>')
+BELT = {'urdf_transmissions': 'all', 'actuated': ['arm', 'rack'], 'couplings': [
+    {'name': 'belt', 'rate_only': True,
+     'terms': [{'name': 'motor', 'factor': 1}, {'name': 'arm', 'factor': -50}]}]}
 
 
 def efforts(turn, acceleration):
@@ -98,6 +112,77 @@ class Couplings(LoopTest):
                             for line in self.node.lines('WARN')), self.node.lines('WARN'))
         topics = [name for name, _ in rospy.get_published_topics(self.node.name + '/reaction')]
         self.assertFalse([name for name in topics if 'drum' in name], topics)
+
+    def test_motors_follow_where_all_joints_are_given(self):
+        motion = Polynomials(motor=TURN, rack=RACK, arm=tuple(c / 50 for c in TURN))
+        self.start('effort', robot=LIFTED, scene=BELT, parameters={'certificates': True})
+        stamps = [EPOCH + STEP * i for i in range(60)]
+        states = [joint_state(ns, *motion(ns)[:2]) for ns in stamps]
+        for state in states:
+            self.states.publish(state)
+        messages = self.recorders['effort'].wait(len(stamps) - LAG)
+        self.assertStamps(messages, stamps[:-LAG])
+        for message in messages:
+            self.assertDrum(message, motion, ESTIMATED)
+        values = self.node.diagnostics(
+            lambda values: 'certificate: power (largest, relative)' in values, 'certificates')
+        self.assertLess(float(values['certificate: power (largest, relative)']), SOUND)
+        self.assertEqual(values['joints waited for'], 'none')
+        self.compare_with_bag(states, messages)
+
+    def test_motors_follow_in_trajectories(self):
+        motion = Polynomials(motor=TURN, rack=RACK, arm=tuple(c / 50 for c in TURN))
+        for sampling in (0, 200):
+            self.start('effort', robot=LIFTED, scene=BELT,
+                       parameters={'trajectory_sampling': sampling})
+            names = ['motor', 'arm', 'rack']
+            message = JointTrajectory(joint_names=names)
+            message.header.stamp = ros_time(EPOCH)
+            for i in range(10):
+                message.points.append(trajectory_point(STEP * i, names, motion(EPOCH + STEP * i)))
+            self.trajectories.publish(message)
+            count = 19 if sampling else 10
+            messages = self.recorders['effort'].wait(count)
+            self.assertEqual(len(messages), count)
+            for effort in messages:
+                self.assertDrum(effort, motion, ESTIMATED)
+
+    def assertDrum(self, message, motion, tolerance):
+        """The drum lifts the arm, which turns the motor by a belt that may slip."""
+        q, qd, qdd = motion(message.header.stamp.to_nsec())
+        expected = {'drum': (-80 * (q['arm'] - 0.1), -80 * qd['arm'],
+                             (0.53 * qdd['arm'] + 9.81 * math.sin(q['arm']) +
+                              50 * 1e-4 * qdd['motor']) / -80),
+                    'arm': (q['arm'], qd['arm'], 0), 'motor': (q['motor'], qd['motor'], 0),
+                    'rack': (q['rack'], qd['rack'], 3 * (9.81 + qdd['rack']))}
+        for name, values in expected.items():
+            at = message.name.index(name)
+            self.assertClose([message.position[at], message.velocity[at], message.effort[at]], values,
+                             tolerance, name)
+
+    def compare_with_bag(self, states, live):
+        """The tool finds the same in a bag."""
+        folder = tempfile.mkdtemp(prefix='vwd_test_')
+        self.addCleanup(shutil.rmtree, folder)
+        path = {name: os.path.join(folder, name)
+                for name in ('robot.urdf', 'scene.yaml', 'run.bag', 'results.bag')}
+        with rosbag.Bag(path['run.bag'], 'w') as bag:
+            for state in states:
+                bag.write('/joint_states', state, state.header.stamp)
+        for name, content in (('robot.urdf', LIFTED), ('scene.yaml', yaml.safe_dump(BELT))):
+            with open(path[name], 'w', encoding='utf-8') as file:
+                file.write(content)
+        subprocess.run([executable('inverse_dynamics_offline'), '--urdf', path['robot.urdf'],
+                        '--scene', path['scene.yaml'], '--motion', path['run.bag'], '--output',
+                        path['results.bag']], check=True)
+        with rosbag.Bag(path['results.bag']) as bag:
+            recorded = [message for topic, message, _ in bag.read_messages()
+                        if topic.endswith('effort')]
+        self.assertEqual(len(recorded), len(live))
+        for one, other in zip(recorded, live):
+            self.assertEqual((one.header.stamp, one.name, one.position, one.velocity, one.effort),
+                             (other.header.stamp, other.name, other.position, other.velocity,
+                              other.effort))
 
     def test_the_log_lists_them(self):
         self.start('effort', robot=DRIVE, scene=SCENE)

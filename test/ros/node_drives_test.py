@@ -61,13 +61,18 @@ class DrivenJoints(NodeTest):
         self.efforts = self.node.record('effort', JointState)
         self.node.wait_for_plan('effort')
 
+    def publish_states(self, motion, start=EPOCH, more=lambda q: {}):
+        """Joint states of what is not driven, and of `more`. Returns their stamps."""
+        stamps = [start + STEP * i for i in range(40)]
+        for ns in stamps:
+            q, qd, _ = motion(ns)
+            self.states.publish(joint_state(ns, dict(only(q, 'elbow', 'slide'), **more(q)), qd))
+        return stamps
+
     def test_joint_states_lack_what_is_driven(self):
         self.start(polynomial('shoulder', COEFFICIENTS['shoulder']))
         motion = Polynomials(**COEFFICIENTS)
-        stamps = [EPOCH + STEP * i for i in range(40)]
-        for ns in stamps:
-            q, qd, _ = motion(ns)
-            self.states.publish(joint_state(ns, only(q, 'elbow', 'slide'), qd))
+        stamps = self.publish_states(motion)
         messages = self.efforts.wait(len(stamps) - LAG)
         self.assertStamps(messages, stamps[:-LAG])
         for ns, message in zip(stamps, messages):
@@ -83,10 +88,7 @@ class DrivenJoints(NodeTest):
     def test_what_joint_states_say_of_it_is_not_used(self):
         self.start(polynomial('shoulder', COEFFICIENTS['shoulder']))
         motion = Polynomials(**COEFFICIENTS)
-        stamps = [EPOCH + STEP * i for i in range(40)]
-        for ns in stamps:
-            q, qd, _ = motion(ns)
-            self.states.publish(joint_state(ns, dict(q, shoulder=17 - q['shoulder']), qd))
+        stamps = self.publish_states(motion, more=lambda q: {'shoulder': 17 - q['shoulder']})
         messages = self.efforts.wait(len(stamps) - LAG)
         self.assertStamps(messages, stamps[:-LAG])
         for ns, message in zip(stamps, messages):
@@ -97,11 +99,8 @@ class DrivenJoints(NodeTest):
         back = EPOCH - 10000000000
         for start in (EPOCH, back):
             motion = Polynomials(start, **COEFFICIENTS)
-            stamps = [start + STEP * i for i in range(40)]
             seen = len(self.efforts.messages())
-            for ns in stamps:
-                q, qd, _ = motion(ns)
-                self.states.publish(joint_state(ns, only(q, 'elbow', 'slide'), qd))
+            stamps = self.publish_states(motion, start)
             messages = self.efforts.wait(seen + len(stamps) - LAG)[seen:]
             self.assertStamps(messages, stamps[:-LAG])
             for ns, message in zip(stamps, messages):
@@ -142,10 +141,7 @@ class DrivenJoints(NodeTest):
         motion = Polynomials(**COEFFICIENTS)
         for i in range(-30, 0):
             self.states.publish(joint_state(EPOCH + STEP * i, {'elbow': COEFFICIENTS['elbow'][0]}))
-        stamps = [EPOCH + STEP * i for i in range(40)]
-        for ns in stamps:
-            q, qd, _ = motion(ns)
-            self.states.publish(joint_state(ns, only(q, 'elbow', 'slide'), qd))
+        stamps = self.publish_states(motion)
         messages = self.efforts.wait(len(stamps) - LAG)
         self.assertStamps(messages, stamps[:-LAG])
         for ns, message in zip(stamps, messages):
@@ -181,10 +177,7 @@ class DrivenJoints(NodeTest):
     def test_a_law_that_ends_drops_results_by_name_and_time(self):
         self.start({'name': 'shoulder', 'law': 'table', 'times': [0, 0.1, 0.2],
                     'positions': [0, 1, 2]})
-        motion = Polynomials(**COEFFICIENTS)
-        for ns in [EPOCH + STEP * i for i in range(40)]:
-            q, qd, _ = motion(ns)
-            self.states.publish(joint_state(ns, only(q, 'elbow', 'slide'), qd))
+        self.publish_states(Polynomials(**COEFFICIENTS))
         values = self.node.wait_for_count('dropped: drive', 40 - LAG - 21)
         self.assertRegex(values['last drop'],
                          "drives: 'shoulder' has no motion at 0.3[34][0-9]* s: it still moves when its "
@@ -294,7 +287,7 @@ class DrivenLoops(LoopTest):
     def test_tables_and_bags_of_a_bag_have_one_zero_of_time(self):
         scene = {'drives': [polynomial('shoulder', COEFFICIENTS['shoulder'])]}
         path = {name: os.path.join(self.folder, name) for name in
-                ('robot.urdf', 'dump.yaml', 'late.yaml', 'run.bag', 'results.bag', 'results.csv')}
+                ('robot.urdf', 'dump.yaml', 'late.yaml', 'run.bag', 'results.bag', 'results.csv', 'late.csv')}
         motion = Polynomials(**COEFFICIENTS)
         with rosbag.Bag(path['run.bag'], 'w') as bag:
             for i in range(-30, 40):
@@ -318,19 +311,37 @@ class DrivenLoops(LoopTest):
         with open(path['results.csv'], encoding='utf-8') as file:
             header, first = [line.split(',') for line in file.read().splitlines()[:2]]
         self.assertEqual(float(first[header.index('position.shoulder')]), 0.3)
-        refused = tool('late.yaml', 'results.csv')
+        self.assertEqual(tool('late.yaml', 'late.csv').returncode, 0)
+        with open(path['late.csv'], encoding='utf-8') as file:
+            lines = [line.split(',') for line in file.read().splitlines()]
+        # A bag of results has a lag less of them.
+        for dump, table in (('dump.yaml', 'results.csv'), ('late.yaml', 'late.csv')):
+            with open(path[table], encoding='utf-8') as file:
+                header, *rows = [line.split(',') for line in file.read().splitlines()]
+            efforts = self.efforts_of(path, dump)
+            self.assertEqual(efforts[0].header.stamp, ros_time(EPOCH))
+            for effort, row in zip(efforts, rows):
+                self.assertEqual(by_name(effort, effort.position)['shoulder'],
+                                 float(row[header.index('position.shoulder')]))
+        t = (EPOCH - 1600000000 * 1000000000) / 1e9
+        a, b, c = COEFFICIENTS['shoulder']
+        self.assertGreater(t, 0)
+        self.assertClose([float(lines[1][lines[0].index('position.shoulder')])],
+                         [a + b * t + c * t * t], 1e-12, 'the law at its stamp')
+        self.assertEqual(float(lines[1][lines[0].index('time')]), 0)
+        with open(path['late.yaml'], 'w', encoding='utf-8') as file:
+            yaml.safe_dump({'inverse_dynamics': {'scene': scene, 'drive_start': 'soon'}}, file)
+        refused = tool('late.yaml', 'late.csv')
         self.assertNotEqual(refused.returncode, 0)
-        self.assertIn('drive_start: a table counts the time of drives from its first row',
-                      refused.stderr)
-        command = [executable('inverse_dynamics_offline'), '--urdf', path['robot.urdf'],
-                   '--rosparam', path['dump.yaml'], '--motion', path['run.bag'], '--output',
-                   path['results.bag']]
-        subprocess.run(command, check=True)
+        self.assertIn('drive_start: is not a stamp in s', refused.stderr)
+
+    def efforts_of(self, path, dump):
+        subprocess.run([executable('inverse_dynamics_offline'), '--urdf', path['robot.urdf'],
+                        '--rosparam', path[dump], '--motion', path['run.bag'], '--output',
+                        path['results.bag']], check=True)
         with rosbag.Bag(path['results.bag']) as bag:
-            efforts = [message for topic, message, _ in bag.read_messages()
-                       if topic.endswith('effort')]
-        self.assertEqual(efforts[0].header.stamp, ros_time(EPOCH))
-        self.assertEqual(by_name(efforts[0], efforts[0].position)['shoulder'], 0.3)
+            return [message for topic, message, _ in bag.read_messages()
+                    if topic.endswith('effort')]
 
 
 if __name__ == '__main__':
