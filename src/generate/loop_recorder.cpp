@@ -8,6 +8,7 @@
 #include "base/printable.h"
 #include "generate/loop_model.h"
 #include "generate/recorded_choices.h"
+#include "generate/term_vectors.h"
 #include "loops/kernel/closures.h"
 #include "scene/lookup.h"
 #include "virtual_work_dynamics/error.h"
@@ -16,41 +17,12 @@ namespace virtual_work_dynamics {
 
 namespace {
 
-using Terms = std::vector<Term>;
-using TermVector = Vec3<Term>;
-
 // In how many parts the builds for AVX2 and AVX-512 sum.
 constexpr int kSums = kRowChunk;
 using TermFronts = FrontSolutions<Term, Term, kSums>;
 
-double* numbersOf(Terms& terms) {
-  return reinterpret_cast<double*>(terms.data());
-}
-const double* numbersOf(const Terms& terms) {
-  return reinterpret_cast<const double*>(terms.data());
-}
-
 Terms zeros(std::size_t count) {
   return Terms(count, Term(0));
-}
-
-// Products and sums that the package does not fuse, in the order of Eigen's.
-Term plainDot(const TermVector& a, const TermVector& b) {
-  return (a.x * b.x + a.y * b.y) + a.z * b.z;
-}
-TermVector plainCross(const TermVector& a, const TermVector& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-TermVector times(const Term& s, const TermVector& v) {
-  return {s * v.x, s * v.y, s * v.z};
-}
-TermVector over(const TermVector& v, const Term& s) {
-  return {v.x / s, v.y / s, v.z / s};
-}
-TermVector plainTurned(const Term* R, const Eigen::Vector3d& v) {
-  const auto part = [&](int i, int j) { return R[i + 3 * j] * Term(v[j]); };
-  return {(part(0, 0) + part(0, 1)) + part(0, 2), (part(1, 0) + part(1, 1)) + part(1, 2),
-          part(2, 0) + (part(2, 1) + part(2, 2))};
 }
 
 class LoopRecorder {

@@ -30,6 +30,7 @@ class LoopRecord {
 
   /// Records what became of a motion that was fitted to the loops. Does not allocate.
   void recordFit(const MotionFit::Outcome& outcome);
+  const LoopLimits& limits() const { return limits_; }
   /// Records a sample. Does not allocate.
   void record(const Results& results, const ActivePlan& plan);
   /// Whether the positions of passive joints come with the joint states.

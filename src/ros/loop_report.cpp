@@ -83,7 +83,7 @@ Names loopLines(const Mechanism& mechanism, const Scene& scene, const Dynamics& 
 }
 
 LoopReport::LoopReport(const Mechanism& mechanism, const Dynamics& dynamics, Names reactions,
-                       LoopRecord& record, const LoopLimits& limits)
+                       LoopRecord& record)
     : mechanism_(mechanism),
       closures_(dynamics.closureNames()),
       labels_(labelsOf(dynamics)),
@@ -92,7 +92,7 @@ LoopReport::LoopReport(const Mechanism& mechanism, const Dynamics& dynamics, Nam
       reactions_(std::move(reactions)),
       closed_(dynamics.closed()),
       record_(record),
-      limits_(limits) {}
+      limits_(record.limits()) {}
 
 void LoopReport::add(DiagnosticStatusWrapper& status) {
   if (!closed_) return;

@@ -25,7 +25,7 @@ class LoopReport {
   /// @param dynamics of the mechanism and the scene; for an open chain there is nothing to report
   /// @param reactions those that the scene asks for
   LoopReport(const Mechanism& mechanism, const Dynamics& dynamics,
-             std::vector<std::string> reactions, LoopRecord& record, const LoopLimits& limits);
+             std::vector<std::string> reactions, LoopRecord& record);
 
   /// Adds what was recorded since the call before, and to the summary what is wrong with it.
   /// Residuals stay until there are new ones.
