@@ -1,4 +1,4 @@
-// Couplings and drives against numbers that the tests of other programs have.
+// Couplings, drives and contacts against numbers that the tests of other programs have.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -36,7 +36,7 @@ TEST(PublishedConditions, MotorsKeepTheirSpeedAsInChrono) {
       EXPECT_EQ(model.motion.qd[0], speed);
       EXPECT_NEAR(model.motion.q[0], speed * t, kFewOperations);
       EXPECT_EQ(model.effort("body"), 0);
-      EXPECT_NEAR(model.workspace.results().root_axes[0].force.z(), 9.81, 10 * kFewOperations);
+      EXPECT_NEAR(model.reaction("body").force.z(), 9.81, 10 * kFewOperations);
     }
   }
 }
@@ -154,6 +154,67 @@ TEST(PublishedConditions, CouplerPushesAsInDrake) {
   EXPECT_NEAR(model.effort("coupler"), 1.2345, kFewOperations);
   EXPECT_NEAR(model.effort("q1"), 4, 4 * kFewOperations);
   EXPECT_NEAR(model.workspace.results().loops.residuals[0].position, 2.96, 4 * kFewOperations);
+}
+
+// gz-physics, joint_transmitted_wrench_features.cc, ContactForces: an arm of 6 kg and 1 m lies with
+// its end on a box, and 0.4 kg are at its pin, which bears 9.8 (6 / 2 + 0.4) N upwards.
+TEST(PublishedConditions, ArmLiesOnABoxAsInGzPhysics) {
+  for (const double angle : {0.3, 1.2}) {
+    PublishedModel model(
+        "<link name='ground_link'/>" + planarLink("arm", 6, 0.5, 0.5) +
+            planarLink("sensor", 0.4, 0, 0.02) +
+            planarJoint("continuous", "ground_link", "arm", "0 1 0") +
+            planarJoint("fixed", "arm", "sensor", "0 1 0"),
+        "{gravity: [0, 0, -9.8], actuated: [], contacts: [{name: box, link: arm, at: [1, 0, 0], "
+        "slip: all, plane: {link: ground_link, point: [0, 0, " +
+            std::to_string(-std::sin(angle)) +
+            "]}}], assembly: [{name: arm, position: " + std::to_string(angle) + "}]}");
+    model.compute();
+    const Eigen::Vector3d pin = model.reaction("arm").force;
+    EXPECT_LE((pin - Eigen::Vector3d(0, 0, 33.32)).norm(), 100 * kFewOperations) << angle;
+    EXPECT_LE((model.reaction("box").force - Eigen::Vector3d(0, 0, 29.4)).norm(),
+              100 * kFewOperations);
+  }
+}
+
+// Simbody, GazeboReactionForce.cpp: cubes of 100, 5 and 1 kg, 1 m wide, stand on each other's edges
+// by motors, the last one at 45 degrees, with 50 m/s^2: the first one on four corners here, which
+// bear 5300 N together, whatever each of them does.
+TEST(PublishedConditions, CubesStandOnEachOtherAsInSimbody) {
+  const auto cube = [](const std::string& name, const std::string& mass, const std::string& y) {
+    return "<link name='" + name + "'><inertial><origin xyz='0.5 " + y + " 0.5'/><mass value='" +
+           mass + "'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial></link>";
+  };
+  const auto hinge = [](const std::string& parent, const std::string& child) {
+    return "<joint name='" + child + "' type='continuous'><parent link='" + parent +
+           "'/><child link='" + child + "'/><origin xyz='1 0 1'/><axis xyz='0 1 0'/></joint>";
+  };
+  std::string contacts;
+  for (const std::string corner : {"[0, -0.5, 0]", "[0, 0.5, 0]", "[1, -0.5, 0]", "[1, 0.5, 0]"}) {
+    contacts += "{name: 'corner " + corner + "', link: first, at: " + corner +
+                ", slip: all, plane: {link: ground_link}}, ";
+  }
+  PublishedModel model(
+      "<link name='ground_link'/>" + cube("first", "100", "0") + cube("second", "5", "0") +
+          cube("third", "1", "0.5") + planarJoint("fixed", "ground_link", "first", "0 0 1") +
+          hinge("first", "second") + hinge("second", "third"),
+      "{gravity: [0, 0, -50], joint_types: [{name: first, type: floating}], actuated: [second, "
+      "third], free_motion: true, contacts: [" +
+          contacts + "]}");
+  model.motion.q[model.coordinate("third")] = -M_PI / 4;
+  model.compute();
+  const auto expect = [](const Wrench& found, const Eigen::Vector3d& torque, double force) {
+    EXPECT_LE((found.torque - torque).norm(), 1000 * kFewOperations);
+    EXPECT_LE((found.force - Eigen::Vector3d(0, 0, force)).norm(), 1000 * kFewOperations);
+  };
+  expect(model.reaction("second"), {25, -175, 0}, 300);
+  expect(model.reaction("third"), {25, 0, 0}, 50);
+  EXPECT_NEAR(model.effort("second"), -175, 1000 * kFewOperations);
+  double ground = 0;
+  for (const std::string& name : model.dynamics.closureNames()) {
+    ground += model.reaction(name).force.z();
+  }
+  EXPECT_NEAR(ground, 5300, 1e4 * kFewOperations);
 }
 
 }  // namespace

@@ -30,6 +30,12 @@ struct PublishedModel {
     const auto& names = dynamics.effortNames();
     return workspace.results().effort[std::find(names.begin(), names.end(), name) - names.begin()];
   }
+  /// What the parent exerts on the child, in root axes.
+  const Wrench& reaction(const std::string& name) const {
+    const auto& names = dynamics.request().root_axes;
+    const auto place = std::find(names.begin(), names.end(), name) - names.begin();
+    return workspace.results().root_axes.at(static_cast<std::size_t>(place));
+  }
   bool complete() {
     return dynamics.completeFromCloseBy(motion, dynamics.given().coordinates, workspace);
   }
