@@ -27,6 +27,8 @@ set(core_test_files
   test/core/compound_joints_sdfast_test.cpp
   test/core/compound_joints_test.cpp
   test/core/condition_examples_test.cpp
+  test/core/conditions_published_test.cpp
+  test/core/conditions_simulated_test.cpp
   test/core/coupled_examples_test.cpp
   test/core/cone_program_test.cpp
   test/core/contact_gaps_test.cpp
