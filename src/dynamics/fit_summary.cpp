@@ -23,6 +23,7 @@ std::string digits(double value) {
 
 void FitSummary::add(const MotionFit::Outcome& outcome) {
   ++fitted;
+  if (!outcome.closed) ++open;
   if (!outcome.explained) ++unexplained;
   position_squares += outcome.position_rms * outcome.position_rms;
   velocity_squares += outcome.velocity_rms * outcome.velocity_rms;
@@ -62,6 +63,11 @@ std::string FitSummary::text(const Mechanism& mechanism, const char* one, const 
             inQuotes(mechanism.coordinateNames()[place]) + " the most, by " +
             digits(farthest.amount) + " " + unit + (farthest.level == 0 ? "" : "/s") + ", " +
             digits(farthest.deviations) + " of its standard deviations";
+  }
+  if (open > 0) {
+    text += "; " + count(open) + (open == 1 ? " leaves" : " leave") +
+            " closures open by more than a fit closes, and " + (open == 1 ? "its" : "their") +
+            " positions stay as measured";
   }
   if (doubtful()) {
     text += wheels ? "; wheels slip, or zeros of encoders, dimensions or delays are wrong"

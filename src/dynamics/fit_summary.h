@@ -11,6 +11,7 @@ namespace virtual_work_dynamics {
 /// What MotionFit did to many motions.
 struct FitSummary {
   std::uint64_t fitted = 0;       ///< motions
+  std::uint64_t open = 0;         ///< those of them whose positions are too far from closed
   std::uint64_t unexplained = 0;  ///< those of them whose moves noise does not explain
   /// Sums of the squares of position_rms and velocity_rms of MotionFit::Outcome.
   double position_squares = 0, velocity_squares = 0;
@@ -20,7 +21,7 @@ struct FitSummary {
   void add(const MotionFit::Outcome& outcome);
   /// Whether moves are larger than noise makes them, all in all.
   bool systematic() const;
-  bool doubtful() const { return unexplained > 0 || systematic(); }
+  bool doubtful() const { return open > 0 || unexplained > 0 || systematic(); }
 
   /// How many motions were moved, how far, and what is wrong if they are doubtful(), in one line
   /// without a line end. Allocates.

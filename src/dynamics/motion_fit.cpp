@@ -1,7 +1,6 @@
 #include "virtual_work_dynamics/motion_fit.h"
 
 #include <algorithm>
-#include <limits>
 #include <string>
 
 #include "loops/given_loops.h"
@@ -30,7 +29,8 @@ MotionFit::MotionFit(const Mechanism& mechanism, const Dynamics& dynamics, doubl
   Given all;
   all.coordinates.assign(static_cast<std::size_t>(dynamics.coordinates()), true);
   const std::unique_ptr<GivenLoops> loops = dynamics.givenLoops(all);
-  loops_ = std::make_unique<LoopFit>(mechanism, loops->kinematics(), loops->length());
+  if (loops->kinematics().conditions() == 0) return;  // cables, and contacts that are open
+  loops_ = std::make_unique<LoopFit>(mechanism, loops->kinematics(), loops->length(), tolerance);
   outcome_.wheels = loops_->hasRatesAlone();
 }
 
@@ -50,11 +50,9 @@ const MotionFit::Outcome& MotionFit::fit(Motion& motion, const MotionCovariance*
   outcome_.closed =
       loops_->fit(motion, covariance, noise, rates, std::max(kNearlyClosed, tolerance_));
   const LoopFit::Farthest& found = loops_->farthest();
-  outcome_.explained =
-      outcome_.closed && (found.deviations <= kMost || found.relative <= tolerance_);
-  const double most = found.relative <= tolerance_ ? 1 : std::numeric_limits<double>::infinity();
-  outcome_.position_rms = std::min(loops_->rms(0), most);
-  outcome_.velocity_rms = std::min(loops_->rms(1), most);
+  outcome_.explained = found.deviations <= kMost;
+  outcome_.position_rms = loops_->rms(0);
+  outcome_.velocity_rms = loops_->rms(1);
   outcome_.farthest = {found.deviations, found.coordinate, found.level, found.amount};
   return outcome_;
 }

@@ -21,6 +21,10 @@ constexpr double kLastStep = 1e-7, kFitRounding = 1e-14;
 // relative to the largest.
 constexpr double kUnknownNoise = 1e-9;
 constexpr double kUnknownPosition = 1e-3, kUnknownVelocity = 1e-2;
+// Deviations, without units, from which on a coordinate is no measurement, see FollowingMotors.
+constexpr double kLoose = 1e5;
+// Largest misfit of positions that are closed, rad or over the length.
+constexpr double kClosed = 1e-9;
 
 }  // namespace
 
@@ -37,10 +41,13 @@ LoopFit::Group::Group(const LoopGroup& loops, const LoopKinematics& kinematics)
   G.setZero(height, width);
   right.setZero(height);
   found.setZero(width);
+  unknown.assign(coordinates.size(), false);
 }
 
-LoopFit::LoopFit(const Mechanism& mechanism, const LoopKinematics& kinematics, double length)
+LoopFit::LoopFit(const Mechanism& mechanism, const LoopKinematics& kinematics, double length,
+                 double tolerance)
     : kinematics_(kinematics),
+      tolerance_(tolerance),
       row_scales_(kinematics.conditions()),
       column_scales_(static_cast<Eigen::Index>(mechanism.coordinates().size())) {
   for (const LoopGroup& group : loopGroups(mechanism, kinematics_)) {
@@ -87,14 +94,17 @@ double LoopFit::rms(int level) const {
   return count == 0 ? 0 : std::sqrt(squares_[level] / static_cast<double>(count));
 }
 
+// What does not vary at all is exact. Of what hardly varies nothing is known.
 void LoopFit::setKnown(const MotionCovariance* covariance) {
   for (Group& group : groups_) {
     group.known = covariance != nullptr;
-    for (const int i : group.coordinates) {
-      if (!group.known) break;
-      const double variance = covariance->coordinates[static_cast<std::size_t>(i)](0, 0);
+    for (std::size_t k = 0; covariance && k < group.coordinates.size(); ++k) {
+      const int i = group.coordinates[k];
+      const Eigen::Matrix3d& own = covariance->coordinates[static_cast<std::size_t>(i)];
       const double least = kUnknownNoise * column_scales_[i];
-      group.known = variance == 0 || variance > least * least;
+      const bool positive = own(0, 0) > least * least && own(1, 1) > 0 && own(2, 2) > 0;
+      group.unknown[k] = !positive && !own.isZero(0);
+      group.known = group.known && !group.unknown[k];
     }
   }
 }
@@ -102,11 +112,33 @@ void LoopFit::setKnown(const MotionCovariance* covariance) {
 void LoopFit::setDeviations(const MotionCovariance* covariance, const Eigen::VectorXd& noise,
                             int level) {
   deviations_ = column_scales_;
-  for (Eigen::Index i = 0; covariance && i < deviations_.size(); ++i) {
+  if (!covariance) return;
+  for (Eigen::Index i = 0; i < deviations_.size(); ++i) {
     const double variance = covariance->coordinates[static_cast<std::size_t>(i)](level, level);
     deviations_[i] = std::sqrt(std::max(variance, 0.0));
     if (level == 0 && variance > 0 && noise.size() > 0) {
       deviations_[i] = std::max(deviations_[i], noise[i]);
+    }
+  }
+  weighUnknown();
+}
+
+// A coordinate of which nothing is known counts like the least known one beside it: as if it were
+// exact, it would drag the others along.
+void LoopFit::weighUnknown() {
+  for (const Group& group : groups_) {
+    if (group.known) continue;
+    double most = 0;
+    for (std::size_t k = 0; k < group.coordinates.size(); ++k) {
+      const int i = group.coordinates[k];
+      if (!group.unknown[k] && deviations_[i] < kLoose * column_scales_[i]) {
+        most = std::max(most, deviations_[i] / column_scales_[i]);
+      }
+    }
+    if (most == 0) most = 1;
+    for (std::size_t k = 0; k < group.coordinates.size(); ++k) {
+      const int i = group.coordinates[k];
+      if (group.unknown[k]) deviations_[i] = most * column_scales_[i];
     }
   }
 }
@@ -144,6 +176,7 @@ bool LoopFit::solve(Group& group, const Eigen::VectorXd& residuals, bool positio
   return group.found.allFinite();
 }
 
+// Conditions without a position have zeros.
 bool LoopFit::isNearlyClosed(double nearly) const {
   return (row_scales_.array() * kinematics_.phi().array()).abs().maxCoeff() <= nearly;
 }
@@ -171,6 +204,7 @@ bool LoopFit::fitPositions(Eigen::VectorXd& q) {
     step_ = q + moved_;
     kinematics_.setPosition(step_);
     if (!arrived) continue;
+    if (!isNearlyClosed(kClosed)) return false;
     q = step_;
     return true;
   }
@@ -207,14 +241,11 @@ void LoopFit::judge(int level, double size) {
         group.known ? 0 : size * (level == 0 ? kUnknownPosition : kUnknownVelocity);
     for (std::size_t k = 0; k < group.coordinates.size(); ++k) {
       const int i = group.coordinates[k];
-      const double move = deviations_[i] * group.found[static_cast<Eigen::Index>(k)];
-      if (move == 0) continue;
-      const double deviations =
-          std::abs(move) / std::max(deviations_[i], least * column_scales_[i]);
+      const double move = std::abs(deviations_[i] * group.found[static_cast<Eigen::Index>(k)]);
+      if (move <= tolerance_ * column_scales_[i] * size) continue;
+      const double deviations = move / std::max(deviations_[i], least * column_scales_[i]);
       squares_[level] += deviations * deviations;
-      if (!(deviations > farthest_.deviations)) continue;
-      farthest_ = {deviations, i, level, std::abs(move),
-                   std::abs(move) / column_scales_[i] / (size > 0 ? size : 1)};
+      if (deviations > farthest_.deviations) farthest_ = {deviations, i, level, move};
     }
     counted_[level] += group.rows.rank();
   }

@@ -21,7 +21,9 @@ class LoopFit {
  public:
   /// @param kinematics conditions that are at the assembly; copied
   /// @param length makes lengths comparable with angles, m
-  LoopFit(const Mechanism& mechanism, const LoopKinematics& kinematics, double length);
+  /// @param tolerance of moves that need no explanation, see MotionFit
+  LoopFit(const Mechanism& mechanism, const LoopKinematics& kinematics, double length,
+          double tolerance);
 
   /// Whether there are conditions on rates alone.
   bool hasRatesAlone() const { return rates_alone_; }
@@ -35,8 +37,7 @@ class LoopFit {
   struct Farthest {
     double deviations = 0;
     int coordinate = -1, level = 0;
-    double amount = 0;    ///< rad or m, per s
-    double relative = 0;  ///< rad or over the length, of a velocity relative to the largest
+    double amount = 0;  ///< rad or m, per s
   };
   const Farthest& farthest() const { return farthest_; }
   /// Root of the mean square of the moves of a level, 0 or 1, in deviations, for each condition
@@ -51,9 +52,11 @@ class LoopFit {
     RankFactorization rows;
     Eigen::MatrixXd G;  // conditions x coordinates, by standard deviations; rows of length 1
     Eigen::VectorXd right, found;
-    bool known = true;  // whether the noise of all its coordinates is known
+    std::vector<bool> unknown;  // coordinates of which the noise is not known
+    bool known = true;          // whether that of all is known
   };
   void setKnown(const MotionCovariance* covariance);
+  void weighUnknown();
   void setDeviations(const MotionCovariance* covariance, const Eigen::VectorXd& noise, int level);
   double entry(Eigen::Index condition, int coordinate) const;
   bool solve(Group& group, const Eigen::VectorXd& residuals, bool positions);
@@ -65,6 +68,7 @@ class LoopFit {
 
   LoopKinematics kinematics_;
   std::vector<Group> groups_;
+  double tolerance_;
   bool rates_alone_ = false;
   Eigen::VectorXd row_scales_;                // by condition: 1, or one over the length
   Eigen::VectorXd column_scales_;             // by coordinate: 1, or the length

@@ -193,7 +193,8 @@ void ReplayedStates::setJointStates(const std::string& topic) {
 void ReplayedStates::setAudience(const Audience& audience) {
   audience_ = audience;
   plan_ = std::make_unique<ActivePlan>(task_.mechanism, scene_inputs_.scene(), task_.outputs,
-                                       task_.reactions, audience, PlanChecks());
+                                       task_.reactions, audience,
+                                       PlanChecks{false, false, loop_limits_.tolerance});
 }
 
 // What is to stick does so where it is at an instant that is not before the message: results are
@@ -215,7 +216,8 @@ void ReplayedStates::adaptPlan() {
   const SceneInputs::News news = scene_inputs_.adapt(
       [this](const Scene& scene) {
         plan_ = std::make_unique<ActivePlan>(task_.mechanism, scene, task_.outputs, task_.reactions,
-                                             audience_, PlanChecks());
+                                             audience_,
+                                             PlanChecks{false, false, loop_limits_.tolerance});
       },
       [this](Scene& scene, const std::vector<std::size_t>& contacts) {
         if (latest_) placeContacts(task_.mechanism, *latest_, contacts, scene);

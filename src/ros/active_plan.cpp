@@ -37,7 +37,8 @@ ActivePlan::ActivePlan(const Mechanism& mechanism, const Scene& scene, const Out
     : audience(std::move(who)),
       dynamics(mechanism, scene, computed(scene, requestFor(all, audience), checks)),
       workspace(dynamics.makeWorkspace()),
-      points(dynamics, kPointsAtOnce) {
+      points(dynamics, kPointsAtOnce),
+      fit(mechanism, dynamics, checks.loop_tolerance) {
   for (const std::size_t i : audience) {
     outputs.push_back({i, all[i]->ofTrajectories(), all[i]->makeMessage(dynamics, scene)});
     (outputs.back().of_trajectories ? wants_trajectories : wants_samples) = true;

@@ -11,6 +11,7 @@
 #include "ros/outputs.h"
 #include "virtual_work_dynamics/certificates.h"
 #include "virtual_work_dynamics/dynamics.h"
+#include "virtual_work_dynamics/motion_fit.h"
 
 namespace virtual_work_dynamics {
 
@@ -18,6 +19,7 @@ namespace virtual_work_dynamics {
 struct PlanChecks {
   bool cross_check = false;
   bool certificates = false;
+  double loop_tolerance = 0;  ///< of moves that need no explanation, see MotionFit
 };
 
 /// An output that somebody listens to.
@@ -50,6 +52,7 @@ struct ActivePlan {
   const Dynamics dynamics;
   Dynamics::Workspace workspace;
   SampleRows points;  ///< of trajectories
+  MotionFit fit;      ///< of joint states that give all joints
   std::vector<ActiveOutput> outputs;
   bool wants_samples = false, wants_trajectories = false, wants_covariance = false;
   std::shared_ptr<CrossCheckSlot> cross_check;  ///< null when off

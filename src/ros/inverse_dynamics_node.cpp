@@ -20,8 +20,7 @@ namespace {
 
 // How soon the node's own thread sees that it is to stop, or that a report is due.
 constexpr double kManageWait = 0.05;  // s
-// How long a sample may take to tell where a contact is.
-constexpr double kPlaceWait = 0.5;  // s
+constexpr double kPlaceWait = 0.5;  // s, for a sample to tell where a contact is
 // How often a gap of a joint is logged: those of a slow gripper come with each of its samples.
 constexpr std::chrono::seconds kGapPeriod{60};
 
@@ -34,7 +33,8 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       output_queue_(parameters.output_queue),
       at_once_(parameters.trajectory_rate == 0),
       late_threshold_(parameters.late_threshold),
-      checks_{parameters.self_check.cross_check_rate > 0, parameters.self_check.certificates},
+      checks_{parameters.self_check.cross_check_rate > 0, parameters.self_check.certificates,
+              parameters.loop_limits.tolerance},
       estimator_(task_.mechanism, task_.estimator),
       loops_(task_.everything, task_.reactions.size(), parameters.loop_limits),
       completer_(task_.mechanism, task_.scene, task_.everything, parameters.loop_limits.tolerance,

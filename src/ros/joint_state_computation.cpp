@@ -108,7 +108,7 @@ void JointStateComputation::evaluate() {
     counters_.skipped.add();
     return;
   }
-  const bool fits = covariances_ && completer_.fits();
+  const bool fits = covariances_ && plan.fit.any() && completer_.fits();
   const bool known = covariances_ && estimator_.knowsNoise();
   MotionCovariance* covariance = known && (fits || plan.wantsCovariance()) ? &covariance_ : nullptr;
   const std::int64_t stamp_ns =

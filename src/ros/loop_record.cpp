@@ -40,6 +40,7 @@ void LoopRecord::recordFit(const MotionFit::Outcome& outcome) {
   const auto relaxed = std::memory_order_relaxed;
   fitted_.fetch_add(1, relaxed);
   fit_wheels_.store(outcome.wheels, relaxed);
+  if (!outcome.closed) open_fits_.fetch_add(1, relaxed);
   if (!outcome.explained) unexplained_.fetch_add(1, relaxed);
   const auto add = [&](std::atomic<double>& sum, double rms) {
     sum.store(sum.load(relaxed) + rms * rms, relaxed);
@@ -145,6 +146,7 @@ LoopRecord::Report LoopRecord::take() {
   report.passive_given = passive_given_;
   const auto relaxed = std::memory_order_relaxed;
   report.fit.fitted = fitted_.exchange(0, relaxed);
+  report.fit.open = open_fits_.exchange(0, relaxed);
   report.fit.unexplained = unexplained_.exchange(0, relaxed);
   report.fit.position_squares = fit_position_squares_.exchange(0, relaxed);
   report.fit.velocity_squares = fit_velocity_squares_.exchange(0, relaxed);

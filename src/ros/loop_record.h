@@ -73,7 +73,7 @@ class LoopRecord {
   std::atomic<int> rank_{0}, redundant_constraints_{0}, redundancy_{0}, free_motions_{0};
   std::atomic<double> gap_{0}, condition_{0};
   std::atomic<bool> passive_given_{false};
-  std::atomic<std::uint64_t> fitted_{0}, unexplained_{0};
+  std::atomic<std::uint64_t> fitted_{0}, open_fits_{0}, unexplained_{0};
   std::atomic<double> fit_position_squares_{0}, fit_velocity_squares_{0};
   std::atomic<double> fit_deviations_{0}, fit_amount_{0};
   std::atomic<int> fit_coordinate_{-1}, fit_level_{0};

@@ -57,7 +57,6 @@ MotionCompleter::MotionCompleter(const Mechanism& mechanism, const Scene& scene,
       usual_(dynamics.given()),
       rule_(mechanism, dynamics),
       drives_(mechanism, scene, usual_, drive_start),
-      fit_(mechanism, dynamics, tolerance),
       motors_(motorsOf(mechanism, scene, drives_.coordinates())),
       joint_states_(mechanism, dynamics),
       trajectories_(mechanism, dynamics),
@@ -136,11 +135,12 @@ bool MotionCompleter::complete(Motion& motion, std::int64_t stamp_ns, const Dyna
   return joint_states_.complete(motion, drives_.numbers(), dynamics, workspace);
 }
 
-const MotionFit::Outcome& MotionCompleter::fit(Motion& motion, MotionCovariance* covariance,
-                                               const Eigen::VectorXd& noise) {
+const MotionFit::Outcome& MotionCompleter::fit(MotionFit& fit, Motion& motion,
+                                               MotionCovariance* covariance,
+                                               const Eigen::VectorXd& noise) const {
   motors_.set(motion);
   if (covariance) motors_.loosen(*covariance);
-  return fit_.fit(motion, covariance, noise, !static_motion_);
+  return fit.fit(motion, covariance, noise, !static_motion_);
 }
 
 void MotionCompleter::complete(MotionCovariance& covariance) const {

@@ -68,11 +68,12 @@ class MotionCompleter {
   bool complete(Motion& motion, std::int64_t stamp_ns, const Dynamics& dynamics,
                 Dynamics::Workspace& workspace);
   /// Whether motions of joint states are fitted to the closures: those that give all joints.
-  bool fits() const { return all_given_ && !drives_.any() && fit_.any(); }
+  bool fits() const { return all_given_ && !drives_.any(); }
   /// Fits a motion of joint states, see MotionFit::fit(). Needs fits(). Does not allocate.
+  /// @param fit to the conditions that hold at present
   /// @param covariance loses that of what follows from joints
-  const MotionFit::Outcome& fit(Motion& motion, MotionCovariance* covariance,
-                                const Eigen::VectorXd& noise);
+  const MotionFit::Outcome& fit(MotionFit& fit, Motion& motion, MotionCovariance* covariance,
+                                const Eigen::VectorXd& noise) const;
   /// Sets the covariances of what follows from joints in a motion of joint states that is complete.
   /// Does not allocate.
   void complete(MotionCovariance& covariance) const;
@@ -139,7 +140,6 @@ class MotionCompleter {
   const Given usual_;  // what motions give unless they give all
   const GivenJoints rule_;
   LiveDrives drives_;
-  MotionFit fit_;
   FollowingMotors motors_;  // where joint states give all joints
   PassiveJoints joint_states_, trajectories_, samples_;
   const PassiveJoints* latest_ = &joint_states_;  // completed something last

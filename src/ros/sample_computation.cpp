@@ -43,7 +43,7 @@ SampleComputation::Outcome SampleComputation::compute(ActivePlan& plan, std::int
   records_.counters.samples.add();
   if (!setRoot(stamp_ns, motion_.root, covariance)) return Outcome::kNoRoot;
   const auto start = Clock::now();
-  if (noise) records_.loops.recordFit(completer_.fit(motion_, covariance, *noise));
+  if (noise) records_.loops.recordFit(completer_.fit(plan.fit, motion_, covariance, *noise));
   if (!completer_.complete(motion_, stamp_ns, plan.dynamics, plan.workspace)) {
     return whyIncomplete();
   }
