@@ -101,6 +101,34 @@ TEST(PackedTouches, ExamplesAreThoseOfSingleSamples) {
   }
 }
 
+// A sole that is named twice: how its two share what it presses with is open, and nothing else is.
+// Open ones stand before the one that is judged, after it, or on both sides; where one of the two
+// slips, only their normal forces are open.
+TEST(PackedTouches, ASoleBesideTwinsIsJudgedByItsOwnForces) {
+  const LoopExample biped("biped");
+  const Scene one_hip =
+      readSceneFile(std::string(kSourceFolder) + "/config/biped_passive_hip_scene.yaml");
+  const Closure left = one_hip.closures.at(0), right = one_hip.closures.at(1);
+  Closure twin = left, slips = left;
+  twin.name = slips.name = "twin";
+  slips.touch.slip = Slip::kAll;
+  slips.touch.friction.reset();
+  for (const auto& closures :
+       {std::vector<Closure>{right, left, twin}, std::vector<Closure>{left, right, twin},
+        std::vector<Closure>{left, twin, right}, std::vector<Closure>{slips, right, left},
+        std::vector<Closure>{left, slips, right}}) {
+    Scene scene = one_hip;
+    scene.closures = closures;
+    Met met;
+    expectRowsOfScene("twins", biped.mechanism, scene, 0.05, met);
+    EXPECT_EQ(met.chosen, 0U);
+    EXPECT_EQ(met.holds[static_cast<int>(Hold::kNotDecidable)], 2 * met.rows);
+    for (const Hold hold : {Hold::kHolds, Hold::kWrongWay, Hold::kOutsideCone}) {
+      EXPECT_GT(met.holds[static_cast<int>(hold)], 0U) << static_cast<int>(hold);
+    }
+  }
+}
+
 // Of random scenes those without conditions that packs do not serve.
 TEST(PackedTouches, RandomScenesAreThoseOfSingleSamples) {
   MixedLoops source(kTouchingSeed);
