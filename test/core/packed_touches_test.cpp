@@ -76,9 +76,10 @@ void expectRowsOfScene(const std::string& name, const Mechanism& mechanism, cons
   Request request;
   request.child_axes = request.root_axes = requestedReactions(mechanism, scene);
   for (const bool residuals : {false, true}) {
-    for (const bool flags : {false, true}) {
+    for (const int more : {0, 1, 2}) {
       request.residuals = residuals;
-      request.determinacy = request.poses = request.twists = flags;
+      request.poses = request.twists = more > 0;
+      request.determinacy = more > 1;
       const Dynamics dynamics(mechanism, scene, request);
       expectRowsOfSamples(name, dynamics, motionsNear(dynamics.assembly(), step), met);
     }
@@ -98,6 +99,28 @@ TEST(PackedTouches, ExamplesAreThoseOfSingleSamples) {
   EXPECT_GT(met.chosen, 0U);
   for (const Hold hold : {Hold::kHolds, Hold::kWrongWay, Hold::kOutsideCone, Hold::kNotDecidable}) {
     EXPECT_GT(met.holds[static_cast<int>(hold)], 0U) << static_cast<int>(hold);
+  }
+}
+
+// Turned as its teeth roll, a gear is closed except for roundings, which count as none.
+TEST(PackedTouches, RoundingsOfTeethThatFitAreNoGaps) {
+  const LoopExample gear("planetary_gear");
+  const double rolling[] = {1, -3.5, -3.5, -3.5, 10.0 / 3};  // by turn of the carrier
+  std::vector<Motion> motions(kTouchingRows, Motion(5));
+  for (std::size_t n = 0; n < motions.size(); ++n) {
+    for (Eigen::Index i = 0; i < 5; ++i) {
+      motions[n].q[i] = (0.1 + 0.37 * static_cast<double>(n)) * rolling[i];
+    }
+  }
+  Request request;
+  request.residuals = true;
+  const Dynamics dynamics(gear.mechanism, gear.scene, request);
+  Met met;
+  expectRowsOfSamples("gear", dynamics, motions, met);
+  Dynamics::Workspace workspace = dynamics.makeWorkspace();
+  dynamics.compute(motions.back(), workspace);
+  for (const ClosureResidual& residual : workspace.results().loops.residuals) {
+    EXPECT_EQ(residual.position, 0);
   }
 }
 
