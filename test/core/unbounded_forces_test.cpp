@@ -11,7 +11,7 @@
 namespace virtual_work_dynamics {
 namespace {
 
-constexpr double kClosedForm =
+constexpr double kOfCloseCorners =
     1e-9;  // relative; of corners that are the ratio of small differences
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 using Found = ConeProgram::Found;
@@ -23,9 +23,9 @@ struct Pad {
 };
 
 /// The forces of pads that balance a load on the body they press on: x, y along the pad, normal.
-class Held {
+class HeldBody {
  public:
-  Held(const std::vector<Pad>& pads, const Eigen::Matrix<double, 6, 1>& load)
+  HeldBody(const std::vector<Pad>& pads, const Eigen::Matrix<double, 6, 1>& load)
       : functions_(3 * static_cast<Eigen::Index>(pads.size())),
         program_(functions_, functions_, pads.size()) {
     Eigen::MatrixXd balance(6, functions_);
@@ -100,12 +100,12 @@ TEST(UnboundedForces, AWedgeIsSqueezedOutBeyondTheAngleOfFriction) {
       const double least = W / 2 * (c - mu * s) / (s + mu * c);
       const double most = beyond < 0 ? kNoLimit : W / 2 * (c + mu * s) / (s - mu * c);
       const auto [lower, upper] = program.range(1);
-      EXPECT_NEAR(lower, W / 2 * s + c * least, kClosedForm * W) << beyond;
+      EXPECT_NEAR(lower, W / 2 * s + c * least, kOfCloseCorners * W) << beyond;
       if (beyond < 0) {
         EXPECT_EQ(upper, kNoLimit) << beyond;
       } else {
         const double expected = W / 2 * s + c * most;
-        EXPECT_NEAR(upper, expected, kClosedForm * expected / beyond) << beyond;
+        EXPECT_NEAR(upper, expected, kOfCloseCorners * expected / beyond) << beyond;
       }
     }
   }
@@ -123,12 +123,12 @@ TEST(UnboundedForces, APegJamsWhereItsLengthIsLessThanFriction) {
     EXPECT_EQ(program.recedes(1, -1), beyond < 0) << beyond;
     EXPECT_FALSE(program.recedes(3, 1)) << beyond;
     const auto [lower, upper] = program.range(3);
-    EXPECT_NEAR(lower, W * (1 + c) / (k + mu), kClosedForm * W) << beyond;
+    EXPECT_NEAR(lower, W * (1 + c) / (k + mu), kOfCloseCorners * W) << beyond;
     if (beyond < 0) {
       EXPECT_EQ(upper, kNoLimit) << beyond;
     } else {
       const double expected = W * c / (k - mu);
-      EXPECT_NEAR(upper, expected, kClosedForm * expected / beyond) << beyond;
+      EXPECT_NEAR(upper, expected, kOfCloseCorners * expected / beyond) << beyond;
     }
   }
 }
@@ -142,7 +142,7 @@ TEST(UnboundedForces, LegsOfATableHaveBoundsUntilAPropPressesOnIt) {
     for (const double x : {-0.3, 0.3}) {
       for (const double y : {-0.2, 0.2}) pads.push_back({{x, y, 0}, {0, 0, 1}, mu});
     }
-    Held table(pads, weightAt(W, 0.1, 0.05));
+    HeldBody table(pads, weightAt(W, 0.1, 0.05));
     ASSERT_EQ(table.found(), Found::kFeasible) << mu;
     for (Eigen::Index i = 0; i < table.functions(); ++i) {
       EXPECT_FALSE(table.program().recedes(i, 1)) << mu << ' ' << i;
@@ -152,7 +152,7 @@ TEST(UnboundedForces, LegsOfATableHaveBoundsUntilAPropPressesOnIt) {
       EXPECT_LT(upper, (1 + mu) * W) << mu << ' ' << i;
     }
     pads.push_back({{0.02, 0.01, 0.7}, {0, 0, -1}, mu});
-    Held propped(pads, weightAt(W, 0.1, 0.05));
+    HeldBody propped(pads, weightAt(W, 0.1, 0.05));
     ASSERT_EQ(propped.found(), Found::kFeasible) << mu;
     for (Eigen::Index i = 0; i < 12; ++i) {
       EXPECT_EQ(propped.program().recedes(i, 1), i % 3 != 2) << mu << ' ' << i;
@@ -173,13 +173,13 @@ TEST(UnboundedForces, OpposedPadsSqueezeWithoutBound) {
                       {-side, 0, 0},
                       0.1 + 0.9 * std::abs(std::sin(trial + i))});
     }
-    Held held(pads, weightAt(9.81, 0, 0));
+    HeldBody held(pads, weightAt(9.81, 0, 0));
     ASSERT_EQ(held.found(), Found::kFeasible) << trial;
     for (Eigen::Index i = 0; i < held.functions(); ++i) {
       const auto [lower, upper] = held.program().range(i);
       EXPECT_EQ(upper, kNoLimit) << trial << ' ' << i;
       if (i % 3 == 2) {
-        EXPECT_GE(lower, -kClosedForm) << trial << ' ' << i;
+        EXPECT_GE(lower, -kOfCloseCorners) << trial << ' ' << i;
         EXPECT_LE(lower, 9.81 / 0.1) << trial << ' ' << i;
       } else {
         EXPECT_EQ(lower, -kNoLimit) << trial << ' ' << i;
