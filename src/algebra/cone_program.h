@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -36,8 +37,19 @@ class ConeProgram {
   /// Least and greatest value of a function; infinite where there is none, and NaN where that was
   /// not found out. After kFeasible.
   std::pair<double, double> range(Eigen::Index function);
+  /// Whether sign times a function decreases without bound; "no" as well where rounding errors hide
+  /// it. After kFeasible.
+  bool recedes(Eigen::Index function, double sign);
 
  private:
+  // Values below this fraction of the scale are zero.
+  static constexpr double kZero = 1e-10;
+  // Coefficients and multipliers below this are rounding errors.
+  static constexpr double kNoCoefficient = 1e-9;
+  // Values of this many scales are none that forces have.
+  static constexpr double kMostScales = 1000;
+  static constexpr double kSideAngle = 2 * M_PI / kSides;
+  using RowOfPlane = Eigen::Ref<Eigen::VectorXd, 0, Eigen::InnerStride<>>;
   enum class Step { kDone, kUnbounded, kStuck, kInfeasible };
   /// A plane that bounds y: a side of a cone, or its normal.
   struct Plane {
@@ -54,8 +66,7 @@ class ConeProgram {
     bool found = false;
   };
   double tolerance() const;
-  template <typename Row>
-  void setPlane(const Plane& plane, Row row) const;
+  void setPlane(const Plane& plane, RowOfPlane row) const;
   double combined(const Plane& plane, double normal, double x, double y) const;
   Plane sideTowards(std::size_t cone, double x, double y) const;
   double valueOf(Eigen::Index function) const;

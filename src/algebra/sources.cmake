@@ -1,4 +1,5 @@
 vwd_core(
+  cone_corners.cpp
   cone_program.cpp
   elimination_order.cpp
   front_layout.cpp

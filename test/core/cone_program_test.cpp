@@ -146,7 +146,7 @@ TEST(ConeProgram, BoundsAreFoundAfterAFunctionWithoutOne) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> number(-1, 1);
   constexpr Eigen::Index kVariables = 9, kPads = 5;
-  int bounded = 0, unbounded = 0, not_known = 0;
+  int bounded = 0, unbounded = 0;
   for (int trial = 0; trial < 40; ++trial) {
     ConeProgram first(kVariables, 3 * kPads, kPads);
     first.start(kVariables, 3 * kPads);
@@ -165,10 +165,7 @@ TEST(ConeProgram, BoundsAreFoundAfterAFunctionWithoutOne) {
       const auto [fresh_lower, fresh_upper] = fresh.range(i);
       for (const auto& [found, expected] :
            {std::make_pair(lower, fresh_lower), std::make_pair(upper, fresh_upper)}) {
-        if (std::isnan(expected)) {
-          EXPECT_TRUE(std::isnan(found)) << trial << " " << i;
-          ++not_known;
-        } else if (std::isinf(expected)) {
+        if (std::isinf(expected)) {
           EXPECT_EQ(found, expected) << trial << " " << i;
           ++unbounded;
         } else {
@@ -177,12 +174,11 @@ TEST(ConeProgram, BoundsAreFoundAfterAFunctionWithoutOne) {
           ++bounded;
         }
       }
-      EXPECT_TRUE(i % 3 != 2 || lower >= -kSameCorner || std::isnan(lower)) << trial << " " << i;
+      EXPECT_TRUE(i % 3 != 2 || lower >= -kSameCorner) << trial << " " << i;
     }
   }
   EXPECT_GT(bounded, 100);
   EXPECT_GT(unbounded, 15);
-  EXPECT_LE(not_known, bounded / 50);
 }
 
 // A second pad that presses only where the first one does with all it has: there is such a force,

@@ -195,6 +195,7 @@ set(core_test_files
   test/core/touch_reader_test.cpp
   test/core/trajectory_curve_test.cpp
   test/core/turn_estimator_test.cpp
+  test/core/unbounded_forces_test.cpp
   test/core/unwrap_test.cpp
   test/core/urdf_reader_test.cpp
   test/core/urdf_transmissions_refusals_test.cpp

@@ -76,9 +76,10 @@ void expectRowsOfScene(const std::string& name, const Mechanism& mechanism, cons
   Request request;
   request.child_axes = request.root_axes = requestedReactions(mechanism, scene);
   for (const bool residuals : {false, true}) {
-    for (const bool flags : {false, true}) {
+    for (const int more : {0, 1, 2}) {
       request.residuals = residuals;
-      request.determinacy = request.poses = request.twists = flags;
+      request.poses = request.twists = more > 0;
+      request.determinacy = more > 1;
       const Dynamics dynamics(mechanism, scene, request);
       expectRowsOfSamples(name, dynamics, motionsNear(dynamics.assembly(), step), met);
     }
@@ -98,6 +99,56 @@ TEST(PackedTouches, ExamplesAreThoseOfSingleSamples) {
   EXPECT_GT(met.chosen, 0U);
   for (const Hold hold : {Hold::kHolds, Hold::kWrongWay, Hold::kOutsideCone, Hold::kNotDecidable}) {
     EXPECT_GT(met.holds[static_cast<int>(hold)], 0U) << static_cast<int>(hold);
+  }
+}
+
+// Turned as its teeth roll, a gear is closed except for roundings, which count as none.
+TEST(PackedTouches, RoundingsOfTeethThatFitAreNoGaps) {
+  const LoopExample gear("planetary_gear");
+  const double rolling[] = {1, -3.5, -3.5, -3.5, 10.0 / 3};  // by turn of the carrier
+  std::vector<Motion> motions(kTouchingRows, Motion(5));
+  for (std::size_t n = 0; n < motions.size(); ++n) {
+    for (Eigen::Index i = 0; i < 5; ++i) {
+      motions[n].q[i] = (0.1 + 0.37 * static_cast<double>(n)) * rolling[i];
+    }
+  }
+  Request request;
+  request.residuals = true;
+  const Dynamics dynamics(gear.mechanism, gear.scene, request);
+  Met met;
+  expectRowsOfSamples("gear", dynamics, motions, met);
+  Dynamics::Workspace workspace = dynamics.makeWorkspace();
+  dynamics.compute(motions.back(), workspace);
+  for (const ClosureResidual& residual : workspace.results().loops.residuals) {
+    EXPECT_EQ(residual.position, 0);
+  }
+}
+
+// A sole that is named twice: how its two share what it presses with is open, and nothing else is.
+// Open ones stand before the one that is judged, after it, or on both sides; where one of the two
+// slips, only their normal forces are open.
+TEST(PackedTouches, ASoleBesideTwinsIsJudgedByItsOwnForces) {
+  const LoopExample biped("biped");
+  const Scene one_hip =
+      readSceneFile(std::string(kSourceFolder) + "/config/biped_passive_hip_scene.yaml");
+  const Closure left = one_hip.closures.at(0), right = one_hip.closures.at(1);
+  Closure twin = left, slips = left;
+  twin.name = slips.name = "twin";
+  slips.touch.slip = Slip::kAll;
+  slips.touch.friction.reset();
+  for (const auto& closures :
+       {std::vector<Closure>{right, left, twin}, std::vector<Closure>{left, right, twin},
+        std::vector<Closure>{left, twin, right}, std::vector<Closure>{slips, right, left},
+        std::vector<Closure>{left, slips, right}}) {
+    Scene scene = one_hip;
+    scene.closures = closures;
+    Met met;
+    expectRowsOfScene("twins", biped.mechanism, scene, 0.05, met);
+    EXPECT_EQ(met.chosen, 0U);
+    EXPECT_EQ(met.holds[static_cast<int>(Hold::kNotDecidable)], 2 * met.rows);
+    for (const Hold hold : {Hold::kHolds, Hold::kWrongWay, Hold::kOutsideCone}) {
+      EXPECT_GT(met.holds[static_cast<int>(hold)], 0U) << static_cast<int>(hold);
+    }
   }
 }
 

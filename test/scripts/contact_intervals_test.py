@@ -143,7 +143,7 @@ class Peg:
 
 class ContactIntervals(unittest.TestCase):
     def test_pegs_agree_with_linear_programs(self):
-        bounded = unbounded = not_known = fails = 0
+        bounded = unbounded = fails = 0
         for pads, seed in [(n, s) for n in (4, 5, 6, 7, 9) for s in range(8)]:
             peg = Peg(pads, seed)
             with tempfile.TemporaryDirectory() as name:
@@ -163,18 +163,14 @@ class ContactIntervals(unittest.TestCase):
                         self.assertEqual(cell, '', (pads, seed, i))
                     elif math.isinf(least):
                         unbounded += 1
-                        if cell == '':
-                            not_known += 1
-                            continue
-                        self.assertEqual(float(cell), sign * least, (pads, seed, i, found))
+                        self.assertEqual(cell, '-inf' if sign > 0 else 'inf', (pads, seed, i, found))
                     else:
                         bounded += 1
                         self.assertLess(abs(float(cell) / peg.WEIGHT - sign * least), PEG_TOLERANCE,
                                         (pads, seed, i, found))
-        print(f'{bounded} bounds of pads are finite, {unbounded} are not, of which {not_known} are not found, {fails} are of pegs that fall')
+        print(f'{bounded} bounds of pads are finite, {unbounded} are not, {fails} are of pegs that fall')
         self.assertGreater(bounded, 100)
         self.assertGreater(unbounded, 20)
-        self.assertLess(not_known, 0.05 * unbounded)
 
     def test_tables_agree_with_linear_programs(self):
         holds = fails = 0
