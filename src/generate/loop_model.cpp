@@ -28,7 +28,6 @@ const Scene& generable(const Mechanism& mechanism, const Scene& scene, const Req
   if (mechanism.orientations() > 0) {
     refuse("joints turn freely, whose orientations are given, in a scene with loops");
   }
-  if (scene.free_motion) refuse("motions are free, so that some efforts are residuals");
   if (request.poses || request.twists) {
     refuse("poses or twists are asked for in a scene with loops");
   }

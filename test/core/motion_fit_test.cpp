@@ -303,8 +303,8 @@ TEST(MotionFit, JointsWithoutKnownNoiseAreJudgedMildly) {
   EXPECT_LT(violationBy(example.dynamics, fitted), 1e-12);
 }
 
-// Straight ahead the base does not move sideways, and nothing is known of how well that is
-// measured. As if it were exact, the noise of the heading would stop the base.
+// Straight ahead the base does not move sideways, and nothing is known of how well that is measured.
+// As if it were exact, the noise of the heading would stop the base.
 TEST(MotionFit, WhatDoesNotMoveDoesNotDragTheOthers) {
   const LoopExample example("mobile_manipulator");
   const Dynamics dynamics(example.mechanism, example.scene);
@@ -333,7 +333,8 @@ TEST(MotionFit, OneThatMovesAmongThoseThatDoNotCloses) {
     MotionFit fit(example.mechanism, example.dynamics);
     const Eigen::Index n = example.motion.q.size();
     MotionCovariance covariance;
-    covariance.coordinates.assign(static_cast<std::size_t>(n), 1e-24 * Eigen::Matrix3d::Identity());
+    covariance.coordinates.assign(static_cast<std::size_t>(n),
+                                  1e-24 * Eigen::Matrix3d::Identity());
     covariance.coordinates[0] = Eigen::Vector3d(1e-7, 1e-4, 1e-1).asDiagonal();
     Motion fitted = example.motion;
     fitted.q.array() += 3e-4;

@@ -82,10 +82,6 @@ TEST_F(OfflineGenerate, RefusesInOneLine) {
   write("rolls.yaml", "rolling:\n  - {name: tyre, link: jib, axis: [0, 1, 0], radius: 0.5}\n");
   EXPECT_EQ(errorOf("--scene rolls.yaml --generate crane.c"),
             "rolls.yaml: no code can be generated, as closure 'tyre' touches a plane");
-  write("free.yaml", "actuated: []\nfree_motion: true\n");
-  EXPECT_EQ(errorOf("--scene free.yaml --generate crane.c"),
-            "free.yaml: no code can be generated, as motions are free, so that some efforts are "
-            "residuals");
   EXPECT_EQ(errorOf("--no-efforts --reactions none --generate crane.c"),
             "no code can be generated, as neither efforts nor reactions are asked for");
   EXPECT_EQ(errorOf("--reactions elbo --generate crane.c"),
