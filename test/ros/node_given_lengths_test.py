@@ -187,8 +187,9 @@ class GivenLengths(LoopTest):
 
     def test_what_is_missing_or_wrong_is_named(self):
         self.start('effort', robot=EXCAVATOR, scene=scene())
-        self.node.diagnostics(lambda v: v['joints waited for'] == 'stick_joint, bucket_joint, boom_ram',
-                              'what is waited for')
+        self.states.publish(joint_state(EPOCH, {'stick_joint': 1.4, 'bucket_joint': 0.6}))
+        self.node.diagnostics(lambda v: v['joints waited for'] == 'boom_ram', 'what is waited for')
+        self.node.wait_for_line('WARN', 'joints boom_ram have not been received in 5 s')
         self.states.publish(joint_state(EPOCH, {'boom_ram': float('nan')}))
         values = self.node.wait_for_count('dropped: not finite', 1)
         self.assertIn("the position of 'boom_ram' is nan", values['last drop'])
