@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -43,8 +44,11 @@ class MotionEstimator {
     kRestartedBack  ///< accepted as the first one, as time went far back
   };
 
+  /// @param lengths how many lengths joint states have besides the generalized coordinates, m. They
+  ///   are what coordinates are here, and their indices go on behind those.
   /// @throws MotionError for a setting out of range, naming the value.
-  MotionEstimator(const Mechanism& mechanism, const EstimatorSettings& settings);
+  MotionEstimator(const Mechanism& mechanism, const EstimatorSettings& settings,
+                  std::size_t lengths = 0);
   ~MotionEstimator();
 
   /// Takes a joint state of some or all generalized coordinates.
@@ -62,7 +66,7 @@ class MotionEstimator {
 
   /// Waits for and evaluates only the coordinates with a true entry from now on; samples of the
   /// others are still kept. Without this call all are waited for.
-  /// @param coordinates one entry for each generalized coordinate.
+  /// @param coordinates one entry for each generalized coordinate and length.
   /// @throws MotionError for another number of entries.
   void waitFor(const std::vector<bool>& coordinates);
 
@@ -82,9 +86,11 @@ class MotionEstimator {
   ///   a restart on.
   /// @param covariance receives the covariances when not null; it has one entry for each
   ///   coordinate. That of a coordinate that is held or rests is zero.
+  /// @param lengths receives those, and must have an entry for each; null: there are none.
   /// @returns the instant, ns.
   /// @throws MotionError unless ready(), or for a motion or covariance of another size.
-  std::int64_t evaluate(Motion& motion, MotionCovariance* covariance = nullptr);
+  std::int64_t evaluate(Motion& motion, MotionCovariance* covariance = nullptr,
+                        Motion* lengths = nullptr);
 
   /// Passes over all motions that are due, without computing anything: for when nobody listens.
   void skip();

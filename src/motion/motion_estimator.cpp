@@ -55,7 +55,7 @@ std::int64_t nanoseconds(double seconds) {
 }  // namespace
 
 struct MotionEstimator::Impl {
-  Impl(const Mechanism& mechanism, const EstimatorSettings& settings);
+  Impl(const Mechanism& mechanism, const EstimatorSettings& settings, std::size_t lengths);
 
   struct Coordinate {
     Coordinate(const Joint& joint, const EstimatorSettings& settings) : track(joint, settings) {}
@@ -78,7 +78,8 @@ struct MotionEstimator::Impl {
   bool settled(const Coordinate& coordinate) const;
   bool nextInstant(std::int64_t& instant) const;
   bool inDoubt(std::int64_t instant) const;
-  void checkSizes(const Motion& motion, const MotionCovariance* covariance) const;
+  void checkSizes(const Motion& motion, const MotionCovariance* covariance,
+                  const Motion* lengths) const;
   Eigen::Vector3d motionOf(Coordinate& coordinate, std::int64_t instant,
                            Eigen::Matrix3d* covariance);
 
@@ -86,6 +87,7 @@ struct MotionEstimator::Impl {
   const std::int64_t lag;         // ns
   const std::int64_t max_gap;     // ns
   const std::int64_t hold_after;  // ns
+  const std::size_t generalized;  // coordinates; lengths are behind these
   std::vector<Coordinate> coordinates;
   int lead = -1;  // whose samples are the instants of motions
   std::int64_t latest_instant = std::numeric_limits<std::int64_t>::min();
@@ -95,15 +97,20 @@ struct MotionEstimator::Impl {
   int behind = 0;  // joint states in a row
 };
 
-MotionEstimator::Impl::Impl(const Mechanism& mechanism, const EstimatorSettings& the_settings)
+MotionEstimator::Impl::Impl(const Mechanism& mechanism, const EstimatorSettings& the_settings,
+                            std::size_t lengths)
     : settings(the_settings),
       lag(settings.estimate ? nanoseconds(settings.lag) : 0),
       max_gap(nanoseconds(settings.max_gap)),
-      hold_after(nanoseconds(settings.hold_after)) {
-  coordinates.reserve(mechanism.coordinates().size());
+      hold_after(nanoseconds(settings.hold_after)),
+      generalized(mechanism.coordinates().size()) {
+  coordinates.reserve(generalized + lengths);
   for (const int joint : mechanism.coordinates()) {
     coordinates.emplace_back(mechanism.joint(joint), settings);
   }
+  Joint slide;
+  slide.type = JointType::kPrismatic;
+  for (std::size_t i = 0; i < lengths; ++i) coordinates.emplace_back(slide, settings);
 }
 
 /// Whether a stamp is so much earlier than the samples of its joints that time has gone back.
@@ -191,23 +198,29 @@ Eigen::Vector3d MotionEstimator::Impl::motionOf(Coordinate& coordinate, std::int
   return track.evaluate(instant, covariance);
 }
 
-void MotionEstimator::Impl::checkSizes(const Motion& motion,
-                                       const MotionCovariance* covariance) const {
-  const auto size = static_cast<Eigen::Index>(coordinates.size());
+void MotionEstimator::Impl::checkSizes(const Motion& motion, const MotionCovariance* covariance,
+                                       const Motion* lengths) const {
+  const auto size = static_cast<Eigen::Index>(generalized);
   if (motion.q.size() != size || motion.qd.size() != size || motion.qdd.size() != size)
     throw MotionError("motion estimator: the motion has " + std::to_string(motion.q.size()) +
                       " positions, " + std::to_string(motion.qd.size()) + " velocities and " +
                       std::to_string(motion.qdd.size()) + " accelerations, must have " +
                       std::to_string(size) + " of each");
-  if (covariance != nullptr && covariance->coordinates.size() != coordinates.size())
+  if (covariance != nullptr && covariance->coordinates.size() != generalized)
     throw MotionError("motion estimator: the covariance has " +
                       std::to_string(covariance->coordinates.size()) + " entries, must have " +
                       std::to_string(size));
+  const auto rest = static_cast<Eigen::Index>(coordinates.size()) - size;
+  const Eigen::Index taken = lengths != nullptr ? lengths->q.size() : 0;
+  if (taken != rest)
+    throw MotionError("motion estimator: got entries for " + std::to_string(taken) +
+                      " lengths, there are " + std::to_string(rest));
 }
 
-MotionEstimator::MotionEstimator(const Mechanism& mechanism, const EstimatorSettings& settings) {
+MotionEstimator::MotionEstimator(const Mechanism& mechanism, const EstimatorSettings& settings,
+                                 std::size_t lengths) {
   checkSettings(settings);
-  impl_ = std::make_unique<Impl>(mechanism, settings);
+  impl_ = std::make_unique<Impl>(mechanism, settings, lengths);
 }
 
 MotionEstimator::~MotionEstimator() = default;
@@ -266,7 +279,7 @@ MotionEstimator::Verdict MotionEstimator::push(std::int64_t stamp_ns, const int*
 void MotionEstimator::waitFor(const std::vector<bool>& coordinates) {
   if (coordinates.size() != impl_->coordinates.size())
     throw MotionError("motion estimator: got " + std::to_string(coordinates.size()) +
-                      " entries for the coordinates to wait for, the mechanism has " +
+                      " entries for the coordinates to wait for, there are " +
                       std::to_string(impl_->coordinates.size()));
   for (std::size_t i = 0; i < coordinates.size(); ++i)
     impl_->coordinates[i].needed = coordinates[i];
@@ -291,20 +304,23 @@ bool MotionEstimator::ready() const {
   return impl_->nextInstant(instant);
 }
 
-std::int64_t MotionEstimator::evaluate(Motion& motion, MotionCovariance* covariance) {
+std::int64_t MotionEstimator::evaluate(Motion& motion, MotionCovariance* covariance,
+                                       Motion* lengths) {
   std::int64_t instant = 0;
   if (!impl_->nextInstant(instant))
     throw MotionError("motion estimator: asked for a motion before it was ready");
-  impl_->checkSizes(motion, covariance);
+  impl_->checkSizes(motion, covariance, lengths);
   for (std::size_t i = 0; i < impl_->coordinates.size(); ++i) {
     if (!impl_->coordinates[i].needed) continue;
-    const Eigen::Vector3d state =
-        impl_->motionOf(impl_->coordinates[i], instant,
-                        covariance != nullptr ? &covariance->coordinates[i] : nullptr);
-    const auto out = static_cast<Eigen::Index>(i);
-    motion.q[out] = state[0];
-    motion.qd[out] = state[1];
-    motion.qdd[out] = state[2];
+    const bool is_length = i >= impl_->generalized;
+    const Eigen::Vector3d state = impl_->motionOf(
+        impl_->coordinates[i], instant,
+        covariance != nullptr && !is_length ? &covariance->coordinates[i] : nullptr);
+    const auto out = static_cast<Eigen::Index>(is_length ? i - impl_->generalized : i);
+    Motion& to = is_length ? *lengths : motion;
+    to.q[out] = state[0];
+    to.qd[out] = state[1];
+    to.qdd[out] = state[2];
   }
   impl_->latest_instant = instant;
   return instant;

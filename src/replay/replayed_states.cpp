@@ -33,7 +33,7 @@ ReplayedStates::ReplayedStates(const RobotTask& task, const InverseDynamicsParam
       wrench_timeout_(parameters.wrench_timeout),
       loop_limits_(parameters.loop_limits),
       loops_(task.everything, task.reactions.size(), parameters.loop_limits),
-      estimator_(task.mechanism, task.estimator),
+      estimator_(task.mechanism, task.estimator, task.lengths.size()),
       completer_(task.mechanism, task.scene, task.everything, parameters.loop_limits.tolerance,
                  parameters.drive_start),
       wrenches_(task.mechanism, task.scene, parameters.wrench_timeout),
@@ -365,7 +365,7 @@ void ReplayedStates::warn(const std::string& text) {
 
 void ReplayedStates::noteGap() {
   const auto joint = static_cast<std::size_t>(estimator_.latestGapCoordinate());
-  here().gap(inQuotes(task_.mechanism.coordinateNames()[joint]) + " had a gap of " +
+  here().gap(inQuotes(task_.inputs()[joint]) + " had a gap of " +
              numberText(static_cast<double>(estimator_.latestGap()) / 1e9) + " s");
 }
 

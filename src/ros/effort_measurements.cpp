@@ -53,6 +53,7 @@ void EffortMeasurements::take(const JointSample& sample) {
   ++taken_;
   for (int i = 0; i < sample.count; ++i) {
     const auto coordinate = static_cast<std::size_t>(sample.coordinates[i]);
+    if (coordinate >= rings_.size()) continue;  // a length
     // What comes late is in between others of the joint, which stand for it.
     if (sample.stamp_ns <= latest_.stamps_ns[coordinate]) continue;
     latest_.stamps_ns[coordinate] = sample.stamp_ns;

@@ -20,7 +20,7 @@ namespace {
 
 // How soon the node's own thread sees that it is to stop, or that a report is due.
 constexpr double kManageWait = 0.05;  // s
-constexpr double kPlaceWait = 0.5;  // s, for a sample to tell where a contact is
+constexpr double kPlaceWait = 0.5;    // s, for a sample to tell where a contact is
 // How often a gap of a joint is logged: those of a slow gripper come with each of its samples.
 constexpr std::chrono::seconds kGapPeriod{60};
 
@@ -35,7 +35,7 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       late_threshold_(parameters.late_threshold),
       checks_{parameters.self_check.cross_check_rate > 0, parameters.self_check.certificates,
               parameters.loop_limits.tolerance},
-      estimator_(task_.mechanism, task_.estimator),
+      estimator_(task_.mechanism, task_.estimator, task_.lengths.size()),
       loops_(task_.everything, task_.reactions.size(), parameters.loop_limits),
       completer_(task_.mechanism, task_.scene, task_.everything, parameters.loop_limits.tolerance,
                  parameters.drive_start),
@@ -51,10 +51,9 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
                     parameters.trajectory_sampling, at_once_, estimator_, completer_, samples_,
                     *this),
       played_(parameters.trajectory_rate),
-      streams_(task_.mechanism.coordinates().size()),
-      gap_throttles_(task_.mechanism.coordinates().size(), Throttle(kGapPeriod)),
-      joint_watch_(task_.mechanism.coordinateNames(), task_.waitedFor(completer_.needed()),
-                   completer_.following()),
+      streams_(task_.inputs().size()),
+      gap_throttles_(task_.inputs().size(), Throttle(kGapPeriod)),
+      joint_watch_(task_.inputs(), task_.waitedFor(completer_.needed()), completer_.following()),
       scene_inputs_(task_.mechanism, task_.scene, parameters.frame_prefix, parameters.root,
                     counters_),
       place_(Motion(task_.everything.coordinates(), task_.everything.orientations())),
@@ -68,7 +67,7 @@ InverseDynamicsNode::InverseDynamicsNode(const InverseDynamicsParameters& parame
       diagnostics_(counters_, counters_.run_times, joint_watch_,
                    SelfCheckReport(parameters.self_check, cross_check_.get(), certificates_),
                    LoopReport(task_.mechanism, task_.everything, task_.reactions, loops_),
-                   StreamReport(streams_, task_.mechanism.coordinateNames(), task_.units()),
+                   StreamReport(streams_, task_.inputs(), task_.units()),
                    DeviationReport(task_.deviations, parameters.deviation_warn),
                    ThresholdReport(task_.external, task_.limits), task_.mechanism.name(),
                    parameters.diagnostic_period),
@@ -186,8 +185,7 @@ void InverseDynamicsNode::noteGap() {
   const auto joint = static_cast<std::size_t>(estimator_.latestGapCoordinate());
   if (!gap_throttles_[joint].open()) return;
   ROS_INFO("%s: %s had a gap of %s s, longer than %s = %s s: it is estimated anew",
-           joint_state_subscriber_.getTopic().c_str(),
-           inQuotes(task_.mechanism.coordinateNames()[joint]).c_str(),
+           joint_state_subscriber_.getTopic().c_str(), inQuotes(task_.inputs()[joint]).c_str(),
            numberText(static_cast<double>(estimator_.latestGap()) / 1e9).c_str(),
            privateName("estimator/max_gap").c_str(), numberText(task_.estimator.max_gap).c_str());
 }

@@ -12,7 +12,7 @@ JointStateComputation::JointStateComputation(const Mechanism& mechanism,
                                              SampleComputation& samples, Counters& counters,
                                              JointStateUser& user)
     : covariances_(settings.estimate),
-      conversion_(mechanism),
+      conversion_(mechanism, completer.lengths()),
       positions_(mechanism),
       free_joints_(mechanism, settings),
       estimator_(estimator),
@@ -111,8 +111,8 @@ void JointStateComputation::evaluate() {
   const bool fits = covariances_ && plan.fit.any() && completer_.fits();
   const bool known = covariances_ && estimator_.knowsNoise();
   MotionCovariance* covariance = known && (fits || plan.wantsCovariance()) ? &covariance_ : nullptr;
-  const std::int64_t stamp_ns =
-      estimator_.evaluate(samples_.motion(), completer_.measures() ? covariance : nullptr);
+  const std::int64_t stamp_ns = estimator_.evaluate(
+      samples_.motion(), completer_.measures() ? covariance : nullptr, &completer_.lengthMotion());
   completer_.drives().begin(stamp_ns);
   if (!plan.wantsSamples()) {
     counters_.skipped.add();

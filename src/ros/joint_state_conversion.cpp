@@ -25,14 +25,18 @@ Rejection wrongLength(std::size_t names, std::size_t values, const char* what) {
 
 }  // namespace
 
-JointStateConversion::JointStateConversion(const Mechanism& mechanism)
+JointStateConversion::JointStateConversion(const Mechanism& mechanism,
+                                           const std::vector<std::string>& lengths)
     : mechanism_(mechanism),
+      names_(mechanism.coordinateNames()),
       coordinate_of_(coordinatesByName(mechanism)),
-      q_(mechanism.coordinates().size()),
-      qd_(mechanism.coordinates().size()),
-      effort_(mechanism.coordinates().size()),
-      velocity_reported_(mechanism.coordinates().size(), 0),
       mimic_reported_(mechanism.joints().size(), 0) {
+  for (const std::string& length : lengths) {
+    coordinate_of_.emplace(length, static_cast<int>(names_.size()));
+    names_.push_back(length);
+  }
+  for (auto* values : {&q_, &qd_, &effort_}) values->resize(names_.size());
+  velocity_reported_.assign(names_.size(), 0);
   for (Layout& layout : layouts_) resolve({}, layout);
 }
 
@@ -84,7 +88,7 @@ JointStateConversion::Layout& JointStateConversion::layoutOf(
 void JointStateConversion::resolve(const std::vector<std::string>& names, Layout& layout) const {
   layout = Layout();
   layout.names = names;
-  std::vector<char> found(mechanism_.coordinates().size(), 0);
+  std::vector<char> found(names_.size(), 0);
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto coordinate = coordinate_of_.find(names[i]);
     if (coordinate == coordinate_of_.end()) continue;
@@ -99,19 +103,17 @@ void JointStateConversion::resolve(const std::vector<std::string>& names, Layout
     layout.coordinates.push_back(coordinate->second);
   }
   if (layout.columns.empty()) {
-    layout.rejection = Rejection{DropReason::kNoKnownJoint,
-                                 "it names no joint of robot " + inQuotes(mechanism_.name()) +
-                                     " that moves by itself" +
-                                     (names.empty() ? ""
-                                                    : ": " + shortList(names) + "; they are " +
-                                                          shortList(mechanism_.coordinateNames()))};
+    layout.rejection = Rejection{
+        DropReason::kNoKnownJoint,
+        "it names no joint of robot " + inQuotes(mechanism_.name()) + " that moves by itself" +
+            (names.empty() ? "" : ": " + shortList(names) + "; they are " + shortList(names_))};
     return;
   }
   resolveMimics(layout);
 }
 
 void JointStateConversion::resolveMimics(Layout& layout) const {
-  std::vector<int> column_of(mechanism_.coordinates().size(), -1);
+  std::vector<int> column_of(names_.size(), -1);
   for (std::size_t i = 0; i < layout.columns.size(); ++i) {
     column_of[static_cast<std::size_t>(layout.coordinates[i])] = layout.columns[i];
   }

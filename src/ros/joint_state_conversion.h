@@ -14,8 +14,9 @@
 
 namespace virtual_work_dynamics {
 
-/// The part of a joint state that belongs to generalized coordinates, as MotionEstimator takes it.
-/// Its pointers are valid until the next call of the conversion that made it.
+/// The part of a joint state that belongs to generalized coordinates and given lengths, whose
+/// indices go on behind those, as MotionEstimator takes it. Its pointers are valid until the next
+/// call of the conversion that made it.
 struct JointSample {
   std::int64_t stamp_ns = 0;
   int count = 0;
@@ -34,7 +35,9 @@ struct JointSample {
 /// when a list of names is new; a few lists are remembered, as several drivers may publish in turn.
 class JointStateConversion {
  public:
-  explicit JointStateConversion(const Mechanism& mechanism);
+  /// @param lengths names of those that are given, see givenLengths()
+  explicit JointStateConversion(const Mechanism& mechanism,
+                                const std::vector<std::string>& lengths = {});
 
   /// Checks and converts a message. Joints that the robot does not have and mimic joints are
   /// ignored. Allocates only for new lists of names, a rejection or a disagreement.
@@ -67,6 +70,7 @@ class JointStateConversion {
   void checkMimics(Layout& layout, const std::vector<double>& positions, std::string& disagreement);
 
   const Mechanism& mechanism_;
+  std::vector<std::string> names_;  // of coordinates, then lengths
   std::unordered_map<std::string, int> coordinate_of_;
   std::array<Layout, kLayouts> layouts_;
   std::size_t latest_ = 0;

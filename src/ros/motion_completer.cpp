@@ -7,6 +7,7 @@
 #include "base/printable.h"
 #include "dynamics/motion_start.h"
 #include "motion/table_row.h"
+#include "ros/given_lengths.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -52,11 +53,16 @@ MotionCompleter::MotionCompleter(const Mechanism& mechanism, const Scene& scene,
       dynamics_(dynamics),
       closed_(dynamics.closed()),
       static_motion_(scene.static_motion),
-      closures_determine_(dynamics.closuresDetermine()),
+      closures_determine_(dynamics.closuresDetermine() &&
+                          givenLengths(mechanism, scene, dynamics.given()).empty()),
       nearly_closed_(std::max(tolerance, kNearlyClosed)),
       usual_(dynamics.given()),
       rule_(mechanism, dynamics),
-      drives_(mechanism, scene, usual_, drive_start),
+      without_lengths_(withoutLengths(mechanism, scene, usual_)),
+      lengths_(givenLengths(mechanism, scene, usual_)),
+      length_motion_(static_cast<Eigen::Index>(lengths_.size())),
+      driven_(static_cast<Eigen::Index>(usual_.drivenNumbers())),
+      drives_(mechanism, scene, without_lengths_, drive_start),
       motors_(motorsOf(mechanism, scene, drives_.coordinates())),
       joint_states_(mechanism, dynamics),
       trajectories_(mechanism, dynamics),
@@ -75,6 +81,7 @@ MotionCompleter::MotionCompleter(const Mechanism& mechanism, const Scene& scene,
   for (std::size_t i = 0; i < needed_.size(); ++i) {
     if (drives_.coordinates()[i]) needed_[i] = false;
   }
+  needed_.resize(needed_.size() + lengths_.size(), true);
   needs_clock_ = drives_.any() && std::count(needed_.begin(), needed_.end(), true) == 0;
 }
 
@@ -85,7 +92,7 @@ bool MotionCompleter::saw(const int* coordinates, int count) {
     return true;
   }
   if (all_given_) return motors_.any() && sawMotors(coordinates, count);
-  if (drives_.any()) return false;
+  if (drives_.any() || !lengths_.empty()) return false;
   for (int i = 0; i < count; ++i) seen_[static_cast<std::size_t>(coordinates[i])] = true;
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     if (!seen_[i] && !needed_[i] && !motors_.coordinates()[i]) return false;
@@ -96,7 +103,7 @@ bool MotionCompleter::saw(const int* coordinates, int count) {
 }
 
 FollowingMotors MotionCompleter::noMotors() const {
-  return FollowingMotors(mechanism_, scene_, std::vector<bool>(needed_.size(), true));
+  return FollowingMotors(mechanism_, scene_, std::vector<bool>(usual_.coordinates.size(), true));
 }
 
 // Actuators follow no longer once joint states have shown all that do.
@@ -114,7 +121,7 @@ bool MotionCompleter::measures() const {
   for (std::size_t i = 0; i < usual_.coordinates.size(); ++i) {
     if (usual_.coordinates[i] && !drives_.coordinates()[i]) return true;
   }
-  return false;
+  return !lengths_.empty();
 }
 
 bool MotionCompleter::complete(Motion& motion, std::int64_t stamp_ns, const Dynamics& dynamics,
@@ -129,10 +136,23 @@ bool MotionCompleter::complete(Motion& motion, std::int64_t stamp_ns, const Dyna
     motors_.set(motion);
     return true;
   }
+  setDriven();
   if (!started_) startBy(motion);
   evaluated_ = true;
   latest_ = &joint_states_;
-  return joint_states_.complete(motion, drives_.numbers(), dynamics, workspace);
+  return joint_states_.complete(motion, driven_, dynamics, workspace);
+}
+
+void MotionCompleter::setDriven() {
+  const Motion& of_drives = drives_.numbers();
+  const Eigen::Index drives = of_drives.q.size(), lengths = length_motion_.q.size();
+  driven_.q.head(drives) = of_drives.q;
+  driven_.qd.head(drives) = of_drives.qd;
+  driven_.qdd.head(drives) = of_drives.qdd;
+  driven_.q.tail(lengths) = length_motion_.q;
+  if (static_motion_) return;
+  driven_.qd.tail(lengths) = length_motion_.qd;
+  driven_.qdd.tail(lengths) = length_motion_.qdd;
 }
 
 const MotionFit::Outcome& MotionCompleter::fit(MotionFit& fit, Motion& motion,
@@ -150,7 +170,7 @@ void MotionCompleter::complete(MotionCovariance& covariance) const {
 void MotionCompleter::startBy(const Motion& motion) {
   started_ = true;
   try {
-    const Scene started = startedBy(mechanism_, scene_, {usual_, motion, drives_.numbers()});
+    const Scene started = startedBy(mechanism_, scene_, {usual_, motion, driven_});
     joint_states_.moveTo(Dynamics(mechanism_, started, Request()).assembly());
   } catch (const AssemblyError&) {
     // The loops are closed from the scene's assembly, and complete() tells how far they stay open.
@@ -189,7 +209,7 @@ std::optional<std::string> MotionCompleter::openStates() {
 Given MotionCompleter::with(std::vector<bool> coordinates) const {
   Given given;
   given.coordinates = either(std::move(coordinates), drives_.coordinates());
-  given.closures = usual_.closures;  // driven ones
+  given.closures = without_lengths_.closures;  // driven ones
   return given;
 }
 
@@ -221,7 +241,7 @@ std::optional<MotionCompleter::Choice> MotionCompleter::chooseJoints(
 }
 
 const MotionCompleter::Choice& MotionCompleter::chosenBy(const TrajectoryMotion& trajectory) {
-  const std::vector<bool> named = namedBy(trajectory, needed_.size());
+  const std::vector<bool> named = namedBy(trajectory, usual_.coordinates.size());
   if (named_ != named) {
     choice_ = choose(named);
     named_ = named;
@@ -252,7 +272,8 @@ std::optional<std::size_t> MotionCompleter::turnToGive() const {
 }
 
 void MotionCompleter::setGiven(const Given& given, PassiveJoints& joints) const {
-  if (joints.given().coordinates == given.coordinates) return;
+  const Given& before = joints.given();
+  if (before.coordinates == given.coordinates && before.closures == given.closures) return;
   const Eigen::VectorXd position = joints.position();
   const std::vector<Eigen::Quaterniond> references = joints.references();
   joints = PassiveJoints(mechanism_, dynamics_, given);

@@ -29,6 +29,8 @@ namespace virtual_work_dynamics {
 /// Actuators of transmissions follow from the joints that they move where all joints are given but
 /// they are not: of joint states until all actuators have been seen, too.
 ///
+/// Lengths that are given never follow from joints, whatever joint states show.
+///
 /// What the scene drives is part of no message, and of none is it used. The time of the drives
 /// begins with the first joint state, or the first point of a trajectory that comes before.
 class MotionCompleter {
@@ -44,8 +46,9 @@ class MotionCompleter {
                   double tolerance = kNearlyClosed, double drive_start = 0);
 
   const Mechanism& mechanism() const { return mechanism_; }
-  /// The coordinates that joint states have to show. Where they need to show none, it is those of
-  /// the first joint state, whose stamps then are the instants of results.
+  /// The coordinates, and given lengths behind them, that joint states have to show. Where they
+  /// need to show none, it is those of the first joint state, whose stamps then are the instants of
+  /// results.
   const std::vector<bool>& needed() const { return needed_; }
   /// Whether needed() is not all coordinates, so that it has to be told to those who wait for them.
   bool needsSome() const { return closed_ || drives_.any(); }
@@ -58,6 +61,10 @@ class MotionCompleter {
   const std::vector<bool>& following() const { return motors_.coordinates(); }
   /// Takes note of the coordinates of a joint state. Returns whether needed() has changed.
   bool saw(const int* coordinates, int count);
+  /// Names of the lengths that joint states give, see givenLengths().
+  const std::vector<std::string>& lengths() const { return lengths_; }
+  /// Where their values are to be set before a motion of joint states is completed.
+  Motion& lengthMotion() { return length_motion_; }
   /// The drives that set what is driven.
   LiveDrives& drives() { return drives_; }
 
@@ -117,6 +124,7 @@ class MotionCompleter {
     FollowingMotors motors;  // which the trajectory lacks
   };
   void startBy(const Motion& motion);
+  void setDriven();
   Given with(std::vector<bool> coordinates) const;
   void drive(TrajectoryMotion& trajectory);
   std::optional<std::size_t> turnIn(const std::vector<bool>& given) const;
@@ -139,6 +147,10 @@ class MotionCompleter {
   const double nearly_closed_;
   const Given usual_;  // what motions give unless they give all
   const GivenJoints rule_;
+  const Given without_lengths_;
+  const std::vector<std::string> lengths_;
+  Motion length_motion_;
+  Motion driven_;  // numbers of motions of joint states: of drives, then lengths
   LiveDrives drives_;
   FollowingMotors motors_;  // where joint states give all joints
   PassiveJoints joint_states_, trajectories_, samples_;

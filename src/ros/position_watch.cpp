@@ -15,6 +15,7 @@ PositionWatch::PositionWatch(const Mechanism& mechanism) : mechanism_(mechanism)
 std::optional<std::string> PositionWatch::take(const JointSample& sample) {
   for (int i = 0; i < sample.count; ++i) {
     const auto coordinate = static_cast<std::size_t>(sample.coordinates[i]);
+    if (coordinate >= largest_.size()) continue;  // a length
     if (std::abs(sample.q[i]) <= largest_[coordinate]) continue;
     largest_[coordinate] = std::numeric_limits<double>::infinity();
     return positionQuestion(mechanism_.joint(mechanism_.coordinates()[coordinate]), sample.q[i]);

@@ -12,6 +12,7 @@
 #include "robot/effort_limits.h"
 #include "ros/closure_frames.h"
 #include "ros/delivered_efforts.h"
+#include "ros/given_lengths.h"
 #include "ros/loop_report.h"
 #include "ros/message_text.h"
 #include "ros/private_name.h"
@@ -176,10 +177,8 @@ RobotTask::RobotTask(const InverseDynamicsParameters& parameters, const SceneOfM
       estimator(checkedSettings(mechanism, parameters.estimator, scene)),
       rest(restOf(mechanism, scene, parameters.rest)),
       everything(movableDynamics(mechanism, scene, parameters.robot_description_key)) {
-  if (everything.given().drivenNumbers() > Drives(mechanism, scene).closures().size()) {
-    throw SceneError(
-        "given: joint states have no axes of closures and no poses of links: name joints");
-  }
+  requireLengths(mechanism, scene, everything.given());
+  lengths = givenLengths(mechanism, scene, everything.given());
   closure_frames = closureFrames(mechanism, scene, reactions, parameters.frame_prefix);
   deviations = std::make_shared<DeviationRecord>(everything.effortNames(), everything.residuals(),
                                                  mechanism.coordinateNames(), otherCauses(scene));
@@ -214,11 +213,18 @@ std::vector<bool> RobotTask::waitedFor(std::vector<bool> needed) const {
   return needed;
 }
 
+std::vector<std::string> RobotTask::inputs() const {
+  std::vector<std::string> names = mechanism.coordinateNames();
+  names.insert(names.end(), lengths.begin(), lengths.end());
+  return names;
+}
+
 std::vector<std::string> RobotTask::units() const {
   std::vector<std::string> units;
   for (std::size_t i = 0; i < mechanism.coordinates().size(); ++i) {
     units.emplace_back(symbolOf(mechanism.unitOf(static_cast<int>(i))));
   }
+  units.resize(units.size() + lengths.size(), symbolOf(Unit::kMetre));
   return units;
 }
 
@@ -265,7 +271,7 @@ void RobotTask::log(const InverseDynamicsParameters& parameters) const {
              privateName("effort_deviation").c_str(), shortList(exact).c_str());
   }
   if (!deviates()) {
-    ROS_INFO("%s is not offered: axes of closures have drives",
+    ROS_INFO("%s is not offered: axes of closures have drives, or lengths are given",
              privateName("effort_deviation").c_str());
   }
   if (!not_observed.empty()) {

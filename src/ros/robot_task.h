@@ -28,7 +28,9 @@ struct RobotTask {
   /// The coordinates that joint states have to show: `needed` without those that may rest.
   std::vector<bool> waitedFor(std::vector<bool> needed) const;
 
-  /// rad or m, of each coordinate.
+  /// Names of the coordinates, then of the lengths that joint states give.
+  std::vector<std::string> inputs() const;
+  /// rad or m, of each of inputs().
   std::vector<std::string> units() const;
 
   /// Whether each coordinate is none that a trajectory gives: the closures determine it from those
@@ -36,7 +38,7 @@ struct RobotTask {
   std::vector<bool> following() const;
 
   /// Whether the deviations of results follow from those of joints: not where axes of closures have
-  /// drives.
+  /// drives or lengths are given.
   bool deviates() const;
 
   Mechanism mechanism;
@@ -45,6 +47,7 @@ struct RobotTask {
   std::vector<std::string> reaction_topics;  ///< their topics
   std::vector<std::string> wrench_topics;    ///< topics of the live wrenches
   EstimatorSettings estimator;
+  std::vector<std::string> lengths;          ///< that joint states give, see givenLengths()
   std::vector<std::pair<int, double>> rest;  ///< coordinates and their positions until they come
   tf2_msgs::TFMessage closure_frames;
   Dynamics everything;                          ///< of all that the scene asks for, in both axes

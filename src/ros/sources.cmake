@@ -17,6 +17,7 @@ foreach(file
     foreign_frames.cpp
     free_joint_conversion.cpp
     free_joints.cpp
+    given_lengths.cpp
     imu_conversion.cpp
     inverse_dynamics_node.cpp
     inverse_dynamics_parameters.cpp

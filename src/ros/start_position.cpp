@@ -15,6 +15,7 @@
 #include "base/printable.h"
 #include "dynamics/given_joints.h"
 #include "dynamics/motion_start.h"
+#include "ros/given_lengths.h"
 #include "ros/joint_state_conversion.h"
 #include "ros/live_drives.h"
 #include "ros/private_name.h"
@@ -34,19 +35,31 @@ class StartFinder {
       : mechanism_(mechanism),
         scene_(scene),
         usual_(resolveLoopScene(mechanism, scene).given),
-        conversion_(mechanism),
-        driven_(mechanism, scene, usual_, 0),
+        lengths_(givenLengths(mechanism, scene, usual_)),
+        conversion_(mechanism, lengths_),
+        driven_(mechanism, scene, withoutLengths(mechanism, scene, usual_), 0),
         seen_(driven_.coordinates()),
+        lengths_seen_(lengths_.size(), false),
+        numbers_(static_cast<Eigen::Index>(usual_.drivenNumbers())),
         motion_(static_cast<Eigen::Index>(seen_.size())) {}
 
   void take(const sensor_msgs::JointState& message) {
     JointSample sample;
     if (conversion_.convert(message, sample)) return;
     for (int i = 0; i < sample.count; ++i) {
-      seen_[static_cast<std::size_t>(sample.coordinates[i])] = true;
+      const auto place = static_cast<std::size_t>(sample.coordinates[i]);
+      if (place >= seen_.size()) {
+        const std::size_t length = place - seen_.size();
+        lengths_seen_[length] = true;
+        numbers_.q[numbers_.q.size() - static_cast<Eigen::Index>(lengths_.size() - length)] =
+            sample.q[i];
+        continue;
+      }
+      seen_[place] = true;
       motion_.q[sample.coordinates[i]] = sample.q[i];
     }
     driven_.set(sample.stamp_ns, motion_);
+    numbers_.q.head(driven_.numbers().q.size()) = driven_.numbers().q;
     news_ = true;
   }
 
@@ -54,8 +67,9 @@ class StartFinder {
   std::optional<Scene> find() {
     if (!news_) return std::nullopt;
     news_ = false;
-    MotionStart start{usual_, motion_, driven_.numbers()};
+    MotionStart start{usual_, motion_, numbers_};
     start.given.coordinates = seen_;
+    if (std::count(lengths_seen_.begin(), lengths_seen_.end(), false) > 0) return std::nullopt;
     for (std::size_t i = 0; i < seen_.size(); ++i) {
       if (usual_.coordinates[i] && !seen_[i]) return std::nullopt;
     }
@@ -76,9 +90,11 @@ class StartFinder {
   const Mechanism& mechanism_;
   const Scene& scene_;
   const Given usual_;
+  const std::vector<std::string> lengths_;
   JointStateConversion conversion_;
   LiveDrives driven_;
-  std::vector<bool> seen_;
+  std::vector<bool> seen_, lengths_seen_;
+  Motion numbers_;  // of drives, then lengths
   Motion motion_;
   bool news_ = false, told_ = false;
 };
