@@ -29,6 +29,8 @@ MOTION = Swings(boom_joint=(-0.4, 0.2, 0.3), stick_joint=(1.4, 0.3, 0.4),
 LEARNT = EPOCH + 1500 * MS
 # Forces of cubics: the rounding of the estimator, as in tests of joints.
 ESTIMATED = 1e-8
+# What the closures tell is found to some roundings.
+EXACT = 1e-11
 # Of the largest force of each ram, with noise: two to three times what comes out.
 ACCURACY = [0.01, 0.02, 0.04]
 
@@ -166,7 +168,7 @@ class GivenLengths(LoopTest):
         columns = [header.index('effort.' + name) for name in RAMS]
         for line, message in zip(lines, messages):
             wanted = [float(line[column]) for column in columns]
-            self.assertClose(efforts(message), wanted, ESTIMATED * max(map(abs, wanted)), 'forces')
+            self.assertClose(efforts(message), wanted, ESTIMATED, 'forces')
             self.assertGreater(min(map(abs, wanted)), 50)
         self.assertBagMatches(states, messages)
 
@@ -180,7 +182,7 @@ class GivenLengths(LoopTest):
             self.trajectories.publish(message)
         for i, effort in enumerate(self.recorders['effort'].wait(5)):
             expected = forces(MOTION(EPOCH + STEP * i))
-            self.assertClose(efforts(effort), expected, 1e-11 * max(expected), 'forces')
+            self.assertClose(efforts(effort), expected, EXACT, 'forces')
         values = self.node.wait_for_count('dropped: passive joints', 1)
         self.assertIn("too little is given: the motion of 'boom_joint' does not follow from it",
                       values['last drop'])
