@@ -190,5 +190,34 @@ TEST(MotionEstimator, AJointThatRestsForSecondsAndThenMovesIsFollowed) {
   }
 }
 
+// Covariances of the first samples say little: of five of them a motion of fourth order tells no
+// noise at all.
+TEST(MotionEstimator, KnowsItsNoiseOnceSamplesHaveShownIt) {
+  using estimator_test::kMillisecond;
+  using estimator_test::kR;
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(0, 1e-4);
+  const auto push = [&](estimator_test::Stream& stream, int from, int to) {
+    for (int i = from; i < to; ++i) {
+      const double q = std::sin(0.01 * i) + normal(random);
+      stream.push(i * 10 * kMillisecond, {0, 1}, {q, 0.3});
+    }
+  };
+  estimator_test::Stream found({kR, kR}, settingsOf(0.05));
+  push(found, 0, 1);
+  EXPECT_TRUE(found.estimator.knowsNoise());  // nothing has moved
+  push(found, 1, 5);
+  EXPECT_FALSE(found.estimator.knowsNoise());
+  push(found, 5, 100);
+  EXPECT_TRUE(found.estimator.knowsNoise());  // nor does the second joint ever
+
+  EstimatorSettings settings = settingsOf(0.05);
+  settings.noise.position_noise = 1e-4;
+  settings.noise.bandwidth = 5;
+  estimator_test::Stream given({kR, kR}, settings);
+  push(given, 0, 5);
+  EXPECT_TRUE(given.estimator.knowsNoise());
+}
+
 }  // namespace
 }  // namespace virtual_work_dynamics
