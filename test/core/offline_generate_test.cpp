@@ -79,7 +79,9 @@ TEST_F(OfflineGenerate, RefusesInOneLine) {
   EXPECT_EQ(errorOf("--axes inertial --generate crane.c"),
             "--axes inertial cannot be used with --generate");
   EXPECT_EQ(errorOf("--check --generate crane.c"), "--check cannot be used with --generate");
-  write("rolls.yaml", "rolling:\n  - {name: tyre, link: jib, axis: [0, 1, 0], radius: 0.5}\n");
+  write("rolls.yaml",
+        "rolling:\n  - {name: tyre, link: jib, axis: [0, 1, 0], radius: 0.5, normal: false, "
+        "plane: {link: base}}\n");
   EXPECT_EQ(errorOf("--scene rolls.yaml --generate crane.c"),
             "rolls.yaml: no code can be generated, as closure 'tyre' touches a plane");
   EXPECT_EQ(errorOf("--no-efforts --reactions none --generate crane.c"),

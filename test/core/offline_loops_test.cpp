@@ -218,7 +218,7 @@ TEST_F(OfflineLoops, DerivativesThatAreMissingKeepTheLoopsClosed) {
     return rows;
   };
   const NumberTable of_all =
-      estimated("all.csv", "note: all.csv: 30 rows fitted to closures and couplings: the ");
+      estimated("all.csv", "note: all.csv: 30 rows fitted to closures and couplings\n");
   const NumberTable of_drive = estimated("m.csv", kFollow);
   ASSERT_EQ(of_all.rows.size(), 30u);
   ASSERT_EQ(of_drive.rows.size(), 30u);
