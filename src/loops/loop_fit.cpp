@@ -14,6 +14,8 @@ constexpr double kAbsent = 1e-9;
 // what redundant conditions disagree by.
 constexpr double kRank = 1e-7;
 constexpr int kMostFits = 10;
+// Larger groups stay as they are measured, as the cost of a fit is cubic.
+constexpr std::size_t kMostConditions = 100;
 // Step, in standard deviations, or rad or over the length, that ends the search for positions.
 constexpr double kLastStep = 1e-7, kFitRounding = 1e-14;
 // Deviations of positions below which nothing is known of the noise, rad or over the length: a
@@ -52,6 +54,7 @@ LoopFit::LoopFit(const Mechanism& mechanism, const LoopKinematics& kinematics, d
       column_scales_(static_cast<Eigen::Index>(mechanism.coordinates().size())) {
   for (const LoopGroup& group : loopGroups(mechanism, kinematics_)) {
     groups_.emplace_back(group, kinematics_);
+    if (groups_.back().conditions.size() > kMostConditions) groups_.pop_back();
   }
   for (Eigen::Index i = 0; i < row_scales_.size(); ++i) {
     row_scales_[i] = 1 / scaleOf(kinematics_.condition(i).unit, length);
@@ -178,7 +181,12 @@ bool LoopFit::solve(Group& group, const Eigen::VectorXd& residuals, bool positio
 
 // Conditions without a position have zeros.
 bool LoopFit::isNearlyClosed(double nearly) const {
-  return (row_scales_.array() * kinematics_.phi().array()).abs().maxCoeff() <= nearly;
+  for (const Group& group : groups_) {
+    for (const Eigen::Index i : group.conditions) {
+      if (!(std::abs(row_scales_[i] * kinematics_.phi()[i]) <= nearly)) return false;
+    }
+  }
+  return true;
 }
 
 // Each step is the least move from the measured position, not from where the step before ended, to

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "loop_examples.h"
+#include "robot_builder.h"
 #include "virtual_work_dynamics/error.h"
 
 namespace virtual_work_dynamics {
@@ -303,8 +304,8 @@ TEST(MotionFit, JointsWithoutKnownNoiseAreJudgedMildly) {
   EXPECT_LT(violationBy(example.dynamics, fitted), 1e-12);
 }
 
-// Straight ahead the base does not move sideways, and nothing is known of how well that is measured.
-// As if it were exact, the noise of the heading would stop the base.
+// Straight ahead the base does not move sideways, and nothing is known of how well that is
+// measured. As if it were exact, the noise of the heading would stop the base.
 TEST(MotionFit, WhatDoesNotMoveDoesNotDragTheOthers) {
   const LoopExample example("mobile_manipulator");
   const Dynamics dynamics(example.mechanism, example.scene);
@@ -333,8 +334,7 @@ TEST(MotionFit, OneThatMovesAmongThoseThatDoNotCloses) {
     MotionFit fit(example.mechanism, example.dynamics);
     const Eigen::Index n = example.motion.q.size();
     MotionCovariance covariance;
-    covariance.coordinates.assign(static_cast<std::size_t>(n),
-                                  1e-24 * Eigen::Matrix3d::Identity());
+    covariance.coordinates.assign(static_cast<std::size_t>(n), 1e-24 * Eigen::Matrix3d::Identity());
     covariance.coordinates[0] = Eigen::Vector3d(1e-7, 1e-4, 1e-1).asDiagonal();
     Motion fitted = example.motion;
     fitted.q.array() += 3e-4;
@@ -416,6 +416,36 @@ TEST(MotionFit, RatesStayWhereTheyAreNotAskedFor) {
   EXPECT_NE(fitted.q, measured.q);
   EXPECT_EQ(fitted.qd, measured.qd);
   EXPECT_EQ(fitted.qdd, measured.qdd);
+}
+
+// Shafts that turn together by as many couplings.
+TEST(MotionFit, GroupsOfManyConditionsStay) {
+  for (const int couplings : {60, 110}) {
+    RobotBuilder builder(1);
+    Scene scene;
+    for (int i = 0; i <= couplings; ++i) {
+      builder.add(JointType::kRevolute, 0, Vector3l::UnitZ(), Matrix3l::Identity(),
+                  Vector3l::Zero());
+      if (i == 0) continue;
+      Coupling coupling;
+      coupling.name = "coupling_" + std::to_string(i);
+      coupling.terms = {{"joint_" + std::to_string(i), 1.0},
+                        {"joint_" + std::to_string(i + 1), -1.0}};
+      scene.couplings.push_back(coupling);
+    }
+    scene.actuated = {"joint_1"};
+    const Mechanism mechanism = builder.build();
+    const Dynamics dynamics(mechanism, scene);
+    MotionFit fit(mechanism, dynamics);
+    std::mt19937 random(1);
+    const MotionCovariance covariance =
+        unevenCovariance(dynamics.coordinates(), {1e-5, 1e-3, 1e-2});
+    const Motion measured = withNoise(Motion(dynamics.coordinates()), covariance, random);
+    Motion fitted = measured;
+    EXPECT_TRUE(fit.fit(fitted, &covariance, kNoNoise).closed);
+    EXPECT_EQ(violationBy(dynamics, fitted) < 1e-12, couplings < 100);
+    EXPECT_EQ(fitted.q == measured.q, couplings > 100);
+  }
 }
 
 TEST(MotionFit, OpenChainsAreNotFitted) {
