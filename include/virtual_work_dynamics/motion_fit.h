@@ -33,8 +33,8 @@ class MotionFit {
   MotionFit& operator=(MotionFit&&) noexcept;
 
   /// Whether there is anything to fit motions to. There is not in open chains, nor, at present,
-  /// where a joint turns freely or something is driven. Loops of more than 100 conditions that share
-  /// coordinates stay as they are measured.
+  /// where a joint turns freely or something is driven. Loops of more than 100 conditions that
+  /// share coordinates stay as they are measured.
   bool any() const { return loops_ != nullptr; }
 
   /// What a fit did.
