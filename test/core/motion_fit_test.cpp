@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "four_bar.h"
 #include "loop_examples.h"
 #include "robot_builder.h"
 #include "virtual_work_dynamics/error.h"
@@ -360,6 +361,40 @@ TEST(MotionFit, EveryMoveIsJudgedByItself) {
   motion.qd[right] = 1e-3;
   EXPECT_FALSE(fit.fit(motion, &covariance, kNoNoise).explained);
   EXPECT_EQ(fit.outcome().farthest.coordinate, left);
+}
+
+TEST(MotionFit, LoopsThatNothingCanCloseAreOpen) {
+  const Moving example("four_bar");
+  MotionFit fit(example.mechanism, example.dynamics);
+  MotionCovariance covariance;
+  covariance.coordinates.assign(static_cast<std::size_t>(example.motion.q.size()),
+                                Eigen::Matrix3d::Zero());
+  Motion fitted = example.motion;
+  fitted.q[1] += 1e-3;
+  const Motion measured = fitted;
+  EXPECT_FALSE(fit.fit(fitted, &covariance, kNoNoise).closed);
+  EXPECT_EQ(fitted.q, measured.q);
+}
+
+// The conditions out of an oblique plane have roundings for entries.
+TEST(MotionFit, RoundingsAreNoConditions) {
+  const FourBar four_bar;
+  std::mt19937 random(5);
+  for (const char pivot : {'A', 'B', 'C', 'D'}) {
+    const FourBar::Cut cut = four_bar.cut(pivot);
+    const Dynamics dynamics(cut.mechanism, cut.scene);
+    MotionFit fit(cut.mechanism, dynamics);
+    const MotionCovariance covariance =
+        unevenCovariance(dynamics.coordinates(), {1e-5, 1e-3, 0.03});
+    for (int i = 0; i < 20; ++i) {
+      const Motion exact = cut.motion(four_bar.turnings(0.3L * i, 1, 2));
+      Motion fitted = withNoise(exact, covariance, random);
+      EXPECT_TRUE(fit.fit(fitted, &covariance, kNoNoise).explained) << pivot << i;
+      EXPECT_LT(violationBy(dynamics, fitted), 1e-12) << pivot << i;
+      EXPECT_LT((fitted.q - exact.q).norm(), 1e-3) << pivot << i;
+      EXPECT_LT((fitted.qd - exact.qd).norm(), 0.1) << pivot << i;
+    }
+  }
 }
 
 TEST(MotionFit, SinglePositionsAreTheLeastNoise) {
