@@ -102,6 +102,7 @@ set(core_test_files
   test/core/motion_estimator_start_test.cpp
   test/core/motion_estimator_streams_test.cpp
   test/core/motion_estimator_test.cpp
+  test/core/motion_fit_judgement_test.cpp
   test/core/motion_fit_test.cpp
   test/core/motion_law_test.cpp
   test/core/moving_root_motions_test.cpp
