@@ -37,7 +37,7 @@ class MotionCompleter {
  public:
   /// Largest relative residual of positions of all joints from which loops are closed later on;
   /// encoders are not exact.
-  static constexpr double kNearlyClosed = 0.01;
+  static constexpr double kNearlyClosed = MotionFit::kNearlyClosed;
 
   /// @param dynamics of the mechanism and the scene, with any request; all three must outlive this
   /// @param tolerance of relative residuals; joint states within it are never far from closed

@@ -6,6 +6,7 @@
 
 #include "dynamics/sample_rows.h"
 #include "loop_examples.h"
+#include "motion_tables.h"
 #include "result_differences.h"
 #include "stability/mixed_loops.h"
 #include "virtual_work_dynamics/dynamics.h"
@@ -32,22 +33,6 @@ std::vector<Motion> motionsNear(const Eigen::VectorXd& q, double step) {
     }
   }
   return motions;
-}
-
-MotionTable tableOfMotions(const std::vector<Motion>& motions) {
-  MotionTable table;
-  const auto rows = static_cast<Eigen::Index>(motions.size());
-  for (Eigen::MatrixXd* values : {&table.positions, &table.velocities, &table.accelerations}) {
-    values->resize(rows, motions.front().q.size());
-  }
-  for (Eigen::Index row = 0; row < rows; ++row) {
-    const Motion& motion = motions[static_cast<std::size_t>(row)];
-    table.times.push_back(0.01 * static_cast<double>(row));
-    table.positions.row(row) = motion.q;
-    table.velocities.row(row) = motion.qd;
-    table.accelerations.row(row) = motion.qdd;
-  }
-  return table;
 }
 
 /// What results of rows and of single samples were met with.

@@ -11,6 +11,7 @@
 #include "four_bar.h"
 #include "loop_examples.h"
 #include "motion/table_row.h"
+#include "motion_tables.h"
 #include "plain_results.h"
 #include "result_differences.h"
 #include "robot_builder.h"
@@ -28,22 +29,6 @@ std::string messageOf(const std::function<void()>& act) {
     return error.what();
   }
   return "nothing thrown";
-}
-
-MotionTable tableOf(const std::vector<Motion>& motions) {
-  MotionTable table;
-  const auto rows = static_cast<Eigen::Index>(motions.size());
-  for (Eigen::MatrixXd* values : {&table.positions, &table.velocities, &table.accelerations}) {
-    values->resize(rows, motions.front().q.size());
-  }
-  for (Eigen::Index row = 0; row < rows; ++row) {
-    const Motion& motion = motions[static_cast<std::size_t>(row)];
-    table.times.push_back(0.01 * static_cast<double>(row));
-    table.positions.row(row) = motion.q;
-    table.velocities.row(row) = motion.qd;
-    table.accelerations.row(row) = motion.qdd;
-  }
-  return table;
 }
 
 /// A mechanism and rows of its motion.
@@ -98,7 +83,7 @@ std::vector<Request> requestsOf(const Recorded& recorded) {
 
 TEST(SampleRows, AreComputedLikeSingleSamples) {
   for (const Recorded& recorded : {openChain(), closedLinkage()}) {
-    const MotionTable table = tableOf(recorded.motions);
+    const MotionTable table = tableOfMotions(recorded.motions);
     for (const Request& request : requestsOf(recorded)) {
       const Dynamics dynamics(recorded.mechanism, recorded.scene, request);
       for (const int threads : {1, 3}) {
@@ -147,7 +132,7 @@ TEST(SampleRows, LoopsSideBySideAreThoseOfSingleSamples) {
       }
       SampleRows rows(dynamics, motions.size());
       for (int round = 0; round < 2; ++round) {
-        rows.compute(tableOf(motions), 0, motions.size());
+        rows.compute(tableOfMotions(motions), 0, motions.size());
         for (std::size_t i = 0; i < motions.size(); ++i) {
           dynamics.compute(motions[i], workspace);
           EXPECT_EQ(differences(rows.read(i), workspace.results()), "") << name << ' ' << i;
@@ -159,7 +144,7 @@ TEST(SampleRows, LoopsSideBySideAreThoseOfSingleSamples) {
 
 void expectLoads(const Dynamics& dynamics, const std::vector<Motion>& motions,
                  std::vector<Load> loads, int threads) {
-  const MotionTable table = tableOf(motions);
+  const MotionTable table = tableOfMotions(motions);
   Dynamics::Workspace expected = dynamics.makeWorkspace(), own = dynamics.makeWorkspace();
   SampleRows rows(dynamics, kCapacity, threads);
   for (std::size_t first = 0; first < kRows; first += kCapacity) {
@@ -209,7 +194,7 @@ TEST(SampleRows, AreMovedWithTheirMemory) {
   const Dynamics dynamics(recorded.mechanism, recorded.scene, everythingOf(recorded));
   SampleRows before(dynamics, kCapacity, 2);
   SampleRows rows(std::move(before));
-  rows.compute(tableOf(recorded.motions), 3, 4);
+  rows.compute(tableOfMotions(recorded.motions), 3, 4);
   Dynamics::Workspace expected = dynamics.makeWorkspace();
   dynamics.compute(recorded.motions[5], expected);
   EXPECT_EQ(differences(rows.read(2), expected.results()), "");
@@ -219,7 +204,7 @@ TEST(SampleRows, RefuseWhatDoesNotFit) {
   for (const Recorded& recorded : {openChain(), closedLinkage()}) {
     const Dynamics dynamics(recorded.mechanism, recorded.scene);
     EXPECT_THROW(SampleRows(dynamics, kCapacity, 0), Error);
-    const MotionTable table = tableOf(recorded.motions);
+    const MotionTable table = tableOfMotions(recorded.motions);
     SampleRows rows(dynamics, kCapacity, 2);
     EXPECT_EQ(messageOf([&] { rows.read(0); }), "block: there is no sample 0, it has 0");
     EXPECT_EQ(messageOf([&] { rows.compute(table, 0, kCapacity + 1); }),
